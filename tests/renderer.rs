@@ -9,6 +9,7 @@ mod follow;
 mod invariance;
 mod lens;
 mod lights;
+mod meshes;
 mod motion;
 mod order;
 mod plan;

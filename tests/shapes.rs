@@ -9,7 +9,7 @@ use pinhole::plan::Census;
 use pinhole::scene::*;
 use pinhole::shapes::emitter::Emitting;
 use pinhole::shapes::{
-    PlacedCone, PlacedCylinder, Planar, RayHit, SceneShape, double_double_disk_t, double_double_rectangle_t,
+    PlacedCone, PlacedCylinder, Planar, RayHit, SceneShape, UvSlope, double_double_disk_t, double_double_rectangle_t,
     with_shapes,
 };
 use pinhole_lab::measure::extremes::{Group, try_group};
@@ -162,7 +162,7 @@ fn check_scaling<S: Oracle>(name: &str) {
     const TIMES: f64 = 16.0;
     let mut rays = 0;
     some_hits::<S>(3004, 1000, |specimen, hit, _| {
-        let (mut component, mut placement) = (specimen.component, specimen.placement);
+        let (mut component, mut placement) = (specimen.component.clone(), specimen.placement);
         component.scale(TIMES);
         placement.position *= TIMES;
         let large = Specimen::<S>::of(component, placement).expect("an accepted shape");
@@ -184,7 +184,7 @@ fn check_motion<S: Oracle>(name: &str) {
     some_hits::<S>(3005, 1000, |specimen, hit, draws| {
         let displacement = draws.unit_vector() * 0.1;
         let placement = Placement { position: specimen.placement.position + displacement, ..specimen.placement };
-        let there = Specimen::<S>::of(specimen.component, placement).expect("an accepted shape");
+        let there = Specimen::<S>::of(specimen.component.clone(), placement).expect("an accepted shape");
         let moved = specimen.shape.clone().into_body(specimen.beside.clone());
         let rest = hit.origin - displacement;
         let (t, standing) = (moved.t(rest, hit.direction), there.shape.t(hit.origin, hit.direction));
@@ -209,7 +209,7 @@ fn check_uv_slopes<S: Oracle>(name: &str) {
     const STEP: f64 = 1e-6;
     let (mut rays, mut worst) = (0, 0.0_f64);
     some_hits::<S>(3006, 1000, |specimen, hit, draws| {
-        let world = scene(specimen.component, specimen.placement);
+        let world = scene(specimen.component.clone(), specimen.placement);
         let census = Census::of(&world);
         let entity = pinhole::extract::shape_entities(&census)[0];
         let own_from_world = pose(&census, "", entity).expect("a pose").entity_from_world;
@@ -223,7 +223,10 @@ fn check_uv_slopes<S: Oracle>(name: &str) {
             specimen.shape.uv(&specimen.beside, hit, at, uv_from_world * (hit.point() - origin))
         };
         let (before, after_uv) = (uv(hit, at.at), uv(&next, after.at));
-        let slope = specimen.shape.uv_slope(&specimen.beside, uv_from_world);
+        let slope = match specimen.shape.uv_slope(&specimen.beside, uv_from_world) {
+            UvSlope::OfPrimitive => specimen.shape.uv_slope_of(&specimen.beside, hit.primitive),
+            slope => slope,
+        };
         let own = own_from_world * (at.point - origin);
         let expected = slope.step(own, at.normal, step, own_from_world * step);
         let change = DVec3::new(after_uv[0] - before[0], after_uv[1] - before[1], 0.0);

@@ -1,7 +1,7 @@
 use super::called::called;
 use super::error::{Error, Result};
 use pinhole::Chapter;
-use pinhole::scene::printable;
+use pinhole::scene::{is_model_file, printable};
 use std::ffi::OsStr;
 use std::path::{Component, Path};
 
@@ -10,8 +10,7 @@ const LONGEST: usize = 64;
 /// The most chapters that are named as what may have been meant.
 const MOST_NEAREST: usize = 3;
 /// How the names of files end that hold models or scenes of other programs.
-const FOREIGN: [&str; 14] =
-    ["obj", "ply", "stl", "gltf", "glb", "pbrt", "usd", "usda", "usdz", "fbx", "blend", "xml", "dae", "3ds"];
+const FOREIGN: [&str; 10] = ["stl", "pbrt", "usd", "usda", "usdz", "fbx", "blend", "xml", "dae", "3ds"];
 
 /// The chapter that a reader names: by its stem, its number, its name, or the folder that holds it.
 ///
@@ -91,13 +90,16 @@ fn missing(chapters: &[Chapter], asked: &OsStr) -> String {
     let word = shown(asked);
     let list = called("list");
     let ending = Path::new(asked).extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    if is_model_file(Path::new(asked)) {
+        return format!("{word} is a model file, but this command takes a chapter, such as 05_pinhole");
+    }
     if is_scene_file(asked) {
         return format!("{word} is a scene file, but this command takes a chapter, such as 05_pinhole");
     }
     if ending.as_ref().is_some_and(|ending| FOREIGN.contains(&ending.as_str())) {
         return format!(
-            "cannot read {word}: this version reads no models and no scenes of other programs, only scene files that end \
-             in .ron; `{list}` shows the chapters, which it renders too"
+            "cannot read {word}: models are read from .gltf, .glb, .obj and .ply files, and scenes from .ron files; \
+             `{list}` shows the chapters, which can be rendered too"
         );
     }
     let plain = plain_word(asked).unwrap_or_default();

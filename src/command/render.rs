@@ -20,7 +20,7 @@ use pinhole::film::check_place;
 use pinhole::look::{Preflight, RenderStats, preflight};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
-use pinhole::scene::{Integrator, Sampling};
+use pinhole::scene::{Integrator, ModelNotes, Sampling};
 use pinhole_lab::exercise::{Mine, Outcome, PATIENCE, end_at_panics};
 use std::path::Path;
 use std::time::Instant;
@@ -117,6 +117,9 @@ fn render_with(
     let watched = (!json && !options.quiet).then(|| subject.shown());
     if let (Some(what), true) = (&watched, streams.waits) {
         Progress::announce(what, render.film.width, render.film.height);
+    }
+    if let (Some(ModelNotes(notes)), false) = (scene.get_resource(), json || options.quiet) {
+        notes.iter().try_for_each(|note| streams.note(&format!("note: {note}")))?;
     }
     let said = before_rendering(census, options, (&render, began), json, streams)?;
 

@@ -4,7 +4,7 @@ use super::interrupt::interrupted;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{camera_entity, validate};
 use pinhole::plan::{Census, PlanError, Stage};
-use pinhole::scene::{FileProblem, SceneFile, View, in_words_of_files};
+use pinhole::scene::{FileProblem, ModelScene, SceneFile, View, in_words_of_files, is_model_file};
 use pinhole::{Chapter, Overrides, stages};
 use std::ffi::OsStr;
 use std::path::Path;
@@ -26,6 +26,13 @@ pub enum Subject<'c> {
         /// The path as it was typed.
         typed: String,
     },
+    /// A model file, with a camera and lights where it has none.
+    Model {
+        /// The scene made of it.
+        model: ModelScene,
+        /// The path as it was typed.
+        typed: String,
+    },
 }
 
 impl<'c> Subject<'c> {
@@ -36,6 +43,8 @@ impl<'c> Subject<'c> {
         let typed = || asked.to_string_lossy().into_owned();
         if find::is_scene_file(asked) {
             Ok(Self::File { file: SceneFile::open(Path::new(asked))?, typed: typed() })
+        } else if is_model_file(Path::new(asked)) {
+            Ok(Self::Model { model: ModelScene::open(Path::new(asked))?, typed: typed() })
         } else if asked == "-" {
             Ok(Self::File { file: from_standard_input()?, typed: typed() })
         } else {
@@ -47,7 +56,7 @@ impl<'c> Subject<'c> {
     pub fn name(&self) -> &str {
         match self {
             Self::Chapter(chapter) => chapter.name,
-            Self::File { typed, .. } => typed,
+            Self::File { typed, .. } | Self::Model { typed, .. } => typed,
         }
     }
 
@@ -64,8 +73,8 @@ impl<'c> Subject<'c> {
         match self {
             Self::Chapter(chapter) => chapter.name.into(),
             Self::File { typed, .. } if typed == "-" => "scene".into(),
-            Self::File { file, .. } => {
-                file.path.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy().into_owned())
+            Self::File { file: SceneFile { path, .. }, .. } | Self::Model { model: ModelScene { path, .. }, .. } => {
+                path.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy().into_owned())
             }
         }
     }
@@ -75,6 +84,7 @@ impl<'c> Subject<'c> {
         match self {
             Self::Chapter(chapter) => chapter.title,
             Self::File { .. } => "a scene file",
+            Self::Model { .. } => "a model file",
         }
     }
 
@@ -82,7 +92,7 @@ impl<'c> Subject<'c> {
     pub fn stages(&self) -> Vec<Stage> {
         match self {
             Self::Chapter(chapter) => chapter.stages(),
-            Self::File { .. } => every_stage().stages(),
+            Self::File { .. } | Self::Model { .. } => every_stage().stages(),
         }
     }
 
@@ -92,6 +102,11 @@ impl<'c> Subject<'c> {
             Self::Chapter(chapter) => chapter.world(asked),
             Self::File { file, .. } => {
                 let mut world = file.world();
+                asked.put_on_camera(&mut world);
+                world
+            }
+            Self::Model { model, .. } => {
+                let mut world = model.world();
                 asked.put_on_camera(&mut world);
                 world
             }

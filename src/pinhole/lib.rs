@@ -50,19 +50,23 @@
 //! 3. [`material`]: how surfaces scatter light, one file for each BSDF.
 //! 4. [`cameras`]: what a camera is, and the mathematics of each.
 //! 5. [`filters`]: what a reconstruction filter is, and how each is sampled.
-//! 6. [`shapes`]: what a shape is, and the mathematics of each.
-//! 7. [`lights`]: what a light without an area is, and the mathematics of each.
-//! 8. [`extract`]: entities → tables, as structures of arrays.
-//! 9. [`sample`]: samplers and random numbers.
-//! 10. [`rays`]: raster → NDC → screen → camera → world.
-//! 11. [`intersect`]: rays → the closest hit and its surface.
-//! 12. [`shade`]: surfaces → textures, lights and shadow rays.
-//! 13. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
-//! 14. [`film`]: radiance → pixels → files.
-//! 15. [`render`]: the loop over tiles.
-//! 16. [`look`]: traces, views and statistics.
-//! 17. [`stages`]: all stages, in the order of the data.
-//! 18. [`prelude`]: what a scene or a stage of one's own begins with.
+//! 6. [`bvh`]: bounding volume hierarchies, and rays through them.
+//! 7. [`shapes`]: what a shape is, and the mathematics of each.
+//! 8. [`lights`]: what a light without an area is, and the mathematics of each.
+//! 9. [`extract`]: entities → tables, as structures of arrays.
+//! 10. [`sample`]: samplers and random numbers.
+//! 11. [`rays`]: raster → NDC → screen → camera → world.
+//! 12. [`intersect`]: rays → the closest hit and its surface.
+//! 13. [`shade`]: surfaces → textures, lights and shadow rays.
+//! 14. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
+//! 15. [`film`]: radiance → pixels → files.
+//! 16. [`render`]: the loop over tiles.
+//! 17. [`look`]: traces, views and statistics.
+//! 18. [`stages`]: all stages, in the order of the data.
+//! 19. [`prelude`]: what a scene or a stage of one's own begins with.
+
+#[doc(hidden)]
+pub use pinhole_models as models;
 
 pub mod scene;
 
@@ -76,6 +80,9 @@ pub mod cameras;
 
 #[doc(hidden)]
 pub mod filters;
+
+#[doc(hidden)]
+pub mod bvh;
 
 #[doc(hidden)]
 pub mod shapes;

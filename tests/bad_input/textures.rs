@@ -82,7 +82,7 @@ pub const TEXTURES: &[Case] = &[
     ("an image that is not there", &["\"ball\"", "file is \"nowhere.png\"", "there is no file nowhere.png"], |w| {
         edit::<ImageTexture>(w, "ball", |i| i.file = "nowhere.png".into());
     }),
-    ("an image of another kind", &["\"ball\"", "file is \"Cargo.toml\"", ".png, .hdr or .exr"], |w| {
+    ("an image of another kind", &["\"ball\"", "file is \"Cargo.toml\"", ".png, .jpg, .hdr or .exr"], |w| {
         edit::<ImageTexture>(w, "ball", |i| i.file = "Cargo.toml".into());
     }),
     ("a file with a long name", &["\"ball\"", "file is \"long/", "there is no file long/", "…"], |w| {
@@ -94,7 +94,7 @@ pub const TEXTURES: &[Case] = &[
     ("a normal map without a material", &["normal map \"cloth\"", "material", "Matte"], |w| {
         w.spawn((Name::new("cloth"), NormalMap::default()));
     }),
-    ("a normal map without a file", &["normal map \"ball\"", "file is \"\"", ".png, .hdr or .exr"], |w| {
+    ("a normal map without a file", &["normal map \"ball\"", "file is \"\"", ".png, .jpg, .hdr or .exr"], |w| {
         put(w, "ball", NormalMap::default());
     }),
     ("a normal map that is not there", &["normal map \"pane\"", "there is no file nowhere.png"], |w| {

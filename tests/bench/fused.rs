@@ -187,7 +187,7 @@ fn surface(scene: &Scene, direction: DVec3, t: f64, shape: usize) -> Surface {
         // Nothing but planes is left, as `extract` has made sure.
         _ => (scene.planes.row[row].normal, scene.planes.row[row].offset.abs()),
     };
-    let hit = RayHit { origin: DVec3::ZERO, direction, t, displacement: DVec3::ZERO };
+    let hit = RayHit::at_rest(DVec3::ZERO, direction, t);
     Surface::of(hit.facing(point, normal, size), material)
 }
 

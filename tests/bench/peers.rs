@@ -29,7 +29,7 @@ use pinhole_lab::measure::image_error::{Numbers, image_error};
 use pinhole_lab::measure::image_file::read_numbers;
 use pinhole_lab::report::distribution::student_cdf;
 use pinhole_lab::report::run::numbers;
-use scenes::public::{PUBLIC, public};
+use scenes::public::{MESHES, PUBLIC, public};
 use scenes::{named, offer};
 use std::path::PathBuf;
 use std::process::Command;
@@ -41,6 +41,7 @@ fn of_reference(scene: &str) -> f64 {
     match scene {
         "veach-mis" => 2.9e-4,
         "cornell-glass" => 4.9e-4,
+        "mesh-ao" => 1.3e-4,
         _ => 4.5e-5,
     }
 }
@@ -80,7 +81,7 @@ impl Options {
             peers: after("--peers")?.into(),
             python: after("--python"),
             variants: list("--variant", "scalar_rgb,llvm_ad_rgb"),
-            scenes: list("--scenes", &PUBLIC.join(",")),
+            scenes: list("--scenes", &[&PUBLIC[..], &MESHES].concat().join(",")),
             samples: list("--samples", "4,16,64").iter().filter_map(|word| word.parse().ok()).collect(),
             rounds: count("--rounds", 5),
             sampler: Sampler::ALL.iter().find(|(word, _)| *word == sampler).map(|(_, own)| *own).expect("a sampler"),

@@ -38,7 +38,7 @@ fn placed<S: Oracle>(index: usize, position: DVec3) -> (S::Component, Placement)
         _ => DVec3::new(draws.between(0.5, 1.2), draws.between(0.4, 1.0), draws.between(0.5, 1.5)),
     };
     let placement = Placement { position, orientation: DQuat::from_xyzw(x, y, z, w).normalize(), scale };
-    (examples[index % examples.len()], placement)
+    (examples[index % examples.len()].clone(), placement)
 }
 
 /// Each ray finds what it would find if the shape were at rest where it is at the ray's time.
@@ -50,7 +50,7 @@ fn check_times<S: Oracle>(name: &str) {
         let sampling = Sampling { samples: 1, sampler: Sampler::Sobol, ..Sampling::default() };
         let shutter = Shutter { open: 0.25, close: 1.0 };
         world.spawn((PerspectiveCamera::default(), Resolution { width: 48, height: 48 }, sampling, shutter));
-        world.spawn((component, placement, Matte::default(), Motion { velocity: VELOCITY }));
+        world.spawn((component.clone(), placement, Matte::default(), Motion { velocity: VELOCITY }));
         world.spawn((DirectionalLight::default(), Placement::default()));
         let inspection = inspect(&world, &offer(), 48).expect("inspects");
         for &tile in &inspection.tiles {
@@ -60,7 +60,8 @@ fn check_times<S: Oracle>(name: &str) {
             let surfaces = tile.get::<Surfaces>().expect("surfaces");
             for row in 0..rays_of_tile.rows() {
                 let position = placement.position + VELOCITY * (shutter.open + times.time[row]);
-                let there = Specimen::<S>::of(component, Placement { position, ..placement }).expect("is accepted");
+                let there =
+                    Specimen::<S>::of(component.clone(), Placement { position, ..placement }).expect("is accepted");
                 let still = there.hit(rays_of_tile.origin_of(row), rays_of_tile.direction_of(row));
                 rays += 1;
                 assert_eq!(found.t[row].is_finite(), still.is_some(), "{name}, row {row} of {index}");

@@ -110,7 +110,8 @@ fn systems_say_what_stages_touch() {
     assert_eq!(touched(&stage), expected, "what the scene must give a reason for");
 
     let stage = sphere_stage();
-    let expected = [vec!["world", "hit"], none.clone(), none.clone(), vec!["hit"], vec!["spheres"], none.clone()];
+    let expected =
+        [vec!["world", "hit"], none.clone(), none.clone(), vec!["hit"], vec!["spheres"], vec!["hierarchy of spheres"]];
     assert_eq!(touched(&stage), expected, "a column that an earlier set began is changed in place");
     assert!(!stage.appends);
 

@@ -160,6 +160,20 @@ fn bumps() -> World {
     world
 }
 
+/// An octahedron whose vertices have normals, and its shadow.
+fn a_mesh() -> World {
+    let mut world = World::new();
+    let look = LookAt { eye: DVec3::new(0.0, 3.0, 6.0), target: DVec3::ZERO, ..LookAt::default() };
+    world.spawn((PerspectiveCamera::default(), look, Resolution { width: 24, height: 16 }));
+    let mut octahedron = (*MeshGeometry::default()).clone();
+    octahedron.normals = Some(octahedron.positions.clone());
+    let mesh = MeshInstance { geometry: MeshGeometry::new(octahedron) };
+    world.spawn((mesh, Placement::at(0.0, 1.5, 0.0), Matte::default()));
+    world.spawn((Plane::default(), Matte::default()));
+    world.spawn((PointLight { intensity: Rgb::grey(60.0), ..PointLight::default() }, Placement::at(1.0, 5.0, 0.0)));
+    world
+}
+
 #[test]
 fn forcing_a_needed_stage_off_shows() {
     let two_bounces = Integrator::Path { max_depth: 2, lights: LightStrategy::Mis, roulette: 0 };
@@ -196,6 +210,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("light from an environment", under_an_evening()),
         ("light from lamps on frosted glass", on_frosted_glass()),
         ("bumps", bumps()),
+        ("a mesh", a_mesh()),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();

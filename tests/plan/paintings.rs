@@ -4,7 +4,7 @@ use super::*;
 use pinhole::extract::NO_ROW;
 use pinhole::follow::{CausticPaths, LightPower, Media, Scattered, Splats};
 use pinhole::intersect::{
-    EmissiveRows, Hits, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, SurfaceUvs, Surfaces,
+    EmissiveRows, HitPrimitives, Hits, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, SurfaceUvs, Surfaces,
 };
 use pinhole::plan::Column;
 use pinhole::rays::{
@@ -102,11 +102,16 @@ fn each_column_is_painted_as_its_page_says() {
     // 1 / √(1 + 0.05 t) is a half at t = 60.
     assert!((0..3).all(|part| (colours[1][part] - 0.5 * colours[0][part]).abs() < 1e-6), "{colours:?}");
     assert!(colours[0] != colours[2] && colours[3] == BLACK, "{colours:?}");
+    let primitives = HitPrimitives { primitive: vec![0, 1, u32::MAX] };
+    let colours = [0, 1, 2].map(|row| primitives.paint(row, SIZE));
+    assert!(colours[0] != colours[1] && colours[2] == BLACK, "{colours:?}");
     let offered = view_names(&offer());
     let missing: Vec<&str> = offered
         .into_iter()
-        .filter(|name| *name != Hits::NAME && !names.contains(name) && !name.ends_with(" rows"))
+        .filter(|name| {
+            ![Hits::NAME, HitPrimitives::NAME].contains(name) && !names.contains(name) && !name.ends_with(" rows")
+        })
         .collect();
     assert!(missing.is_empty(), "no colours are known of {missing:?}");
-    eprintln!("paintings: {} columns", names.len() + 1);
+    eprintln!("paintings: {} columns", names.len() + 2);
 }

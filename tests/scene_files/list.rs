@@ -5,15 +5,20 @@ use std::fs;
 use std::path::Path;
 
 /// Components that a file holds in another way than by a word for their type.
-const OTHERWISE: [(&str, &str); 2] =
-    [("UsesMaterial", "by `material` and a name"), ("UsedByShapes", "kept by bevy_ecs, the other end of UsesMaterial")];
+const OTHERWISE: [(&str, &str); 5] = [
+    ("UsesMaterial", "by `material` and a name"),
+    ("UsedByShapes", "kept by bevy_ecs, the other end of UsesMaterial"),
+    ("MeshInstance", "made of the file that a `mesh` names"),
+    ("MeshPart", "made with it"),
+    ("UnreadMesh", "said instead where that file cannot be read"),
+];
 
 #[test]
 fn every_component_of_a_scene_has_a_word() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/pinhole/scene");
     let mut components = Vec::new();
-    let entries =
-        [folder.clone(), folder.join("material")].map(|folder| fs::read_dir(folder).expect("a readable folder"));
+    let folders = [folder.clone(), folder.join("material"), folder.join("model")];
+    let entries = folders.map(|folder| fs::read_dir(folder).expect("a readable folder"));
     for entry in entries.into_iter().flatten() {
         let path = entry.expect("an entry").path();
         let Ok(text) = fs::read_to_string(&path) else { continue };

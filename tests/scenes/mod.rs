@@ -15,6 +15,7 @@ use pinhole::look::view_stage;
 use pinhole::plan::{Census, Stage};
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
+use pinhole::shapes::SceneShape;
 use pinhole::{shade, stages};
 pub use pinhole_lab::measure::film_bits::FilmBits;
 #[allow(unused_imports, reason = "each test takes what it needs")]
@@ -261,6 +262,12 @@ pub fn stretched(setup: Setup) -> World {
     world.spawn((Name::new("double"), sphere, pancake, matte(0.9, 0.1, 0.1)));
     world.spawn((Name::new("needle"), sphere, needle, matte(0.5, 0.9, 0.5)));
     pipe_hat_and_ring(&mut world, setup);
+    world.spawn((
+        Name::new("gem"),
+        gem(setup),
+        placed([-0.35, 0.45, 1.6], [-1.0, 1.5, 1.0], tilt),
+        matte(0.5, 0.9, 0.8),
+    ));
     let group = world.spawn((Name::new("group"), placed([1.7, 0.6, -0.9], [1.0, -2.0, 1.0], upright))).id();
     let turned = Placement { orientation: tilt, ..Placement::default() };
     world.spawn((Name::new("sheared"), sphere, turned, matte(0.7, 0.2, 0.9), ChildOf(group)));
@@ -322,6 +329,15 @@ pub fn shapes_of_all_kinds(setup: Setup) -> World {
     world.spawn((Name::new("fill"), setup.light(15.0, false), placed([-2.91, 2.01, 2.02], [1.0; 3], upright)));
     world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
     lit_by_lights_alone(world)
+}
+
+/// A small octahedron whose vertices have normals.
+fn gem(setup: Setup) -> MeshInstance {
+    let mut octahedron = (*MeshGeometry::default()).clone();
+    octahedron.normals = Some(octahedron.positions.clone());
+    let mut gem = MeshInstance { geometry: MeshGeometry::new(octahedron) };
+    gem.scale(0.25 * setup.scale);
+    gem
 }
 
 /// Surfaces with highlights and surfaces that emit light, alone and beside a material, of their own and by the material

@@ -3,6 +3,7 @@
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
 use pinhole::scene::*;
+use pinhole_lab::measure::torus_knot::torus_knot;
 
 /// Their names.
 pub const PUBLIC: [&str; 6] = ["cornell", "cornell-glass", "veach-mis", "spheres", "spheres-lens", "spheres-sky"];
@@ -46,6 +47,9 @@ const fn plate([low, near]: [f64; 2], [high, far]: [f64; 2]) -> Quad {
     [[-4.0, low, near], [4.0, low, near], [4.0, high, far], [-4.0, high, far]]
 }
 
+/// The scenes of a mesh of 1,024,000 triangles.
+pub const MESHES: [&str; 2] = ["mesh", "mesh-ao"];
+
 /// A scene by its name, with the max_depth that it asks for.
 pub fn public(name: &str, lights: LightStrategy) -> World {
     let mut world = World::new();
@@ -66,6 +70,20 @@ pub fn public(name: &str, lights: LightStrategy) -> World {
         "veach-mis" => {
             world.spawn(camera([0.0, 2.0, 15.0], [0.0, -2.0, 2.5], 28.0, FovAxis::Horizontal, [384, 256], 2));
             veach(&mut world);
+        }
+        "mesh" | "mesh-ao" => {
+            let mut eye =
+                world.spawn(camera([0.0, 5.0, 8.0], [0.0, -0.3, 0.0], 40.0, FovAxis::Vertical, [256, 256], 6));
+            let occlusion = name == "mesh-ao";
+            if occlusion {
+                eye.insert(Integrator::AmbientOcclusion { distance: f64::INFINITY });
+            }
+            let [knot, ground] = if occlusion { [[1.0; 3]; 2] } else { [[0.6, 0.5, 0.4], [0.5; 3]] };
+            let geometry = MeshGeometry::new(torus_knot(2560, 200));
+            world.spawn((Name::new("knot"), MeshInstance { geometry }, matte(knot)));
+            let [x, y, z] = [20.0, -1.6, 20.0];
+            quad(&mut world, [[-x, y, -z], [-x, y, z], [x, y, z], [x, y, -z]], matte(ground));
+            world.spawn((Name::new("sky"), Background { colour: Rgb::grey(1.0) }));
         }
         _ => {
             let mut eye = world.spawn(camera([13.0, 2.0, 3.0], [0.0; 3], 20.0, FovAxis::Vertical, [256, 144], 20));

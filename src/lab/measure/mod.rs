@@ -34,3 +34,4 @@ pub mod planar_aim;
 pub mod ray_aim;
 pub mod specimen;
 pub mod sweep;
+pub mod torus_knot;

@@ -8,8 +8,8 @@ use super::{
 };
 use glam::DVec3;
 use pinhole::shapes::{
-    Ellipsoid, Frustum, FrustumShape, Listed, PlacedDisk, PlacedFrustum, PlacedPlane, PlacedRectangle, PlacedSphere,
-    PlacedTorus, Slabs, TriangleRow,
+    Ellipsoid, Frustum, FrustumShape, Listed, PlacedDisk, PlacedFrustum, PlacedMesh, PlacedPlane, PlacedRectangle,
+    PlacedSphere, PlacedTorus, Slabs, TriangleRow,
 };
 use std::f64::consts::TAU;
 
@@ -160,6 +160,21 @@ impl Oracle for PlacedTorus {
         let tube = self.minor * draws.unit().sqrt();
         let across = self.major + tube * out;
         Some(self.space.centre + self.space.world_from_unit * DVec3::new(across * cos, tube * up, across * sin))
+    }
+}
+
+/// A convex mesh: the examples of the component are.
+impl Oracle for PlacedMesh {
+    fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
+        let t = self.placed_triangles().filter_map(|at| oracle_triangle::triangle_t(origin, direction, at));
+        t.reduce(f64::min)
+    }
+
+    fn exact_side(&self, point: DVec3) -> i32 {
+        let sides = self.placed_triangles().map(|corners| oracle_triangle::side_of_triangle(point, corners) as i32);
+        // A mirroring placement turns every triangle round.
+        let turned = self.world_from_object.determinant() < 0.0;
+        sides.map(|side| if turned { -side } else { side }).max().unwrap_or(0)
     }
 }
 

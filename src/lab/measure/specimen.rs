@@ -6,7 +6,7 @@ use super::ray_aim::{AimedRay, Draws};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use pinhole::intersect::NO_SHAPE;
 use pinhole::scene::Placement;
-use pinhole::shapes::{Listed, Placed, Pose, RayHit, RaySlices, SceneShape, Shape};
+use pinhole::shapes::{ClosestHits, Listed, Placed, Pose, RayHit, RaySlices, SceneShape, Shape};
 use std::slice::from_ref;
 
 /// A shape in render space, with the component and the placement that it is made from; the eye is the world's origin.
@@ -41,7 +41,7 @@ impl<S: Listed> Specimen<S> {
     /// Half of them are close to an axis, where the directions of f32 are finest.
     pub fn drawn(draws: &mut Draws, sizes: [f64; 2], away: f64) -> Option<Self> {
         let examples = S::Component::examples();
-        let mut component = examples[(draws.unit() * examples.len() as f64) as usize];
+        let mut component = examples[(draws.unit() * examples.len() as f64) as usize].clone();
         let size = draws.power_of_ten(sizes[0], sizes[1]);
         component.scale(size);
         let [x, y, z, w] = [(); 4].map(|()| draws.between(-1.0, 1.0));
@@ -66,7 +66,8 @@ impl<S: Listed> Specimen<S> {
     /// The surface where a ray hits it, if it does.
     pub fn hit(&self, origin: DVec3, direction: DVec3) -> Option<RayHit> {
         let t = self.shape.t(origin, direction);
-        t.is_finite().then_some(RayHit { origin, direction, t, displacement: DVec3::ZERO })
+        let primitive = self.shape.primitive_at(origin, direction, t);
+        t.is_finite().then_some(RayHit { primitive, ..RayHit::at_rest(origin, direction, t) })
     }
 
     /// The distance that its intersection kernel finds, if it finds one.
@@ -74,7 +75,8 @@ impl<S: Listed> Specimen<S> {
         let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
         let rays = RaySlices { origin: origin.each_ref().map(from_ref), direction: direction.each_ref().map(from_ref) };
         let (mut t, mut shape) = ([f64::INFINITY], [NO_SHAPE]);
-        S::keep_closest(from_ref(&self.shape), &[0], rays, &mut t, &mut shape);
+        let hits = ClosestHits { t: &mut t, shape: &mut shape, primitive: None, any: false };
+        S::keep_closest(from_ref(&self.shape), &[0], rays, hits);
         (shape[0] != NO_SHAPE).then_some(t[0])
     }
 }

@@ -211,7 +211,7 @@ fn describe(
             // Nothing but planes is left, as `spawn` has made sure.
             _ => (planes.row[row].normal, planes.row[row].offset.abs()),
         };
-        let hit = RayHit { origin, direction, t: hit.t, displacement: DVec3::ZERO };
+        let hit = RayHit::at_rest(origin, direction, hit.t);
         surface.0 = intersect::Surface::of(hit.facing(point, normal, size), material);
     }
 }

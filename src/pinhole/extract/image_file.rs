@@ -1,11 +1,10 @@
 //! Image files → texels in linear light.
 
 use super::image_head::{ImageHead, image_head, one_line};
-use super::image_store::{ImageStore, Undecoded};
 use super::{Pyramid, linear_from_srgb};
 use crate::scene::{
-    EmbeddedFiles, IMAGE_FILE, SceneError, SceneFolder, TooLittleMemory, check_memory, open_file, printable,
-    printable_path,
+    EmbeddedFiles, FileStore, IMAGE_FILE, ModelFiles, SceneError, SceneFolder, TooLittleMemory, Undecoded,
+    check_memory, open_file, printable, printable_path,
 };
 use bevy_ecs::prelude::*;
 use exr::prelude::{ReadChannels, ReadLayers, read};
@@ -58,7 +57,7 @@ impl Numbers {
     fn endings(self) -> (&'static [&'static str], &'static str) {
         match self {
             Self::Reflectances | Self::Normals => {
-                (&["png", "hdr", "exr"], "it must be the name of a .png, .hdr or .exr file")
+                (&["png", "jpg", "jpeg", "hdr", "exr"], "it must be the name of a .png, .jpg, .hdr or .exr file")
             }
             Self::Radiance => (&["hdr", "exr"], "it must be the name of a .hdr or .exr file"),
         }
@@ -82,9 +81,9 @@ impl Numbers {
 }
 
 /// The images of textures, which are reflectances, those of environments, which are radiance, and normal maps.
-static TEXTURES: ImageStore<Pyramid> = ImageStore::new();
-static BACKGROUNDS: ImageStore<Texels> = ImageStore::new();
-static NORMAL_MAPS: ImageStore<Texels> = ImageStore::new();
+static TEXTURES: FileStore<Pyramid> = FileStore::new();
+static BACKGROUNDS: FileStore<Texels> = FileStore::new();
+static NORMAL_MAPS: FileStore<Texels> = FileStore::new();
 
 /// The image of a texture, with its pyramid.
 ///
@@ -124,7 +123,7 @@ pub(super) fn shown_name(file: &str) -> String {
 }
 
 fn decoded<T>(
-    store: &ImageStore<T>,
+    store: &FileStore<T>,
     scene: &World,
     who: &str,
     file: &str,
@@ -142,12 +141,15 @@ fn decoded<T>(
         check_numbers(&texels, numbers)?;
         Ok(prepared(texels))
     };
+    if let Some(bytes) = ModelFiles::find(scene, file) {
+        return store.of_bytes(Path::new(file), &bytes, decode).map_err(refused);
+    }
     if let Some(bytes) = EmbeddedFiles::find(scene, file) {
         return decode(bytes).map(|(image, _)| Arc::new(image)).map_err(refused);
     }
-    store.get(&path, decode).map_err(|why| match why {
+    store.get(&path, IMAGE_FILE, decode).map_err(|why| match why {
         Undecoded::File(error) => refused(error.to_string()),
-        Undecoded::Image(problem) => refused(problem),
+        Undecoded::Content(problem) => refused(problem),
     })
 }
 
@@ -174,7 +176,13 @@ pub(super) fn check_memory_of_textures<'f>(
 
 fn format_of(path: &Path) -> Option<(&'static str, ImageFormat)> {
     let ending = path.extension()?.to_string_lossy().to_lowercase();
-    let formats = [("png", ImageFormat::Png), ("hdr", ImageFormat::Hdr), ("exr", ImageFormat::OpenExr)];
+    let formats = [
+        ("png", ImageFormat::Png),
+        ("jpg", ImageFormat::Jpeg),
+        ("jpeg", ImageFormat::Jpeg),
+        ("hdr", ImageFormat::Hdr),
+        ("exr", ImageFormat::OpenExr),
+    ];
     formats.into_iter().find(|(own, _)| *own == ending)
 }
 

@@ -34,9 +34,9 @@ mod filter;
 mod glass;
 mod glass_overlap;
 mod gradient;
+mod hierarchy;
 mod image_file;
 mod image_head;
-mod image_store;
 mod image_texture;
 mod integrator;
 mod integrator_table;
@@ -46,6 +46,7 @@ mod light_path;
 mod light_tracing;
 mod lights_of;
 mod material;
+mod mesh_file;
 mod motion;
 mod moving;
 mod normal_map;
@@ -85,6 +86,7 @@ pub use filter::FilterTable;
 pub use glass::GlassTable;
 pub use glass_overlap::{deep_glass, glass_overlaps, glass_that};
 pub use gradient::GradientTable;
+pub use hierarchy::{HierarchyOf, hierarchy_evidence};
 pub use image_file::{Texels, read_exr};
 pub use image_head::{ImageHead, image_head, one_line};
 pub use image_texture::ImageTable;
@@ -118,11 +120,12 @@ pub use ray_origins::{RayOrigins, ray_origins_evidence};
 pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::ShapeTable;
 pub use shape_kind::{
-    ListedKind, kind_evidence, listed_kind, listed_kinds, shape_entities, shape_evidence, shape_name, shape_names,
+    ListedKind, kind_evidence, listed_kind, listed_kinds, primitive_evidence, shape_entities, shape_evidence,
+    shape_name, shape_names,
 };
 pub use shapes_of::{
-    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, ShapesOf, SphereTable, TriangleTable,
-    VertexNormalTable,
+    CuboidTable, DiskTable, EllipsoidTable, MeshTable, PlaneTable, RectangleTable, ShapesOf, SphereTable,
+    TriangleTable, VertexNormalTable,
 };
 pub use sky::sky_evidence;
 pub use srgb::linear_from_srgb;
@@ -155,6 +158,7 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<FilterTable>,
     answer::<IntegratorTable>,
     answer::<LightTracingTable>,
+    mesh_file::check_mesh_files,
     answer::<ShapeTable>,
     answer::<MaterialTable>,
     answer::<GlassTable>,

@@ -26,6 +26,8 @@ pub struct ListedKind {
     pub has_inside: fn(&Census<'_>, Entity) -> bool,
     /// Whether several usually make up one surface.
     pub is_part: bool,
+    /// Whether it consists of several primitives.
+    has_primitives: bool,
     /// Its table.
     pub table: TableKind,
     /// Evidence that the scene contains one that keeps still.
@@ -63,6 +65,7 @@ impl ListedKind {
             uneven: S::UNEVEN,
             has_inside: |scene, entity| scene.get::<S::Component>(entity).is_some_and(S::has_inside),
             is_part: S::IS_PART,
+            has_primitives: S::HAS_PRIMITIVES,
             table: TableKind::of::<ShapesOf<S>>(),
             evidence: kind_evidence::<S>,
             entities: |scene| scene.entities::<With<S::Component>>(),
@@ -85,7 +88,7 @@ impl ListedKind {
                 Ok(shapes.row.iter().position(|shape| shape.contains(point)).map(|row| shapes.shape[row]))
             },
             uv_from_world: |scene, entity, entity_from_world| {
-                let component = scene.get::<S::Component>(entity).copied().unwrap_or_default();
+                let component = scene.get::<S::Component>(entity).cloned().unwrap_or_default();
                 S::uv_from_world(&component, entity_from_world)
             },
             fill_uv_slopes: |scene, uv_from_world, slopes| {
@@ -142,6 +145,12 @@ pub fn shape_evidence(scene: &Census<'_>) -> Evidence {
     }
     let declared = united(&mut each().map(|listed| (listed.declared)(scene)));
     Evidence::among_entities(scene, "shape", |_| true, &[], &declared)
+}
+
+/// Evidence that the scene contains a shape that consists of several primitives, whether it moves or not.
+pub fn primitive_evidence(scene: &Census<'_>) -> Evidence {
+    let with_primitives = listed_kinds().iter().filter(|listed| listed.has_primitives);
+    with_primitives.map(|listed| (listed.component_evidence)(scene)).reduce(Evidence::or).unwrap_or_default()
 }
 
 /// The enabled entities that are a shape, in spawn order; the place of one is its number.

@@ -6,8 +6,8 @@ use super::velocity::moves_while_open;
 use crate::plan::{Census, Table};
 use crate::scene::{ChildOf, Placement, SceneError, Triangle};
 use crate::shapes::{
-    Ellipsoid, Listed, Placed, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere, SceneShape, Slabs, TriangleRow,
-    placed_normals,
+    Ellipsoid, Listed, Placed, PlacedDisk, PlacedMesh, PlacedPlane, PlacedRectangle, PlacedSphere, SceneShape, Slabs,
+    TriangleRow, placed_normals,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -37,6 +37,9 @@ pub type RectangleTable = ShapesOf<PlacedRectangle>;
 pub type CuboidTable = ShapesOf<Slabs>;
 /// The table of triangles.
 pub type TriangleTable = ShapesOf<TriangleRow>;
+
+/// The table of meshes.
+pub type MeshTable = ShapesOf<PlacedMesh>;
 
 impl<S: Listed> Default for ShapesOf<S> {
     fn default() -> Self {
@@ -93,7 +96,7 @@ pub(super) fn placed_shape<S: Listed>(
     entity: Entity,
     eye: DVec3,
 ) -> Result<(S, S::Beside), SceneError> {
-    let component = scene.get::<S::Component>(entity).copied().unwrap_or_default();
+    let component = scene.get::<S::Component>(entity).cloned().unwrap_or_default();
     let who = kind_and_name(scene, S::Component::WORD, entity);
     S::place(&component, &placed(scene, &who, entity, eye)?)
 }

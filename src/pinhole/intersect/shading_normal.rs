@@ -1,13 +1,14 @@
 use super::moving::at_rest;
 use super::rows::ShapeRows;
-use super::{Hits, NO_SHAPE, Surfaces};
-use crate::extract::{MovingTable, ShapeTable, TriangleTable, VertexNormalTable, moving_evidence};
+use super::{HitPrimitives, Hits, NO_SHAPE, Surfaces};
+use crate::extract::{MeshTable, MovingTable, ShapeTable, TriangleTable, VertexNormalTable, moving_evidence};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
 use crate::rays::{RayTimes, WorldRays};
-use crate::scene::Triangle;
-use crate::shapes::{Body, ShapeKind, TriangleHit, TriangleRow};
+use crate::scene::{MeshInstance, Triangle};
+use crate::shapes::{Body, PlacedMesh, RayHit, ShapeKind, TriangleHit, TriangleRow};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
+use bevy_ecs::system::SystemParam;
 use glam::{DVec3, Vec3};
 
 column! {
@@ -72,33 +73,61 @@ pub struct ShadingNormalView {
     rays: &'static WorldRays,
     hits: &'static Hits,
     surfaces: &'static Surfaces,
-    list: &'static ShapeRows<TriangleRow>,
+    triangles: Option<&'static ShapeRows<TriangleRow>>,
+    meshes: Option<&'static ShapeRows<PlacedMesh>>,
+    primitives: Option<&'static HitPrimitives>,
     times: Option<&'static RayTimes>,
     shading: &'static mut ShadingNormals,
 }
 
+/// The shapes that have vertex normals.
+#[derive(SystemParam)]
+pub struct VertexNormals<'w> {
+    shapes: Res<'w, Shared<ShapeTable>>,
+    triangles: Option<Res<'w, Shared<TriangleTable>>>,
+    of_triangles: Option<Res<'w, Shared<VertexNormalTable>>>,
+    meshes: Option<Res<'w, Shared<MeshTable>>>,
+    moving: Option<Res<'w, Shared<MovingTable>>>,
+}
+
 /// Fills a tile's shading normals.
-pub fn interpolate_normals(
-    triangles: Res<Shared<TriangleTable>>,
-    moving: Option<Res<Shared<MovingTable>>>,
-    normals: Res<Shared<VertexNormalTable>>,
-    shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<ShadingNormalView>,
-) {
-    for ShadingNormalViewItem { rays, hits, surfaces, list, times, mut shading } in &mut tiles {
+pub fn interpolate_normals(table: VertexNormals<'_>, mut tiles: Query<ShadingNormalView>) {
+    let VertexNormals { shapes, triangles, of_triangles, meshes, moving } = table;
+    for ShadingNormalViewItem {
+        rays,
+        hits,
+        surfaces,
+        triangles: list,
+        meshes: mesh_list,
+        primitives,
+        times,
+        mut shading,
+    } in &mut tiles
+    {
         let (nx, ny, nz) = shading.slices_mut(hits.rows());
         nx.copy_from_slice(&surfaces.nx);
         ny.copy_from_slice(&surfaces.ny);
         nz.copy_from_slice(&surfaces.nz);
         let mut set = |row: usize, normal: Vec3| (nx[row], ny[row], nz[row]) = normal.into();
-        for &row in &list.row {
-            let row = row as usize;
-            let triangle = shapes.row[hits.shape[row] as usize] as usize;
-            let vertex_normals = &normals.normals[triangle];
-            if vertex_normals[0] != DVec3::ZERO {
-                let (origin, turned) = (rays.origin_of(row), triangles.beside[triangle].turned);
-                let triangle = (&triangles.row[triangle], turned, vertex_normals);
-                set(row, facing_normal(origin, rays.direction_of(row), triangle));
+        let row_of = |row: usize| shapes.row[hits.shape[row] as usize] as usize;
+        if let (Some(list), Some(triangles), Some(normals)) = (list, &triangles, &of_triangles) {
+            for row in list.row.iter().map(|&row| row as usize) {
+                let triangle = row_of(row);
+                let vertex_normals = &normals.normals[triangle];
+                if vertex_normals[0] != DVec3::ZERO {
+                    let (origin, turned) = (rays.origin_of(row), triangles.beside[triangle].turned);
+                    let triangle = (&triangles.row[triangle], turned, vertex_normals);
+                    set(row, facing_normal(origin, rays.direction_of(row), triangle));
+                }
+            }
+        }
+        if let (Some(list), Some(meshes), Some(primitives)) = (mesh_list, &meshes, primitives) {
+            for row in list.row.iter().map(|&row| row as usize) {
+                let primitive = primitives.primitive[row];
+                let ray = RayHit::at_rest(rays.origin_of(row), rays.direction_of(row), hits.t[row]);
+                if let Some(normal) = meshes.row[row_of(row)].shading_normal(&RayHit { primitive, ..ray }) {
+                    set(row, normal.as_vec3());
+                }
             }
         }
         let (Some(moving), Some(times)) = (&moving, times) else { continue };
@@ -107,12 +136,20 @@ pub fn interpolate_normals(
                 continue;
             }
             let mover = shapes.row[shape as usize] as usize;
-            if let Body::Triangle(triangle, face) = &moving.body[mover]
-                && normals.moving[mover][0] != DVec3::ZERO
-            {
-                let origin = at_rest(rays.origin_of(row), moving.velocity[mover], times.time[row]);
-                let triangle = (triangle, face.turned, &normals.moving[mover]);
-                set(row, facing_normal(origin, rays.direction_of(row), triangle));
+            let origin = at_rest(rays.origin_of(row), moving.velocity[mover], times.time[row]);
+            match (&moving.body[mover], &of_triangles, primitives) {
+                (Body::Triangle(triangle, face), Some(normals), _) if normals.moving[mover][0] != DVec3::ZERO => {
+                    let triangle = (triangle, face.turned, &normals.moving[mover]);
+                    set(row, facing_normal(origin, rays.direction_of(row), triangle));
+                }
+                (Body::Mesh(mesh, ()), _, Some(primitives)) => {
+                    let primitive = primitives.primitive[row];
+                    let ray = RayHit::at_rest(origin, rays.direction_of(row), hits.t[row]);
+                    if let Some(normal) = mesh.shading_normal(&RayHit { primitive, ..ray }) {
+                        set(row, normal.as_vec3());
+                    }
+                }
+                _ => {}
             }
         }
     }
@@ -134,15 +171,30 @@ fn facing_normal(
 /// The stage that runs this system.
 pub fn shading_normal_stage() -> Stage {
     Stage::new("Interpolate shading normals", TileSystems::Normal, interpolate_normals)
+        .table_where::<TriangleTable>(triangle_normal_evidence)
+        .table_where::<VertexNormalTable>(triangle_normal_evidence)
+        .table_where::<MeshTable>(mesh_normal_evidence)
         .table_where::<MovingTable>(moving_normal_evidence)
+        .reads_where::<ShapeRows<TriangleRow>>(triangle_normal_evidence)
+        .reads_where::<ShapeRows<PlacedMesh>>(mesh_normal_evidence)
+        .reads_where::<HitPrimitives>(mesh_normal_evidence)
         .reads_where::<RayTimes>(moving_normal_evidence)
         .when(vertex_normal_evidence)
 }
 
-/// Evidence that the scene contains a triangle with vertex normals.
+/// Evidence that the scene contains a shape with vertex normals.
 pub fn vertex_normal_evidence(scene: &Census<'_>) -> Evidence {
+    triangle_normal_evidence(scene).or(mesh_normal_evidence(scene))
+}
+
+fn triangle_normal_evidence(scene: &Census<'_>) -> Evidence {
     let has = |triangle| scene.get::<Triangle>(triangle).is_some_and(|triangle| triangle.normals.is_some());
     Evidence::of_kind::<With<Triangle>>(scene, "triangle with normals", has)
+}
+
+fn mesh_normal_evidence(scene: &Census<'_>) -> Evidence {
+    let has = |mesh| scene.get::<MeshInstance>(mesh).is_some_and(|mesh| mesh.geometry.normals.is_some());
+    Evidence::of_kind::<With<MeshInstance>>(scene, "mesh with normals", has)
 }
 
 /// Evidence that one of these moves while the shutter is open.

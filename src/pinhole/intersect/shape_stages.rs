@@ -3,22 +3,49 @@
 use super::rows::ShapeRows;
 use super::surface::{Surface, SurfaceUvs};
 use super::view::{SurfaceView, SurfaceViewItem};
-use super::{HitColumn, Hits, RayColumn};
-use crate::extract::{ShapeTable, ShapesOf, UvSpaceTable, kind_evidence};
-use crate::plan::{Shared, Stage, TileSystems};
+use super::{HitColumn, HitPrimitives, Hits, RayColumn};
+use crate::extract::{
+    HierarchyOf, ShapeTable, ShapesOf, UvSpaceTable, hierarchy_evidence, kind_evidence, primitive_evidence,
+};
+use crate::plan::{Column, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
-use crate::shapes::{Listed, RayHit, ShapeVisitor, visit_shapes};
+use crate::shapes::{ClosestHits, Listed, RayHit, RaySlices, ShapeVisitor, keep_closest_of, visit_shapes};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 /// Intersects any column of rays with all shapes of one kind and keeps the closest hits.
 pub fn intersect_shapes<S: Listed, R: RayColumn, H: HitColumn>(
     shapes: Res<Shared<ShapesOf<S>>>,
+    hierarchy: Option<Res<Shared<HierarchyOf<S>>>>,
     mut tiles: Query<(&R, &mut H)>,
 ) {
     for (rays, mut hits) in &mut tiles {
-        let (t, shape) = hits.hit_components();
-        S::keep_closest(&shapes.row, &shapes.shape, rays.ray_components(), t, shape);
+        keep_closest(&shapes, hierarchy.as_deref(), rays.ray_components(), hits.closest_hits());
+    }
+}
+
+/// The same for shapes that consist of primitives, where something has to know which of them was hit.
+fn intersect_primitives<S: Listed>(
+    shapes: Res<Shared<ShapesOf<S>>>,
+    hierarchy: Option<Res<Shared<HierarchyOf<S>>>>,
+    mut tiles: Query<(&WorldRays, &mut Hits, &mut HitPrimitives)>,
+) {
+    for (rays, mut hits, mut primitives) in &mut tiles {
+        let primitive = Some(primitives.slices_mut(rays.rows()));
+        let hits = ClosestHits { primitive, ..hits.closest_hits() };
+        keep_closest(&shapes, hierarchy.as_deref(), rays.ray_components(), hits);
+    }
+}
+
+fn keep_closest<S: Listed>(
+    shapes: &ShapesOf<S>,
+    hierarchy: Option<&Shared<HierarchyOf<S>>>,
+    rays: RaySlices<'_>,
+    hits: ClosestHits<'_>,
+) {
+    match hierarchy {
+        Some(hierarchy) => keep_closest_of((&shapes.row, &shapes.shape, &hierarchy.bvh), rays, hits),
+        None => S::keep_closest(&shapes.row, &shapes.shape, rays, hits),
     }
 }
 
@@ -29,14 +56,15 @@ pub fn fill_surfaces<S: Listed>(
     uv_spaces: Option<Res<Shared<UvSpaceTable>>>,
     mut tiles: Query<SurfaceView<ShapeRows<S>>>,
 ) {
-    for SurfaceViewItem { rays, hits, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
+    for SurfaceViewItem { rays, hits, primitives, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let number = hits.shape[row] as usize;
             let (shape, material) = (all.row[number] as usize, all.material[number]);
             let (shape, beside) = (&shapes.row[shape], &shapes.beside[shape]);
             let (origin, direction, t) = (rays.origin_of(row), rays.direction_of(row), hits.t[row]);
-            let hit = RayHit { origin, direction, t, displacement: DVec3::ZERO };
+            let primitive = primitives.map_or(0, |primitives| primitives.primitive[row]);
+            let hit = RayHit { primitive, ..RayHit::at_rest(origin, direction, t) };
             let surface = shape.surface(beside, &hit);
             surfaces.set(row, Surface::of(surface, material));
             if let Some(sides) = &mut sides {
@@ -55,13 +83,19 @@ pub fn fill_surfaces<S: Listed>(
 
 /// The stage that intersects camera rays with one kind of shape.
 pub fn intersect_stage<S: Listed>() -> Stage {
-    let intersect = intersect_shapes::<S, WorldRays, Hits>;
-    Stage::new(S::NAMES.intersect, TileSystems::Intersect, intersect).when(kind_evidence::<S>)
+    let (name, set) = (S::NAMES.intersect, TileSystems::Intersect);
+    let stage = if S::HAS_PRIMITIVES {
+        Stage::new(name, set, intersect_primitives::<S>)
+    } else {
+        Stage::new(name, set, intersect_shapes::<S, WorldRays, Hits>)
+    };
+    stage.table_where::<HierarchyOf<S>>(hierarchy_evidence::<S>).when(kind_evidence::<S>)
 }
 
 /// The stage that fills the surfaces of one kind of shape.
 pub fn surface_stage<S: Listed>() -> Stage {
     let stage = Stage::new(S::NAMES.surface, TileSystems::Surface, fill_surfaces::<S>).when(kind_evidence::<S>);
+    let stage = stage.reads_where::<HitPrimitives>(primitive_evidence);
     if S::HAS_UV_SPACE { stage.table_with::<UvSpaceTable, SurfaceUvs>() } else { stage.without_table::<UvSpaceTable>() }
 }
 

@@ -1,4 +1,4 @@
-use super::{Hits, SurfaceSides, SurfaceUvs, Surfaces};
+use super::{HitPrimitives, Hits, SurfaceSides, SurfaceUvs, Surfaces};
 use crate::rays::WorldRays;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
@@ -11,6 +11,8 @@ pub struct SurfaceView<Rows: Component> {
     pub rays: &'static WorldRays,
     /// Their closest hits.
     pub hits: &'static Hits,
+    /// Which primitive of its shape each hit, where there are several.
+    pub primitives: Option<&'static HitPrimitives>,
     /// The rows that hit this kind of shape.
     pub list: &'static Rows,
     /// Positions and normals, of which it fills the rows listed.

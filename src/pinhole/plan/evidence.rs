@@ -142,7 +142,7 @@ pub fn counted(count: usize, noun: &str) -> String {
     let (noun, what) = noun.split_at(noun.find(" with ").unwrap_or(noun.len()));
     let ending = match count {
         1 => "",
-        _ if noun.ends_with('s') => "es",
+        _ if noun.ends_with('s') || noun.ends_with("sh") => "es",
         _ => "s",
     };
     format!("{count} {noun}{ending}{what}")

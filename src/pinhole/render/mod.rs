@@ -2,7 +2,7 @@
 //!
 //! Reads: a scene, the stages on offer, and how to execute them.
 //! Writes: the [`Film`](crate::film::Film), and which stages ran and how long they took.
-//! No other module of the renderer uses `rayon`; no stage knows of threads.
+//! Of the other modules only `bvh` uses `rayon`, to build hierarchies; no stage knows of threads.
 //!
 //! ```
 //! use pinhole::prelude::*;

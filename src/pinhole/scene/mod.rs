@@ -33,6 +33,7 @@ mod emissive;
 mod environment;
 mod equirectangular;
 mod file;
+mod file_store;
 mod filter;
 mod fisheye;
 mod folder;
@@ -44,6 +45,8 @@ mod lens;
 mod light_tracing;
 mod material;
 mod memory;
+mod mesh_instance;
+mod model;
 mod motion;
 mod name;
 mod normal_map;
@@ -93,6 +96,8 @@ pub use file::FileProblem;
 pub use file::SceneFile;
 #[doc(hidden)]
 pub use file::{FNV_BASIS, PlaceInFile, fingerprint, fnv, in_words_of_files, scene_text, words};
+#[doc(hidden)]
+pub use file_store::{FileStore, Undecoded};
 pub use filter::Filter;
 pub use fisheye::FisheyeCamera;
 #[doc(hidden)]
@@ -112,6 +117,10 @@ pub use light_tracing::LightTracing;
 pub use material::*;
 #[doc(hidden)]
 pub use memory::{TooLittleMemory, check_memory, in_words};
+pub use mesh_instance::{MeshGeometry, MeshInstance};
+#[doc(hidden)]
+pub use model::{MODEL_FILE, MeshPart, ModelFiles, ModelNotes, ModelScene, UnreadMesh, is_model_file};
+pub use model::{Mesh, load_meshes};
 pub use motion::{Motion, Shutter};
 #[doc(hidden)]
 pub use name::{called, some_of};

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct NormalMap {
-    /// A .png, .hdr or .exr file of values from 0 to 1, blue more than a half; its path is relative to the scene file's
+    /// A .png, .jpg, .hdr or .exr file of values from 0 to 1, blue more than a half; its path is relative to the scene file's
     /// folder, or to the current folder if there is no scene file.
     pub file: String,
     /// The factor of the parts to the right and up: more makes the relief steeper, 0 leaves the normals as they are.

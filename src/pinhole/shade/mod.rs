@@ -32,6 +32,7 @@ mod lookup;
 mod normal_map;
 mod radiance;
 mod receivers;
+mod row_slopes;
 mod shadow;
 mod surface_colour;
 mod texture_point;

@@ -1,8 +1,11 @@
 //! Normal maps: shading normals that are tilted by an image.
 
 use super::lookup::bilinear;
+use super::row_slopes::{RowSlopes, with_mesh_slopes};
 use crate::extract::{NO_TEXTURE, NormalMapTable, ShapeSpaces, UvSlopes, normal_map_evidence};
-use crate::intersect::{Hits, NO_SHAPE, ShadingNormals, SurfaceSides, SurfaceUvs, Surfaces, vertex_normal_evidence};
+use crate::intersect::{
+    HitPrimitives, Hits, NO_SHAPE, ShadingNormals, SurfaceSides, SurfaceUvs, Surfaces, vertex_normal_evidence,
+};
 use crate::material::frame_of;
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::WorldRays;
@@ -61,6 +64,7 @@ pub struct NormalMapView {
     surfaces: &'static Surfaces,
     uvs: &'static SurfaceUvs,
     sides: &'static SurfaceSides,
+    primitives: Option<&'static HitPrimitives>,
     shading: &'static mut ShadingNormals,
 }
 
@@ -68,10 +72,10 @@ pub struct NormalMapView {
 pub fn map_normals(
     maps: Res<Shared<NormalMapTable>>,
     spaces: Res<Shared<ShapeSpaces>>,
-    slopes: Res<Shared<UvSlopes>>,
+    slopes: RowSlopes<'_>,
     mut tiles: Query<NormalMapView>,
 ) {
-    for NormalMapViewItem { rays, hits, surfaces, uvs, sides, mut shading } in &mut tiles {
+    for NormalMapViewItem { rays, hits, surfaces, uvs, sides, primitives, mut shading } in &mut tiles {
         for row in (0..hits.rows()).filter(|&row| hits.shape[row] != NO_SHAPE) {
             // A shape that only emits has no material.
             let map = maps.of_material.get(surfaces.material[row] as usize).copied().unwrap_or(NO_TEXTURE);
@@ -88,7 +92,8 @@ pub fn map_normals(
             let normal = surfaces.get(row).normal.as_dvec3();
             let shape_from_world = spaces.shape_from_world[shape];
             let own = shape_from_world * (rays.point_at(row, hits.t[row]) - spaces.origin[shape]);
-            let change = |step: DVec3| slopes.slope[shape].step(own, normal, step, shape_from_world * step);
+            let Some(slope) = slopes.get(shape, primitives, row) else { continue };
+            let change = |step: DVec3| slope.step(own, normal, step, shape_from_world * step);
             let directions = uv_directions(normal, change);
             let mapped = mapped_normal(shading.get(row), sides.outside[row] == 1, directions, local);
             shading.set(row, mapped);
@@ -108,7 +113,9 @@ pub fn copy_normals(mut tiles: Query<(&Surfaces, &mut ShadingNormals)>) {
 
 /// The stage that runs [`map_normals`].
 pub fn normal_map_stage() -> Stage {
-    Stage::new("Evaluate textures: normal maps", TileSystems::Texture, map_normals).when(normal_map_evidence)
+    with_mesh_slopes(Stage::new("Evaluate textures: normal maps", TileSystems::Texture, map_normals))
+        .table_where::<UvSlopes>(normal_map_evidence)
+        .when(normal_map_evidence)
 }
 
 /// The stage that runs [`copy_normals`].

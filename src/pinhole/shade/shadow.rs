@@ -1,12 +1,12 @@
 use super::LightRays;
 use super::light::{either, or_light};
 use crate::extract::{
-    delta_light_evidence, kind_evidence, light_kinds, material_evidence, moving_evidence, occlusion_evidence,
-    traced_evidence, unless_occlusion,
+    HierarchyOf, delta_light_evidence, hierarchy_evidence, kind_evidence, light_kinds, material_evidence,
+    moving_evidence, occlusion_evidence, traced_evidence, unless_occlusion,
 };
 use crate::intersect::{HitColumn, NO_SHAPE, intersect_moving, intersect_shapes};
 use crate::plan::{Census, Column, Evidence, Stage, TileSystems, column};
-use crate::shapes::{Listed, PlacedPlane, PlacedSphere, ShapeVisitor, visit_shapes};
+use crate::shapes::{ClosestHits, Listed, PlacedPlane, PlacedSphere, ShapeVisitor, visit_shapes};
 use bevy_ecs::prelude::*;
 
 column! {
@@ -29,10 +29,9 @@ impl ShadowHits {
 }
 
 impl HitColumn for ShadowHits {
-    fn hit_components(&mut self) -> (&mut [f64], &mut [u32]) {
-        let rows = self.rows();
-        let (t, shape, _) = self.slices_mut(rows);
-        (t, shape)
+    fn closest_hits(&mut self) -> ClosestHits<'_> {
+        let (t, shape, _) = self.slices_mut(self.rows());
+        ClosestHits { t, shape, primitive: None, any: true }
     }
 }
 
@@ -58,6 +57,7 @@ pub fn start_shadow_stage() -> Stage {
 pub fn shape_shadow_stage<S: Listed>() -> Stage {
     let intersect = intersect_shapes::<S, LightRays, ShadowHits>;
     Stage::new(S::NAMES.shadow, TileSystems::TraceShadowRays, intersect)
+        .table_where::<HierarchyOf<S>>(hierarchy_evidence::<S>)
         .when(|scene| kind_evidence::<S>(scene).and(|| shadow_evidence(scene)))
 }
 // ANCHOR_END: shape_shadow_stage

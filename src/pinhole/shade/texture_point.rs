@@ -1,9 +1,10 @@
 use super::Footprints;
+use super::row_slopes::{RowSlopes, with_mesh_slopes};
 use crate::extract::{
     ShapeSpaces, TextureMap, TextureMapping, TextureMaps, UvSlopes, by_uv_evidence, filtered_by_uv_evidence,
     texture_evidence,
 };
-use crate::intersect::{Hits, MaterialRows, SurfaceUvs, Surfaces};
+use crate::intersect::{HitPrimitives, Hits, MaterialRows, SurfaceUvs, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use crate::rays::WorldRays;
 use crate::shapes::{face_axes, most_of};
@@ -108,6 +109,7 @@ pub struct TexturePointView {
     surfaces: &'static Surfaces,
     list: &'static MaterialRows,
     uvs: Option<&'static SurfaceUvs>,
+    primitives: Option<&'static HitPrimitives>,
     footprints: Option<&'static Footprints>,
     points: &'static mut TexturePoints,
 }
@@ -116,10 +118,10 @@ pub struct TexturePointView {
 pub fn compute_texture_points(
     maps: Res<Shared<TextureMaps>>,
     spaces: Res<Shared<ShapeSpaces>>,
-    slopes: Option<Res<Shared<UvSlopes>>>,
+    slopes: RowSlopes<'_>,
     mut tiles: Query<TexturePointView>,
 ) {
-    for TexturePointViewItem { rays, hits, surfaces, list, uvs, footprints, mut points } in &mut tiles {
+    for TexturePointViewItem { rays, hits, surfaces, list, uvs, primitives, footprints, mut points } in &mut tiles {
         let (x, y, z, rx, ry, rz, dx, dy, dz) = points.slices_mut(surfaces.rows());
         [&mut *x, y, z, rx, ry, rz, dx, dy, dz].into_iter().for_each(|component| component.fill(0.0));
         for &row in &list.row {
@@ -131,10 +133,9 @@ pub fn compute_texture_points(
                 TextureMapping::Nowhere => continue,
                 TextureMapping::AlongUv => {
                     let uv = uvs.map_or(DVec3::ZERO, |uvs| DVec3::new(uvs.u[row], uvs.v[row], 0.0));
-                    let steps = slopes.as_ref().map_or([DVec3::ZERO; 2], |slopes| {
+                    let steps = slopes.get(shape, primitives, row).map_or([DVec3::ZERO; 2], |slope| {
                         let at = in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps);
                         let normal = surfaces.get(row).normal.as_dvec3();
-                        let slope = &slopes.slope[shape];
                         let step = |axis: usize| ended(slope.step(at.point, normal, steps[axis], at.steps[axis]));
                         [step(0), step(1)]
                     });
@@ -172,7 +173,7 @@ fn on_texture(map: &TextureMap, at: TexturePoint) -> TexturePoint {
 
 /// The stage that runs [`compute_texture_points`].
 pub fn texture_point_stage() -> Stage {
-    Stage::new("Compute texture points", TileSystems::Colour, compute_texture_points)
+    with_mesh_slopes(Stage::new("Compute texture points", TileSystems::Colour, compute_texture_points))
         .reads_where::<SurfaceUvs>(by_uv_evidence)
         .table_where::<UvSlopes>(filtered_by_uv_evidence)
         .when(texture_evidence)

@@ -252,7 +252,7 @@ mod tests {
         let origin = DVec3::new(0.3, 0.7, 0.0);
         let at = |ellipsoid: &Ellipsoid| {
             let t = ellipsoid_t(origin, DVec3::NEG_Z, ellipsoid);
-            ellipsoid_surface(&RayHit { origin, direction: DVec3::NEG_Z, t, displacement: DVec3::ZERO }, ellipsoid)
+            ellipsoid_surface(&RayHit::at_rest(origin, DVec3::NEG_Z, t), ellipsoid)
         };
         let (plain, mirror) = (egg(), DMat3::from_diagonal(DVec3::new(-1.0, 1.0, 1.0)));
         let mirrored = Ellipsoid { unit_from_world: mirror * plain.unit_from_world, ..plain };

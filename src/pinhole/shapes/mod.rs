@@ -29,6 +29,7 @@ macro_rules! with_shapes {
             Cone($crate::shapes::PlacedCone) cone "cones",
             Torus($crate::shapes::PlacedTorus) torus "tori",
             Triangle($crate::shapes::TriangleRow) triangle "triangles",
+            Mesh($crate::shapes::PlacedMesh) mesh "meshes",
         }
     };
 }
@@ -49,8 +50,14 @@ pub mod emitter;
 mod exact_sum;
 mod frustum;
 mod frustum_light;
+mod hierarchy_rows;
 mod interval;
 mod kind;
+mod mesh;
+mod mesh_hierarchy;
+mod mesh_normal;
+mod mesh_packet;
+mod mesh_traversal;
 mod offset;
 mod placed_frustum;
 mod planar;
@@ -64,6 +71,7 @@ mod space;
 mod sphere;
 mod torus;
 mod triangle;
+mod triangle_block;
 mod triangle_edges;
 mod triangle_exact;
 mod triangle_hit;
@@ -85,12 +93,15 @@ pub use ellipsoid::{Ellipsoid, ellipsoid_intersection, ellipsoid_surface, ellips
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
 pub use frustum::Frustum;
 pub use frustum_light::EmittingFrustum;
+pub use hierarchy_rows::{hierarchy_of, keep_closest_of};
 pub use kind::ShapeKind;
+pub use mesh::PlacedMesh;
+pub use mesh_hierarchy::MeshHierarchy;
 pub use offset::{l1_norm, offset_bound, offset_origin};
 pub use placed_frustum::{FrustumShape, PlacedFrustum};
 pub use planar::{Crossing, Planar, crossing};
 pub use plane::{PlacedPlane, plane_t};
-pub use ray_block::{Intersection, RaySlices, nearness};
+pub use ray_block::{ClosestHit, ClosestHits, Intersection, RaySlices, nearness};
 pub(crate) use ray_block::{LANES, RayBlock, vector};
 pub use rectangle::{PlacedRectangle, rectangle_intersection, rectangle_t};
 pub use registry::{

@@ -1,6 +1,6 @@
 use super::bounds::Bounds;
 use super::emitter::NeverSampled;
-use super::ray_block::{Intersection, RaySlices};
+use super::ray_block::{ClosestHits, Intersection, RaySlices};
 use super::shape::{Placed, RayHit, SceneShape, Shape, SurfacePoint};
 use super::space::normal_world_from_object;
 use super::uv::plane_axes;
@@ -32,6 +32,7 @@ impl Shape for PlacedPlane {
     type Beside = ();
     type Emitter = NeverSampled;
 
+    const IS_BOUNDED: bool = false;
     const HAS_UV_SPACE: bool = true;
 
     fn has_inside(_: &Plane) -> bool {
@@ -59,8 +60,8 @@ impl Shape for PlacedPlane {
         plane_t(origin, direction, self.normal, self.offset)
     }
 
-    fn keep_closest(planes: &[Self], numbers: &[u32], rays: RaySlices<'_>, t: &mut [f64], shape: &mut [u32]) {
-        plane_rows(planes, numbers, rays, t, shape);
+    fn keep_closest(planes: &[Self], numbers: &[u32], rays: RaySlices<'_>, hits: ClosestHits<'_>) {
+        plane_rows(planes, numbers, rays, hits.t, hits.shape);
     }
 
     #[inline(always)]

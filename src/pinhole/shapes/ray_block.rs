@@ -16,6 +16,50 @@ pub struct RaySlices<'a> {
     pub direction: [&'a [f32]; 3],
 }
 
+/// The closest hits of a column of rays so far, one row for each ray.
+pub struct ClosestHits<'a> {
+    /// The distance t in r(t) = O + tR, or t_max.
+    pub t: &'a mut [f64],
+    /// The shape's number.
+    pub shape: &'a mut [u32],
+    /// Which primitive of a shape that consists of several, where something asks for it.
+    pub primitive: Option<&'a mut [u32]>,
+    /// Whether any hit will do, as for shadow rays.
+    pub any: bool,
+}
+
+/// Replaces the closest hit of each ray by what a function makes of it.
+#[inline(always)]
+pub(super) fn for_each_ray(hits: ClosestHits<'_>, mut closer: impl FnMut(usize, ClosestHit) -> ClosestHit) {
+    let ClosestHits { t, shape, mut primitive, any } = hits;
+    for row in 0..t.len() {
+        let primitive_of_row = primitive.as_deref().map_or(0, |primitive| primitive[row]);
+        let closest = closer(row, ClosestHit { t: t[row], shape: shape[row], primitive: primitive_of_row, any });
+        (t[row], shape[row]) = (closest.t, closest.shape);
+        if let Some(primitive) = &mut primitive {
+            primitive[row] = closest.primitive;
+        }
+    }
+}
+
+/// The closest hit of one ray so far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClosestHit {
+    /// The distance t in r(t) = O + tR, or t_max.
+    pub t: f64,
+    /// The shape's number.
+    pub shape: u32,
+    /// Which primitive of the shape, where it consists of several.
+    pub primitive: u32,
+    /// Whether any hit will do.
+    pub any: bool,
+}
+
+impl ClosestHit {
+    /// Nothing, up to infinity.
+    pub const NONE: Self = Self { t: f64::INFINITY, shape: u32::MAX, primitive: u32::MAX, any: false };
+}
+
 /// The intersection of a ray with a shape in f64, and whether its error bound leaves it uncertain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intersection {
@@ -92,7 +136,7 @@ pub fn nearness(f: DVec3, direction: DVec3, inverse: f64, radius: f64) -> f64 {
 ///
 /// At equal distances the lower shape number wins.
 #[inline(always)]
-pub(crate) fn keep_closest(rays: &RayBlock, one: &impl Shape, number: u32, t: &mut [f64], shape: &mut [u32]) {
+pub(crate) fn keep_closest_block(rays: &RayBlock, one: &impl Shape, number: u32, t: &mut [f64], shape: &mut [u32]) {
     let (mut found, mut uncertain) = ([f64::INFINITY; LANES], [false; LANES]);
     for lane in 0..LANES {
         let intersection = one.intersection(vector(&rays.o, lane), vector(&rays.d, lane));
@@ -116,8 +160,7 @@ pub(super) fn keep_closest_rows<S: Shape>(
     shapes: &[S],
     numbers: &[u32],
     rays: RaySlices<'_>,
-    t: &mut [f64],
-    shape: &mut [u32],
+    ClosestHits { t, shape, .. }: ClosestHits<'_>,
 ) {
     let rows = t.len();
     let mut start = 0;
@@ -135,7 +178,7 @@ pub(super) fn keep_closest_rows<S: Shape>(
                     continue;
                 }
             }
-            keep_closest(&block, one, number, &mut t[start..end], &mut shape[start..end]);
+            keep_closest_block(&block, one, number, &mut t[start..end], &mut shape[start..end]);
         }
         start = end;
     }

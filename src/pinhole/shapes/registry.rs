@@ -2,10 +2,11 @@
 
 use super::emitter::{Emitting, LightPoint};
 use super::kind::ShapeKind;
-use super::ray_block::{RayBlock, keep_closest};
+use super::ray_block::{ClosestHits, RayBlock, for_each_ray, keep_closest_block, vector};
 use super::shape::{RayHit, Shape, ShapeNames, SurfacePoint};
 use super::uv::face_axes;
 use super::uv_slope::{UvSlope, most_of, round_step};
+use crate::bvh::Stack;
 use glam::DVec3;
 
 /// A shape of the list.
@@ -50,6 +51,7 @@ macro_rules! registry {
             const KIND: ShapeKind = ShapeKind::$kind;
             const NAMES: ShapeNames = ShapeNames {
                 table: $plural,
+                hierarchy: concat!("hierarchy of ", $plural),
                 rows: concat!(stringify!($field), " rows"),
                 intersect: concat!("Intersect ", $plural),
                 surface: concat!("Compute surfaces: ", $plural),
@@ -83,10 +85,15 @@ macro_rules! registry {
                 match self { $(Self::$kind(shape, _) => shape.t(origin, direction),)+ }
             }
 
+            /// Which of its primitives a ray hits at this t.
+            pub fn primitive_at(&self, origin: DVec3, direction: DVec3, t: f64) -> u32 {
+                match self { $(Self::$kind(shape, _) => shape.primitive_at(origin, direction, t),)+ }
+            }
+
             /// Intersects a block of rays with it and keeps the closest hits.
             #[inline(always)]
-            pub(crate) fn keep_closest(&self, rays: &RayBlock, number: u32, t: &mut [f64], shape: &mut [u32]) {
-                match self { $(Self::$kind(one, _) => keep_closest(rays, one, number, t, shape),)+ }
+            pub(crate) fn keep_closest(&self, rays: &RayBlock, number: u32, hits: ClosestHits<'_>) {
+                match self { $(Self::$kind(one, _) => keep_closest_of_one(rays, one, number, hits),)+ }
             }
 
             /// The surface where a ray hits it.
@@ -152,6 +159,17 @@ macro_rules! registry {
 with_shapes!(registry);
 
 #[inline(always)]
+fn keep_closest_of_one<S: Shape>(rays: &RayBlock, one: &S, number: u32, hits: ClosestHits<'_>) {
+    if !S::HAS_PRIMITIVES {
+        return keep_closest_block(rays, one, number, hits.t, hits.shape);
+    }
+    let mut stack = Stack::default();
+    for_each_ray(hits, |lane, closest| {
+        one.keep_closest_of_ray([vector(&rays.o, lane), vector(&rays.d, lane)], number, closest, &mut stack)
+    });
+}
+
+#[inline(always)]
 fn leaving<E: Emitting>(emitter: &E, one_sided: bool, u: [f64; 2], side: f64) -> LeavingPoint {
     let spot = emitter.spot(u);
     let away = match (one_sided, E::IS_CLOSED) {
@@ -171,7 +189,7 @@ impl UvSlope {
     #[inline(always)]
     pub fn step(&self, own: DVec3, normal: DVec3, step: DVec3, own_step: DVec3) -> DVec3 {
         match self {
-            Self::Nowhere => DVec3::ZERO,
+            Self::Nowhere | Self::OfPrimitive => DVec3::ZERO,
             Self::Planar([u, v]) => DVec3::new(u.dot(step), v.dot(step), 0.0),
             Self::Round => round_step(own, own_step),
             Self::Faces(slopes) => {

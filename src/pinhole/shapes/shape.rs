@@ -1,9 +1,10 @@
 use super::bounds::Bounds;
 use super::emitter::{Emitting, NeverSampled};
 use super::offset::{l1_norm, offset_bound};
-use super::ray_block::{Intersection, RaySlices, keep_closest_rows};
+use super::ray_block::{ClosestHit, ClosestHits, Intersection, RaySlices, keep_closest_rows};
 use super::space::Pose;
 use super::uv_slope::UvSlope;
+use crate::bvh::Stack;
 use crate::scene::SceneError;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
@@ -12,7 +13,7 @@ use std::any::TypeId;
 use std::fmt::Debug;
 
 /// A component that makes an entity a shape.
-pub trait SceneShape: Component<Mutability = Mutable> + Copy + Default {
+pub trait SceneShape: Component<Mutability = Mutable> + Clone + Default {
     /// Its type's name, such as `Disk`.
     const NAME: &'static str;
     /// Its name in messages, such as `disk`.
@@ -51,11 +52,19 @@ pub struct RayHit {
     pub direction: DVec3,
     /// The distance t in r(t) = O + tR.
     pub t: f64,
+    /// Which primitive of the shape, where it consists of several; otherwise 0.
+    pub primitive: u32,
     /// How far the shape has moved since the shutter opened; 0 for shapes that keep still.
     pub displacement: DVec3,
 }
 
 impl RayHit {
+    /// A hit of a shape that keeps still and has one primitive.
+    #[inline(always)]
+    pub fn at_rest(origin: DVec3, direction: DVec3, t: f64) -> Self {
+        Self { origin, direction, t, primitive: 0, displacement: DVec3::ZERO }
+    }
+
     /// r(t).
     #[inline(always)]
     pub fn point(&self) -> DVec3 {
@@ -112,6 +121,10 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     const NOUN: &'static str = Self::Component::WORD;
     /// For a component that has a shape of its own where the placement's scale is not uniform: whether this is that one.
     const UNEVEN: Option<bool> = None;
+    /// Whether it has a bounding box.
+    const IS_BOUNDED: bool = true;
+    /// Whether it consists of several primitives, so that a hit has to say which.
+    const HAS_PRIMITIVES: bool = false;
     /// Whether several usually make up one surface, such as the triangles of a mesh.
     const IS_PART: bool = false;
     /// Whether its u and v are those of a point in its uv space.
@@ -145,8 +158,21 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// Intersects all rays with all of these shapes, which have these numbers, and keeps the closest hits.
-    fn keep_closest(shapes: &[Self], numbers: &[u32], rays: RaySlices<'_>, t: &mut [f64], shape: &mut [u32]) {
-        keep_closest_rows(shapes, numbers, rays, t, shape);
+    fn keep_closest(shapes: &[Self], numbers: &[u32], rays: RaySlices<'_>, hits: ClosestHits<'_>) {
+        keep_closest_rows(shapes, numbers, rays, hits);
+    }
+
+    /// Intersects one ray with it, whose number this is, and keeps the closest hit.
+    #[inline(always)]
+    fn keep_closest_of_ray(&self, ray: [DVec3; 2], number: u32, closest: ClosestHit, _: &mut Stack) -> ClosestHit {
+        let t = self.t(ray[0], ray[1]);
+        let closer = t < closest.t || (t == closest.t && number < closest.shape && t < f64::INFINITY);
+        if closer { ClosestHit { t, shape: number, ..closest } } else { closest }
+    }
+
+    /// Which of its primitives a ray hits at this t; 0 where it does not consist of several.
+    fn primitive_at(&self, _origin: DVec3, _direction: DVec3, _t: f64) -> u32 {
+        0
     }
 
     /// The surface where a ray hits it.
@@ -163,6 +189,11 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
 
     /// The gradients of u and v along it; `uv_from_world` is the linear map to its uv space.
     fn uv_slope(&self, beside: &Self::Beside, uv_from_world: DMat3) -> UvSlope;
+
+    /// The gradients of u and v along one of its primitives, where [`UvSlope::OfPrimitive`] says that each has its own.
+    fn uv_slope_of(&self, _beside: &Self::Beside, _primitive: u32) -> UvSlope {
+        UvSlope::Nowhere
+    }
 
     /// The change of u and v along an offset from a hit, both in object space, for a shape whose slope is
     /// [`UvSlope::Own`] with these numbers.
@@ -200,6 +231,8 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
 pub struct ShapeNames {
     /// Its table.
     pub table: &'static str,
+    /// The hierarchy over them.
+    pub hierarchy: &'static str,
     /// The column that lists the rows which hit it.
     pub rows: &'static str,
     /// The stage that intersects rays with it.

@@ -1,6 +1,6 @@
 use super::bounds::Bounds;
 use super::emitter::EmittingTriangle;
-use super::ray_block::{Intersection, RaySlices};
+use super::ray_block::{ClosestHits, Intersection, RaySlices};
 use super::shape::{Placed, RayHit, SceneShape, Shape, SurfacePoint};
 use super::space::normal_world_from_object;
 use super::triangle_edges::{triangle_intersection, triangle_rows};
@@ -92,8 +92,8 @@ impl Shape for TriangleRow {
         exact_triangle_t(origin, direction, self)
     }
 
-    fn keep_closest(triangles: &[Self], numbers: &[u32], rays: RaySlices<'_>, t: &mut [f64], shape: &mut [u32]) {
-        triangle_rows(triangles, numbers, rays, t, shape);
+    fn keep_closest(triangles: &[Self], numbers: &[u32], rays: RaySlices<'_>, hits: ClosestHits<'_>) {
+        triangle_rows(triangles, numbers, rays, hits.t, hits.shape);
     }
 
     #[inline(always)]

@@ -14,6 +14,8 @@ pub enum UvSlope {
     Round,
     /// Those of cuboid faces, by axis, per scene unit in world space.
     Faces([DVec3; 3]),
+    /// Those of the primitive that was hit, of which each has its own.
+    OfPrimitive,
     /// Those of a kind that computes them in its object space, with two numbers of the shape.
     Own(ShapeKind, [f64; 2]),
 }

@@ -16,6 +16,7 @@ mod emitter;
 mod film;
 mod film_bytes;
 mod frame;
+mod hierarchy;
 mod lens;
 mod light;
 mod light_albedo;
@@ -87,6 +88,8 @@ pub enum Group {
     Lens,
     /// Rays at the silhouette of every registered shape, and rays that leave it.
     Shapes,
+    /// Hierarchies of shapes and of the triangles of meshes, against testing everything.
+    Hierarchy,
     /// Light paths: what they carry, how they end, what they count for.
     Transport,
 }
@@ -106,6 +109,7 @@ impl Group {
         Self::Rectangle,
         Self::Cuboid,
         Self::Shapes,
+        Self::Hierarchy,
         Self::Texture,
         Self::Light,
         Self::Material,
@@ -133,6 +137,7 @@ impl Group {
             Self::Rectangle => planar::trials(planar::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
             Self::Shapes => shapes::trials(),
+            Self::Hierarchy => hierarchy::trials(),
             Self::Light => light::trials(),
             Self::Material => material::trials(),
             Self::Emitter => emitter::trials(),
@@ -158,6 +163,7 @@ impl fmt::Display for Group {
             Self::Rectangle => "rectangle",
             Self::Cuboid => "cuboid",
             Self::Shapes => "shapes",
+            Self::Hierarchy => "hierarchy",
             Self::Light => "light",
             Self::Material => "material",
             Self::Emitter => "emitter",

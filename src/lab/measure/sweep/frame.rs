@@ -69,10 +69,12 @@ fn pixel_hits(tile: &EntityRef<'_>, shapes: &Shapes) -> Vec<PixelHit> {
         NO_SHAPE => 1.0,
         shape => {
             let (origin, direction, t) = (rays.origin_of(row), rays.direction_of(row), hits.t[row]);
-            let hit = RayHit { origin, direction, t, displacement: DVec3::ZERO };
+            let body = &shapes.body[shape as usize];
+            let hit =
+                RayHit { primitive: body.primitive_at(origin, direction, t), ..RayHit::at_rest(origin, direction, t) };
             // Where it was depends on each ray's time: no normal is compared.
             let moves = shapes.all.kind[shape as usize] == ShapeKind::Moving;
-            if moves { 1.0 } else { shapes.body[shape as usize].surface(&hit).normal.dot(direction).abs() }
+            if moves { 1.0 } else { body.surface(&hit).normal.dot(direction).abs() }
         }
     };
     (0..hits.t.len()).map(|row| PixelHit { t: hits.t[row], shape: hits.shape[row], cosine: cosine(row) }).collect()

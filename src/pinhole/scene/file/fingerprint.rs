@@ -1,8 +1,8 @@
 use super::word::Word;
 use super::write::spawned;
 use crate::scene::{
-    ChildOf, Disabled, EmbeddedFiles, Environment, IMAGE_FILE, ImageTexture, Name, NormalMap, Sampler, Sampling,
-    SceneFolder, Statistics, UsesMaterial, read_file,
+    ChildOf, Disabled, EmbeddedFiles, Environment, IMAGE_FILE, ImageTexture, MeshGeometry, MeshInstance, Name,
+    NormalMap, Sampler, Sampling, SceneFolder, Statistics, UsesMaterial, read_file,
 };
 use bevy_ecs::prelude::*;
 use std::any::TypeId;
@@ -20,6 +20,7 @@ pub fn fingerprint(scene: &World) -> String {
     let places: HashMap<Entity, usize> = entities.iter().enumerate().map(|(at, entity)| (entity.id(), at)).collect();
     let place = |other: Entity| places.get(&other);
     let mut images: HashMap<PathBuf, Option<u64>> = HashMap::new();
+    let mut meshes: Vec<(&MeshGeometry, u64)> = Vec::new();
     let mut text = String::new();
     for entity in &entities {
         let name = entity.get::<Name>().map(Name::as_str);
@@ -43,6 +44,14 @@ pub fn fingerprint(scene: &World) -> String {
                 .or_else(|| *images.entry(SceneFolder::path_of(scene, file)).or_insert_with_key(read));
             text += &format!(" {held:?}");
         }
+        if let Some(mesh) = entity.get::<MeshInstance>().filter(|_| !entity.contains::<Disabled>()) {
+            let known = meshes.iter().find(|(own, _)| mesh.geometry.is(own)).map(|(_, hash)| *hash);
+            let hash = known.unwrap_or_else(|| hash_of_mesh(&mesh.geometry));
+            if known.is_none() {
+                meshes.push((&mesh.geometry, hash));
+            }
+            text += &format!(" mesh {hash}");
+        }
         if let Some(sampling) = entity.get::<Sampling>() {
             // The strata of a pixel depend on its number of samples.
             let samples = if sampling.sampler == Sampler::Stratified { sampling.samples } else { 0 };
@@ -51,6 +60,15 @@ pub fn fingerprint(scene: &World) -> String {
         text.push('\n');
     }
     text
+}
+
+fn hash_of_mesh(mesh: &MeshGeometry) -> u64 {
+    let positions = mesh.positions.iter().flatten().map(|part| part.to_bits());
+    let triangles = mesh.triangles.iter().flatten().copied();
+    let normals = mesh.normals.iter().flatten().flatten().map(|part| part.to_bits());
+    let uvs = mesh.uvs.iter().flatten().flatten().map(|part| part.to_bits());
+    let numbers = positions.chain(triangles).chain(normals).chain(uvs);
+    numbers.fold(FNV_BASIS, |hash, number| (hash ^ u64::from(number)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// The FNV-1a offset basis, the hash of no bytes, with which [`fnv`] begins.

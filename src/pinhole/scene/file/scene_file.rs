@@ -3,7 +3,7 @@ use super::read::{FileEntity, read_entity};
 use super::refer::resolve;
 use super::scan::{entities, fields};
 use super::{FileProblem, PlaceInFile};
-use crate::scene::{ChildOf, Disabled, Name, SceneError, SceneFolder, UsesMaterial};
+use crate::scene::{ChildOf, Disabled, Name, SceneError, SceneFolder, UsesMaterial, load_meshes};
 use bevy_ecs::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -116,6 +116,7 @@ impl SceneFile {
         }
         // Inserted last, since it spawns an entity of its own and would shift the indices of the others.
         world.insert_resource(SceneFolder::of(&self.path));
+        load_meshes(&mut world);
         world
     }
 }

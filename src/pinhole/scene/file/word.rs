@@ -1,7 +1,7 @@
 use crate::scene::material::MATERIALS;
 use crate::scene::{
     Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, Emissive, Environment,
-    EquirectangularCamera, FisheyeCamera, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing, LookAt,
+    EquirectangularCamera, FisheyeCamera, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing, LookAt, Mesh,
     Motion, NormalMap, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Rectangle, Resolution,
     Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Torus, Triangle, View,
 };
@@ -31,6 +31,7 @@ const WORDS: &[Word] = &[
     Word::of::<Cone>("cone"),
     Word::of::<Torus>("torus"),
     Word::of::<Triangle>("triangle"),
+    Word::of::<Mesh>("mesh"),
     Word::of::<PointLight>("point_light"),
     Word::of::<DirectionalLight>("directional_light"),
     Word::of::<SpotLight>("spot_light"),

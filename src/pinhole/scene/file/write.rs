@@ -1,6 +1,6 @@
 use super::read::LONGEST_NAME;
 use super::word::Word;
-use crate::scene::{ChildOf, Disabled, Name, SceneError, UsedByShapes, UsesMaterial, called, printable};
+use crate::scene::{ChildOf, Disabled, MeshPart, Name, SceneError, UsedByShapes, UsesMaterial, called, printable};
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::*;
 use bevy_ecs::resource::IsResource;
@@ -17,7 +17,9 @@ const WIDTH: usize = 120;
 /// Errors: something that a file cannot express: a component without a word, a name that is not one line of text, or a
 /// parent or material without a unique name.
 pub fn scene_text(scene: &World) -> Result<String, SceneError> {
-    let entities = spawned(scene);
+    // What was made of a model file is in that file.
+    let mut entities = spawned(scene);
+    entities.retain(|entity| !entity.contains::<MeshPart>());
     let mut carriers: HashMap<&str, usize> = HashMap::new();
     for name in entities.iter().filter_map(|entity| entity.get::<Name>()) {
         *carriers.entry(name.as_str()).or_default() += 1;

@@ -21,6 +21,12 @@ pub use principled::Principled;
 pub use rough_glass::RoughGlass;
 
 use super::file::Word;
+use bevy_ecs::prelude::*;
+
+/// Whether an entity has a material of its own.
+pub(super) fn is_material(entity: EntityRef<'_>) -> bool {
+    MATERIALS.iter().any(|word| (word.write)(&entity).is_some())
+}
 
 /// Every component that is a material, with its word in scene files.
 pub(super) const MATERIALS: &[Word] = &[

@@ -1,14 +1,14 @@
-//! A cache of decoded images, so that each file is decoded once, however many entities name it and however often it is
-//! requested: by validation, by the tables, by the preflight checks.
+//! A cache of what files hold, such as images and models, so that each file is decoded once, however many entities name
+//! it and however often it is requested: by validation, by the tables, by the preflight checks.
 
-use crate::scene::{FileError, IMAGE_FILE, open_file};
+use super::{FileError, FileKind, open_file};
 use std::fs::{self, Metadata};
 use std::hash::{DefaultHasher, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, SystemTime};
 
-/// Images that are no longer used are kept up to this many bytes.
+/// What is no longer used is kept up to this many bytes.
 const UNUSED: usize = 512 << 20;
 /// A file written less than this before it was read may be written again with the same time stamp.
 const SETTLED: Duration = Duration::from_secs(2);
@@ -43,57 +43,83 @@ impl FileState {
     }
 }
 
-/// An image, and the state of the file that it was decoded from.
+/// What a file held, and the state of the file.
 struct Kept<T> {
     state: FileState,
     /// The hash of the bytes, where the file was too recent to be identified by its time stamp.
     hash: Option<u64>,
     bytes: usize,
-    image: Weak<T>,
-    /// Keeps an image that is no longer used.
+    content: Weak<T>,
+    /// Keeps what is no longer used.
     unused: Option<Arc<T>>,
 }
 
-/// Decoded images of one kind, the most recently used at the end.
-pub struct ImageStore<T>(Mutex<Vec<Kept<T>>>);
+/// What files of one kind hold, the most recently used at the end.
+pub struct FileStore<T>(Mutex<Vec<Kept<T>>>);
 
-impl<T> ImageStore<T> {
+impl<T> Default for FileStore<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<T> FileStore<T> {
     /// An empty cache.
     pub const fn new() -> Self {
         Self(Mutex::new(Vec::new()))
     }
 
-    /// The image of a file: the one decoded before, or the result of `decode` for its bytes, together with the image's
-    /// memory in bytes.
+    /// What a file holds: decoded before, or the result of `decode` for its bytes, together with its memory in bytes.
     ///
     /// Errors: the file cannot be read, or the error of `decode`.
     pub fn get(
         &self,
         path: &Path,
+        kind: FileKind,
         decode: impl FnOnce(&[u8]) -> Result<(T, usize), String>,
     ) -> Result<Arc<T>, Undecoded> {
-        let file = open_file(path, IMAGE_FILE)?;
+        let file = open_file(path, kind)?;
         let state = FileState::of(path, &file.metadata);
         let mut kept = self.lock();
-        let known = take(&mut kept, &state).and_then(|kept| Some((kept.image.upgrade()?, kept.hash, kept.bytes)));
-        if let Some((image, None, bytes)) = known {
-            return Ok(keep(&mut kept, state, None, image, bytes));
+        let known = take(&mut kept, &state).and_then(|kept| Some((kept.content.upgrade()?, kept.hash, kept.bytes)));
+        if let Some((content, None, bytes)) = known {
+            return Ok(keep(&mut kept, state, None, content, bytes));
         }
         let held = file.bytes()?;
-        if let Some((image, Some(hash), bytes)) = known
+        if let Some((content, Some(hash), bytes)) = known
             && hash_of(&held) == hash
         {
-            return Ok(keep(&mut kept, state, Some(hash), image, bytes));
+            return Ok(keep(&mut kept, state, Some(hash), content, bytes));
         }
         let hash = (!state.is_settled()).then(|| hash_of(&held));
-        let (image, bytes) = decode(&held).map_err(Undecoded::Image)?;
-        Ok(keep(&mut kept, state, hash, Arc::new(image), bytes))
+        let (content, bytes) = decode(&held).map_err(Undecoded::Content)?;
+        Ok(keep(&mut kept, state, hash, Arc::new(content), bytes))
     }
 
-    /// Whether the image of a file is in memory.
+    /// The same for bytes that another file held, under a name.
+    ///
+    /// Errors: that of `decode`.
+    pub fn of_bytes(
+        &self,
+        name: &Path,
+        bytes: &[u8],
+        decode: impl FnOnce(&[u8]) -> Result<(T, usize), String>,
+    ) -> Result<Arc<T>, String> {
+        let state = FileState { path: name.into(), length: bytes.len() as u64, modified: None, inode: [0; 4] };
+        let hash = hash_of(bytes);
+        let mut kept = self.lock();
+        let known = take(&mut kept, &state).filter(|kept| kept.hash == Some(hash));
+        if let Some((content, bytes)) = known.and_then(|kept| Some((kept.content.upgrade()?, kept.bytes))) {
+            return Ok(keep(&mut kept, state, Some(hash), content, bytes));
+        }
+        let (content, bytes) = decode(bytes)?;
+        Ok(keep(&mut kept, state, Some(hash), Arc::new(content), bytes))
+    }
+
+    /// Whether what a file holds is in memory.
     pub fn holds(&self, path: &Path, metadata: &Metadata) -> bool {
         let state = FileState::of(path, metadata);
-        self.lock().iter().any(|kept| kept.state == state && kept.image.strong_count() > 0)
+        self.lock().iter().any(|kept| kept.state == state && kept.content.strong_count() > 0)
     }
 
     fn lock(&self) -> MutexGuard<'_, Vec<Kept<T>>> {
@@ -106,10 +132,10 @@ fn take<T>(kept: &mut Vec<Kept<T>>, state: &FileState) -> Option<Kept<T>> {
     Some(kept.remove(at))
 }
 
-/// Adds an image at the end, and drops unused ones before it that exceed the limit.
-fn keep<T>(kept: &mut Vec<Kept<T>>, state: FileState, hash: Option<u64>, image: Arc<T>, bytes: usize) -> Arc<T> {
-    let unused = Some(Arc::clone(&image));
-    kept.push(Kept { state, hash, bytes, image: Arc::downgrade(&image), unused });
+/// Adds one at the end, and drops unused ones before it that exceed the limit.
+fn keep<T>(kept: &mut Vec<Kept<T>>, state: FileState, hash: Option<u64>, content: Arc<T>, bytes: usize) -> Arc<T> {
+    let unused = Some(Arc::clone(&content));
+    kept.push(Kept { state, hash, bytes, content: Arc::downgrade(&content), unused });
     let mut sum = 0;
     for (age, kept) in kept.iter_mut().rev().enumerate() {
         sum += kept.bytes;
@@ -117,8 +143,8 @@ fn keep<T>(kept: &mut Vec<Kept<T>>, state: FileState, hash: Option<u64>, image: 
             kept.unused = None;
         }
     }
-    kept.retain(|kept| kept.image.strong_count() > 0);
-    image
+    kept.retain(|kept| kept.content.strong_count() > 0);
+    content
 }
 
 fn hash_of(bytes: &[u8]) -> u64 {
@@ -127,13 +153,13 @@ fn hash_of(bytes: &[u8]) -> u64 {
     hasher.finish()
 }
 
-/// The reason why there is no image.
+/// Why a file was not decoded.
 #[derive(Debug)]
 pub enum Undecoded {
     /// The file could not be read.
     File(FileError),
-    /// Its content is not an image that can be used.
-    Image(String),
+    /// Its content cannot be used.
+    Content(String),
 }
 
 impl From<FileError> for Undecoded {
@@ -145,20 +171,21 @@ impl From<FileError> for Undecoded {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::IMAGE_FILE;
     use std::cell::Cell;
 
     #[test]
     fn a_file_is_decoded_once_until_it_changes() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let file = |name: &str| folder.path().join(name);
-        let store: ImageStore<Vec<u8>> = ImageStore::new();
+        let store: FileStore<Vec<u8>> = FileStore::new();
         let decoded = Cell::new(0);
         let get = |name: &str| {
             let decode = |bytes: &[u8]| {
                 decoded.set(decoded.get() + 1);
                 Ok((bytes.to_vec(), bytes.len()))
             };
-            store.get(&file(name), decode).expect("decoded")
+            store.get(&file(name), IMAGE_FILE, decode).expect("decoded")
         };
         fs::write(file("a"), b"one").expect("written");
         fs::write(file("b"), b"one").expect("written");
@@ -176,7 +203,7 @@ mod tests {
     #[test]
     fn an_image_in_use_is_never_decoded_again_and_an_unused_one_is_dropped() {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let store: ImageStore<usize> = ImageStore::new();
+        let store: FileStore<usize> = FileStore::new();
         let decoded = Cell::new(0);
         let get = |number: usize| {
             let path = folder.path().join(number.to_string());
@@ -187,7 +214,7 @@ mod tests {
                 decoded.set(decoded.get() + 1);
                 Ok((number, UNUSED / 2))
             };
-            store.get(&path, decode).expect("decoded")
+            store.get(&path, IMAGE_FILE, decode).expect("decoded")
         };
         let used = get(0);
         (1..6).for_each(|number| _ = get(number));

@@ -1,0 +1,18 @@
+//! glTF 2.0, as JSON or in binary → a model.
+
+mod accessor;
+mod binary;
+mod buffers;
+mod cameras;
+mod component;
+mod document;
+mod images;
+mod json;
+mod materials;
+mod nodes;
+mod object;
+mod primitive;
+mod read;
+mod uri;
+
+pub use read::read_gltf;

@@ -1,0 +1,239 @@
+use super::accessor::{Accessor, Meant};
+use super::buffers::Buffers;
+use super::document::{Document, Table};
+use super::object::Object;
+use crate::memory::Memory;
+use crate::model_error::ModelError;
+use crate::remarks::Remarks;
+use crate::triangle_mesh::TriangleMesh;
+use crate::triangle_mesh::renumber;
+
+/// Which accessors a primitive is made of: primitives alike in that are one mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct PrimitiveParts {
+    mode: u64,
+    positions: usize,
+    indices: Option<usize>,
+    normals: Option<usize>,
+    uvs: Option<usize>,
+}
+
+impl PrimitiveParts {
+    /// Those of a primitive, with this set of texture coordinates; nothing if it has no triangles.
+    ///
+    /// Errors: an index that is none, or geometry that is there only in compressed form.
+    pub fn of(
+        document: &Document<'_>,
+        primitive: &Object<'_>,
+        uv_set: u64,
+        remarks: &mut Remarks,
+    ) -> Result<Option<Self>, ModelError> {
+        let mode = primitive.whole("mode")?.unwrap_or(4);
+        let left_out = match mode {
+            0 => "points",
+            1..=3 => "lines",
+            4..=6 => "",
+            _ => return Err(primitive.refused("mode", mode, "it must be from 0 to 6")),
+        };
+        if !left_out.is_empty() {
+            remarks.add_unread(left_out, 1);
+            return Ok(None);
+        }
+        let attributes = primitive.needed("attributes", primitive.object("attributes")?)?;
+        let uv_name = format!("TEXCOORD_{uv_set}");
+        for (name, _) in attributes.fields() {
+            if !["POSITION", "NORMAL", &uv_name].contains(&name) {
+                remarks.add_unread(&format!("the attribute {name}"), 1);
+            }
+        }
+        remarks.add_unread("morph targets", primitive.list("targets")?.len() as u64);
+        let rows = document.rows(Table::Accessors);
+        let Some(positions) = attributes.index("POSITION", rows)? else {
+            remarks.add_unread("primitives without positions", 1);
+            return Ok(None);
+        };
+        let compressed = primitive.extension("KHR_draco_mesh_compression")?;
+        if let (Some(compressed), None) = (compressed, document.row(Table::Accessors, positions)?.get("bufferView")) {
+            let place = compressed.path;
+            let accepted = "compressed geometry is not read; export the model without it";
+            return Err(ModelError::new(primitive.file, place, "there", accepted));
+        }
+        Ok(Some(Self {
+            mode,
+            positions,
+            indices: primitive.index("indices", rows)?,
+            normals: attributes.index("NORMAL", rows)?,
+            uvs: attributes.index(&uv_name, rows)?,
+        }))
+    }
+
+    /// The mesh of these parts.
+    ///
+    /// Errors: an accessor that is not as it should be, or an index beyond the vertices.
+    pub fn read<'a>(
+        self,
+        document: &Document<'a>,
+        buffers: &'a Buffers<'a>,
+        memory: &mut Memory,
+        remarks: &mut Remarks,
+    ) -> Result<TriangleMesh, ModelError> {
+        let accessor = |index, meant| Accessor::of(document, buffers, index, meant);
+        let positions = accessor(self.positions, Meant::Vectors)?;
+        let vertices = positions.count;
+        let object = document.row(Table::Accessors, self.positions)?;
+        if vertices > u64::from(u32::MAX) {
+            return Err(object.refused("count", vertices, "a mesh may have 4294967295 vertices"));
+        }
+        let corners = match self.indices {
+            Some(index) => accessor(index, Meant::Indices)?.indices(memory)?,
+            None => {
+                memory.take(vertices, 4, || [object.file.into(), object.path.clone()])?;
+                (0..vertices as u32).collect()
+            }
+        };
+        if let Some((place, index)) = corners.iter().enumerate().find(|(_, index)| u64::from(**index) >= vertices) {
+            let file = document.root.file;
+            let place = format!("the index of corner {place} in accessors[{}]", self.indices.unwrap_or(0));
+            return Err(ModelError::new(file, place, index, format_args!("there are {vertices} vertices")));
+        }
+        let triangles = corners.len().saturating_sub(if self.mode == 4 { 0 } else { 2 });
+        let triangles = if self.mode == 4 { triangles / 3 } else { triangles };
+        memory.take(triangles as u64, TriangleMesh::BYTES_A_TRIANGLE, || [object.file.into(), object.path.clone()])?;
+        let mut triangles = triangles_of(self.mode, &corners);
+        if self.mode == 4 && corners.len() % 3 != 0 {
+            remarks.add_unread("corners behind the last triangle", (corners.len() % 3) as u64);
+        }
+        // Exporters put many primitives into one accessor: what this one does not use is not read.
+        let mut used = corners;
+        let is_part = 4 * (used.len() as u64) < vertices;
+        if is_part {
+            used.sort_unstable();
+            used.dedup();
+            renumber(&mut triangles, &used);
+        }
+        let wanted = is_part.then_some(&used[..]);
+        let normals = self.normals.map(|index| accessor(index, Meant::Vectors)).transpose()?;
+        let uvs = self.uvs.map(|index| accessor(index, Meant::Pairs)).transpose()?;
+        for (other, index) in [(&normals, self.normals), (&uvs, self.uvs)] {
+            if let (Some(other), Some(index)) = (other, index)
+                && other.count != vertices
+            {
+                let object = document.row(Table::Accessors, index)?;
+                let accepted = format!("the mesh has {vertices} positions");
+                return Err(object.refused("count", other.count, accepted));
+            }
+        }
+        Ok(TriangleMesh {
+            positions: positions.floats(wanted, memory)?,
+            triangles,
+            normals: normals.map(|normals| normals.floats(wanted, memory)).transpose()?,
+            uvs: uvs.map(|uvs| uvs.floats(wanted, memory)).transpose()?,
+        })
+    }
+}
+
+/// The triangles of a list, a strip or a fan.
+fn triangles_of(mode: u64, corners: &[u32]) -> Vec<[u32; 3]> {
+    match mode {
+        5 => corners
+            .windows(3)
+            .enumerate()
+            .map(|(number, own)| if number % 2 == 0 { [own[0], own[1], own[2]] } else { [own[1], own[0], own[2]] })
+            .collect(),
+        6 => {
+            let first = corners.first().copied().unwrap_or(0);
+            corners.windows(2).skip(1).map(|pair| [pair[0], pair[1], first]).collect()
+        }
+        _ => corners.as_chunks().0.to_vec(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::written::{data, floats, mesh, read, refused};
+
+    #[test]
+    fn strips_and_fans_keep_their_sides() {
+        assert_eq!(triangles_of(4, &[0, 1, 2, 3, 4, 5, 6]), [[0, 1, 2], [3, 4, 5]]);
+        assert_eq!(triangles_of(5, &[0, 1, 2, 3, 4]), [[0, 1, 2], [2, 1, 3], [2, 3, 4]]);
+        assert_eq!(triangles_of(6, &[0, 1, 2, 3]), [[1, 2, 0], [2, 3, 0]]);
+        for mode in 4..=6 {
+            assert!(triangles_of(mode, &[0, 1]).is_empty() && triangles_of(mode, &[]).is_empty());
+        }
+    }
+    #[test]
+    fn indices_may_have_any_size() {
+        let corners = vec![[0, 1, 2], [0, 2, 3]];
+        for indices in 3..=5 {
+            let own = format!("{{'attributes':{{'POSITION':0,'NORMAL':1,'TEXCOORD_0':2}},'indices':{indices}}}");
+            let model = read(&mesh(&own)).expect("read");
+            let mesh = &model.meshes[0];
+            assert_eq!(mesh.triangles, corners);
+            assert_eq!(mesh.normals, Some(vec![[0.0, 0.0, 1.0]; 4]));
+            // v goes down in the file as it does here.
+            assert_eq!(mesh.uvs, Some(vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]]));
+            assert_eq!((&*model.instances[0].name, model.remarks.clone()), ("own", Remarks::default()));
+        }
+    }
+
+    #[test]
+    fn primitives_of_the_same_parts_are_one_mesh() {
+        let own = "{'attributes':{'POSITION':0},'indices':3}";
+        let model =
+            read(&mesh(&format!("{own},{own},{{'attributes':{{'POSITION':0}},'mode':6}},{own}"))).expect("read");
+        let meshes: Vec<usize> = model.instances.iter().map(|instance| instance.mesh).collect();
+        assert_eq!((model.meshes.len(), meshes), (2, vec![0, 0, 1, 0]));
+        assert_eq!((model.remarks.without_normals, model.remarks.sentences().len()), (2, 1));
+    }
+
+    #[test]
+    fn a_part_of_a_large_accessor_is_read_alone() {
+        let bytes = floats(&(0..300).map(|number| (number * number % 101) as f32).collect::<Vec<_>>());
+        let file = format!(
+            "'buffers':[{{'byteLength':1203,'uri':'{}'}}],'bufferViews':[{{'buffer':0,'byteLength':1200}},\
+             {{'buffer':0,'byteOffset':1200,'byteLength':3}}],'accessors':[\
+             {{'bufferView':0,'componentType':5126,'count':100,'type':'VEC3'}},\
+             {{'bufferView':1,'componentType':5121,'count':3,'type':'SCALAR'}}],\
+             'meshes':[{{'primitives':[{{'attributes':{{'POSITION':0}},'indices':1}}]}}]",
+            data(&[&bytes[..], &[90, 7, 30]].concat())
+        );
+        let model = read(&file).expect("read");
+        let row = |row: usize| [0, 1, 2].map(|part| ((3 * row + part) * (3 * row + part) % 101) as f32);
+        assert_eq!(model.meshes[0].positions, [row(7), row(30), row(90)]);
+        assert_eq!(model.meshes[0].triangles, [[2, 0, 1]]);
+    }
+
+    #[test]
+    fn what_has_no_triangles_is_left_out_and_said() {
+        let points = "{'attributes':{'POSITION':0},'mode':0},{'attributes':{'POSITION':0},'mode':3},{'attributes':{}}";
+        let model = read(&mesh(points)).expect("read");
+        assert!(model.meshes.is_empty() && model.instances.is_empty());
+        let sentences = ["Not read: points (1), lines (1), primitives without positions (1)."];
+        assert_eq!(model.remarks.sentences(), sentences);
+        let model = read(&mesh("{'attributes':{'POSITION':0,'COLOR_0':0},'targets':[{},{}]}")).expect("read");
+        let sentence = "Not read: the attribute COLOR_0 (1), morph targets (2), corners behind the last triangle (1).";
+        assert_eq!(model.remarks.sentences()[1], sentence);
+    }
+
+    #[test]
+    fn broken_primitives_are_refused() {
+        let with = |primitive: &str| refused(&mesh(primitive));
+        let mode = "meshes[0].primitives[0].mode is 7, but it must be from 0 to 6";
+        assert_eq!(with("{'attributes':{'POSITION':0},'mode':7}"), mode);
+        assert_eq!(with("{}"), "meshes[0].primitives[0].attributes is missing, but it is needed");
+        let beyond = "meshes[0].primitives[0].attributes.POSITION is 6, but it must be a whole number from 0 to 5, \
+                      for there are 6";
+        assert_eq!(with("{'attributes':{'POSITION':6}}"), beyond);
+        let draco = "meshes[0].primitives[0].extensions.KHR_draco_mesh_compression is there, but compressed geometry \
+                     is not \
+                     read; export the model without it";
+        let compressed = "{'attributes':{'POSITION':0},'extensions':{'KHR_draco_mesh_compression':{}}}";
+        assert_eq!(refused(&mesh(compressed).replace("'accessors':[{'bufferView':0,", "'accessors':[{")), draco);
+        assert!(read(&mesh(compressed)).is_ok());
+        let stray = mesh("{'attributes':{'POSITION':0},'indices':3}").replacen("'count':4", "'count':3", 1);
+        assert_eq!(refused(&stray), "the index of corner 5 in accessors[3] is 3, but there are 3 vertices");
+        let few = mesh("{'attributes':{'POSITION':0,'NORMAL':1}}").replacen("'count':4", "'count':3", 1);
+        assert_eq!(refused(&few), "accessors[1].count is 4, but the mesh has 3 positions");
+    }
+}

@@ -1,0 +1,167 @@
+use crate::printable::printable;
+
+/// The greatest number of different unread features that are named.
+const MOST_NAMED: usize = 16;
+
+/// What was dropped, replaced or not read of a model file, counted.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Remarks {
+    /// Triangles without an area, dropped.
+    pub degenerate: u64,
+    /// Triangles with a corner that is infinite or NaN, dropped.
+    pub not_finite: u64,
+    /// Normals without a direction, which became zero.
+    pub zero_normals: u64,
+    /// Texture coordinates that were infinite or NaN and became (0, 0).
+    pub uvs_not_finite: u64,
+    /// Meshes without vertex normals.
+    pub without_normals: u64,
+    /// Meshes whose material has a texture, and which have no texture coordinates.
+    pub without_uvs: u64,
+    /// Meshes without triangles, left out.
+    pub empty_meshes: u64,
+    /// Polygons of five corners or more, which became fans.
+    pub fans: u64,
+    /// Numbers of materials, lights and cameras out of their range, replaced by the nearest in it.
+    pub clamped: u64,
+    /// What was not read, by name, and how often it occurred.
+    pub unread: Vec<(String, u64)>,
+    /// Kinds of what was not read, beyond those that are named.
+    pub more_unread: u64,
+}
+
+impl Remarks {
+    /// Notes that something was not read.
+    pub(super) fn add_unread(&mut self, name: &str, count: u64) {
+        if count == 0 {
+            return;
+        }
+        let name = printable(name, 80);
+        match self.unread.iter().position(|(own, _)| *own == name) {
+            Some(place) => self.unread[place].1 += count,
+            None if self.unread.len() < MOST_NAMED => self.unread.push((name, count)),
+            None => self.more_unread += count,
+        }
+    }
+
+    /// Clamps a number, and counts it if that changed it.
+    pub(super) fn clamp(&mut self, number: f64, least: f64, most: f64) -> f64 {
+        let within = if number < least { least } else { number.min(most) };
+        self.clamped += u64::from(within != number);
+        within
+    }
+
+    /// Clamps each part of a colour, counted as one number.
+    pub(super) fn clamp_colour(&mut self, colour: [f64; 3], most: f64) -> [f64; 3] {
+        let before = self.clamped;
+        let within = colour.map(|part| self.clamp(part, 0.0, most));
+        self.clamped = before + u64::from(within != colour);
+        within
+    }
+
+    /// What there is to say, in one sentence each; nothing if the file was read as it is.
+    pub fn sentences(&self) -> Vec<String> {
+        let counted = [
+            (self.degenerate, "triangle without an area was dropped", "triangles without an area were dropped"),
+            (
+                self.not_finite,
+                "triangle with a corner that is infinite or not a number was dropped",
+                "triangles with a corner that is infinite or not a number were dropped",
+            ),
+            (
+                self.zero_normals,
+                "vertex normal has no direction, and the triangle's own is used there",
+                "vertex normals have no direction, and the triangle's own is used there",
+            ),
+            (
+                self.uvs_not_finite,
+                "texture coordinate that is infinite or not a number became (0, 0)",
+                "texture coordinates that are infinite or not a number became (0, 0)",
+            ),
+            (
+                self.without_normals,
+                "mesh has no vertex normals, so that its triangles look planar",
+                "meshes have no vertex normals, so that their triangles look planar",
+            ),
+            (
+                self.without_uvs,
+                "mesh has a material with a texture, but no texture coordinates",
+                "meshes have a material with a texture, but no texture coordinates",
+            ),
+            (self.empty_meshes, "mesh without triangles was left out", "meshes without triangles were left out"),
+            (
+                self.fans,
+                "polygon of five corners or more became a fan of triangles, which is right if it is convex",
+                "polygons of five corners or more became fans of triangles, which is right if they are convex",
+            ),
+            (
+                self.clamped,
+                "number was out of its range and became the nearest in it",
+                "numbers were out of their range and became the nearest in it",
+            ),
+        ];
+        let mut sentences: Vec<String> = counted
+            .into_iter()
+            .filter(|(count, ..)| *count > 0)
+            .map(|(count, one, many)| format!("{count} {}.", if count == 1 { one } else { many }))
+            .collect();
+        if !self.unread.is_empty() {
+            let named = self.unread.iter().map(|(name, count)| format!("{name} ({count})")).collect::<Vec<_>>();
+            let more = if self.more_unread > 0 { format!(", and {} others", self.more_unread) } else { String::new() };
+            sentences.push(format!("Not read: {}{more}.", named.join(", ")));
+        }
+        sentences
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_remark_is_a_sentence() {
+        assert!(Remarks::default().sentences().is_empty());
+        let one = Remarks {
+            degenerate: 1,
+            not_finite: 1,
+            zero_normals: 1,
+            uvs_not_finite: 1,
+            without_normals: 1,
+            without_uvs: 1,
+            empty_meshes: 1,
+            fans: 1,
+            clamped: 1,
+            ..Remarks::default()
+        };
+        assert_eq!(one.sentences().len(), 9);
+        assert!(one.sentences().iter().all(|sentence| sentence.starts_with("1 ") && sentence.ends_with('.')));
+        let many = Remarks { degenerate: 12, ..Remarks::default() };
+        assert_eq!(many.sentences(), ["12 triangles without an area were dropped."]);
+    }
+
+    #[test]
+    fn what_is_not_read_is_named_up_to_a_point() {
+        let mut remarks = Remarks::default();
+        remarks.add_unread("nothing", 0);
+        remarks.add_unread("animations", 2);
+        remarks.add_unread("skins\n", 1);
+        remarks.add_unread("animations", 1);
+        assert_eq!(remarks.sentences(), ["Not read: animations (3), skins\\n (1)."]);
+        for number in 0..20 {
+            remarks.add_unread(&format!("kind {number}"), 1);
+        }
+        assert_eq!(remarks.unread.len(), 16);
+        assert!(remarks.sentences()[0].ends_with(", kind 13 (1), and 6 others."));
+    }
+
+    #[test]
+    fn numbers_out_of_range_are_counted() {
+        let mut remarks = Remarks::default();
+        assert_eq!(remarks.clamp(0.5, 0.0, 1.0), 0.5);
+        assert_eq!(remarks.clamp_colour([0.0, 1.0, 0.2], 1.0), [0.0, 1.0, 0.2]);
+        assert_eq!(remarks.clamped, 0);
+        assert_eq!(remarks.clamp(-0.5, 0.0, 1.0), 0.0);
+        assert_eq!(remarks.clamp_colour([-1.0, 2.0, 0.2], 1.0), [0.0, 1.0, 0.2]);
+        assert_eq!(remarks.clamped, 2);
+    }
+}

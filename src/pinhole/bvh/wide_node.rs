@@ -1,0 +1,85 @@
+use super::bounding_box::BoundingBox;
+
+/// The children of a node.
+pub const WIDTH: usize = 8;
+/// Marks a child that is a leaf.
+const LEAF: u32 = 1 << 31;
+
+/// A child of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Child(u32);
+
+/// What a child is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChildKind {
+    /// The node with this number.
+    Node(usize),
+    /// The leaf with this number.
+    Leaf(usize),
+}
+
+impl Child {
+    /// Nothing: the box of such a child is empty, so that no ray visits it.
+    pub const NONE: Self = Self(u32::MAX);
+    /// The root, which is the first node.
+    pub const ROOT: Self = Self(0);
+
+    /// The node with this number.
+    pub fn node(number: usize) -> Self {
+        Self(number as u32)
+    }
+
+    /// The leaf with this number.
+    pub fn leaf(number: usize) -> Self {
+        Self(number as u32 | LEAF)
+    }
+
+    /// Its bits, which an entry of a stack holds.
+    #[inline(always)]
+    pub(super) fn bits(self) -> u32 {
+        self.0
+    }
+
+    /// The child of these bits.
+    #[inline(always)]
+    pub(super) fn of_bits(bits: u32) -> Self {
+        Self(bits)
+    }
+
+    /// What it is.
+    #[inline(always)]
+    pub fn kind(self) -> ChildKind {
+        if self.0 & LEAF == 0 { ChildKind::Node(self.0 as usize) } else { ChildKind::Leaf((self.0 & !LEAF) as usize) }
+    }
+}
+
+/// A node with eight children: a structure of arrays, so that one ray is tested against all eight boxes at once.
+///
+/// It fills four cache lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct WideNode {
+    /// The planes of the children's boxes: `planes[0]` are the lower ones and `planes[1]` the upper ones, by axis, then
+    /// by child.
+    pub planes: [[[f32; WIDTH]; 3]; 2],
+    /// The children; the first ones are there, the others are [`Child::NONE`].
+    pub child: [Child; WIDTH],
+}
+
+impl WideNode {
+    /// A node without children.
+    pub fn empty() -> Self {
+        let none = BoundingBox::default();
+        let planes = [none.low.map(|low| [low; WIDTH]), none.high.map(|high| [high; WIDTH])];
+        Self { planes, child: [Child::NONE; WIDTH] }
+    }
+
+    /// Sets a child and its box.
+    pub fn set(&mut self, place: usize, child: Child, around: &BoundingBox) {
+        for axis in 0..3 {
+            self.planes[0][axis][place] = around.low[axis];
+            self.planes[1][axis][place] = around.high[axis];
+        }
+        self.child[place] = child;
+    }
+}

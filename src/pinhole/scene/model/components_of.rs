@@ -1,0 +1,108 @@
+//! What a model file holds, as components: materials, placements, cameras and lights.
+
+use super::open_model::OpenModel;
+use crate::scene::{
+    Degrees, DirectionalLight, Emissive, FovAxis, Glass, ImageTexture, NormalMap, OrthographicCamera,
+    PerspectiveCamera, Placement, PointLight, Principled, Rgb, RoughGlass, SpotLight, TextureBy, Wrap,
+};
+use bevy_ecs::prelude::*;
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+use pinhole_models::{LightKind, ModelCamera, ModelLight, ModelTexture, Projection, TextureWrap};
+
+/// The factor of roughness squared below which glass is smooth.
+const SMOOTH: f64 = 1e-3;
+/// A matrix that is no product of a rotation and scales along the axes differs from the nearest by more than this
+/// fraction of its size.
+const SHEARED: f64 = 1e-9;
+
+/// Spawns a material of a model.
+pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize) -> Entity {
+    let Some(own) = model.model.materials.get(material).cloned() else {
+        return scene.spawn(Principled { base_colour: Rgb::grey(0.8), metallic: 0.0, roughness: 0.5 }).id();
+    };
+    let [r, g, b] = own.base_colour;
+    let entity = if own.transmission > 0.5 {
+        let alpha = own.roughness * own.roughness;
+        if alpha < SMOOTH {
+            scene.spawn(Glass { ior: own.ior, ..Glass::default() }).id()
+        } else {
+            scene.spawn(RoughGlass { ior: own.ior, roughness: alpha, ..RoughGlass::default() }).id()
+        }
+    } else {
+        let base_colour = Rgb::new(r, g, b);
+        // The factor is 1 where a texture says which parts are metal; few are.
+        let metallic = if own.metallic_roughness_texture.is_some() { 0.0 } else { own.metallic };
+        scene.spawn(Principled { base_colour, metallic, roughness: own.roughness }).id()
+    };
+    if own.emission != [0.0; 3] && own.emission_texture.is_none() {
+        let [r, g, b] = own.emission;
+        scene.entity_mut(entity).insert(Emissive { radiance: Rgb::new(r, g, b), ..Emissive::default() });
+    }
+    if let Some(file) = own.base_colour_texture.and_then(|texture| model.name_of_image(scene, texture.image)) {
+        let ModelTexture { wrap, nearest, .. } = own.base_colour_texture.unwrap_or_default();
+        let texture = ImageTexture { file, size: 1.0, by: TextureBy::Uv, wrap: wrap_of(wrap), filter: !nearest };
+        scene.entity_mut(entity).insert(texture);
+    }
+    if let Some(file) = own.normal_texture.and_then(|texture| model.name_of_image(scene, texture.image)) {
+        let wrap = wrap_of(own.normal_texture.unwrap_or_default().wrap);
+        scene.entity_mut(entity).insert(NormalMap { file, scale: own.normal_scale, size: 1.0, wrap });
+    }
+    entity
+}
+
+fn wrap_of([u, v]: [TextureWrap; 2]) -> Wrap {
+    if u == TextureWrap::Clamp && v == TextureWrap::Clamp { Wrap::Clamp } else { Wrap::Repeat }
+}
+
+/// The placement that a matrix stands for; none where it shears.
+pub fn placement_of(matrix: &DAffine3) -> Option<Placement> {
+    let (scale, orientation, position) = matrix.to_scale_rotation_translation();
+    let placed = DMat3::from_quat(orientation) * DMat3::from_diagonal(scale);
+    let apart = (placed - matrix.matrix3).to_cols_array().map(f64::abs).into_iter().fold(0.0, f64::max);
+    let size = matrix.matrix3.to_cols_array().map(f64::abs).into_iter().fold(0.0, f64::max);
+    let is_placement = apart <= SHEARED * size && scale.is_finite() && orientation.is_finite();
+    is_placement.then_some(Placement { position, orientation, scale })
+}
+
+/// The placement of what has no size, such as a camera: its position and its axes.
+fn stance_of(matrix: &DAffine3) -> Placement {
+    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|axis| axis.normalize_or_zero());
+    // A mirroring matrix leaves a camera upright, and mirrors its picture elsewhere.
+    let back = z;
+    let right = y.cross(back).try_normalize().unwrap_or(x);
+    let axes = DMat3::from_cols(right, back.cross(right), back);
+    let orientation = DQuat::from_mat3(&axes);
+    let orientation = if orientation.is_finite() { orientation.normalize() } else { DQuat::IDENTITY };
+    Placement { position: matrix.translation, orientation, scale: DVec3::ONE }
+}
+
+/// Spawns a camera of a model.
+pub fn spawn_camera(scene: &mut World, camera: &ModelCamera) -> Entity {
+    let placement = stance_of(&camera.world_from_camera);
+    match camera.projection {
+        Projection::Perspective { yfov, .. } => {
+            let fov = Degrees(yfov.to_degrees());
+            scene.spawn((PerspectiveCamera { fov, axis: FovAxis::Vertical }, placement)).id()
+        }
+        Projection::Orthographic { ymag, .. } => {
+            scene.spawn((OrthographicCamera { view_height: 2.0 * ymag }, placement)).id()
+        }
+    }
+}
+
+/// Spawns a light of a model.
+pub fn spawn_light(scene: &mut World, light: &ModelLight) -> Entity {
+    let placement = stance_of(&light.world_from_light);
+    let [r, g, b] = light.colour.map(|part| part * light.intensity);
+    let rgb = Rgb::new(r, g, b);
+    match light.kind {
+        LightKind::Directional => {
+            scene.spawn((DirectionalLight { irradiance: rgb, casts_shadows: true }, placement)).id()
+        }
+        LightKind::Point => scene.spawn((PointLight { intensity: rgb, casts_shadows: true }, placement)).id(),
+        LightKind::Spot { inner, outer } => {
+            let [inner_angle, outer_angle] = [inner, outer].map(|half| Degrees((2.0 * half).to_degrees()));
+            scene.spawn((SpotLight { intensity: rgb, inner_angle, outer_angle, casts_shadows: true }, placement)).id()
+        }
+    }
+}

@@ -1,0 +1,102 @@
+use super::components_of::{placement_of, spawn_material};
+use super::mesh::{Mesh, MeshPart, ModelNotes, UnreadMesh};
+use super::open_model::{OpenModel, open_model};
+use crate::scene::material::is_material;
+use crate::scene::{ChildOf, Disabled, MeshGeometry, MeshInstance, Name, Placement, UsesMaterial, printable};
+use bevy_ecs::prelude::*;
+use glam::DAffine3;
+use pinhole_models::{Instance, TriangleMesh};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Reads the model file of every enabled entity that names one, and spawns its meshes as children of that entity; what has
+/// been loaded before stays as it is.
+///
+/// A file that cannot be read leaves an [`UnreadMesh`], for which extraction refuses the scene.
+pub fn load_meshes(scene: &mut World) {
+    let mut query = scene.query_filtered::<(Entity, &Mesh), Without<Disabled>>();
+    let mut named: Vec<(Entity, String)> =
+        query.iter(scene).map(|(entity, mesh)| (entity, mesh.file.clone())).collect();
+    named.sort_by_key(|(entity, _)| entity.index());
+    let loaded: Vec<Entity> = scene.query::<&MeshPart>().iter(scene).map(|part| part.0).collect();
+    let mut materials = BTreeMap::new();
+    for (entity, file) in named.into_iter().filter(|(entity, _)| !loaded.contains(entity)) {
+        match open_model(scene, &file) {
+            Ok(model) if model.model.instances.is_empty() => {
+                scene.entity_mut(entity).insert(UnreadMesh("it has no triangles".into()));
+            }
+            Ok(model) => {
+                spawn_parts(scene, entity, (&file, &model), &mut materials);
+                let notes = notes_on(&file, &model);
+                scene.get_resource_or_init::<ModelNotes>().0.extend(notes);
+            }
+            Err(why) => _ = scene.entity_mut(entity).insert(UnreadMesh(why)),
+        }
+    }
+}
+
+/// What there is to say about a file that was read.
+fn notes_on(file: &str, model: &OpenModel) -> Vec<String> {
+    let mut sentences = model.model.remarks.sentences();
+    let materials = &model.model.materials;
+    let counts = [
+        (materials.iter().filter(|own| own.metallic_roughness_texture.is_some()).count(), "metallic and roughness"),
+        (materials.iter().filter(|own| own.emission_texture.is_some()).count(), "emission"),
+    ];
+    for (count, of) in counts.into_iter().filter(|(count, _)| *count > 0) {
+        let materials = if count == 1 { "material has" } else { "materials have" };
+        sentences.push(format!("{count} {materials} a texture of {of}, which is left out"));
+    }
+    let name = Path::new(file).file_name().map_or(file.into(), |name| name.to_string_lossy());
+    sentences.into_iter().map(|sentence| format!("{}: {sentence}", printable(&name, 80))).collect()
+}
+
+/// Spawns the meshes of a model, with the entity's own material if it has one.
+fn spawn_parts(
+    scene: &mut World,
+    entity: Entity,
+    (file, model): (&str, &OpenModel),
+    materials: &mut BTreeMap<(String, usize), Entity>,
+) {
+    let used = scene.get::<UsesMaterial>(entity).map(|used| used.0);
+    let own = used.or_else(|| is_material(scene.entity(entity)).then_some(entity));
+    let name = scene.get::<Name>(entity).map(|name| name.as_str().to_owned());
+    for (at, instance) in model.model.instances.iter().enumerate() {
+        let number = instance.material.unwrap_or(usize::MAX);
+        let material = own.unwrap_or_else(|| {
+            let key = (file.to_owned(), number);
+            *materials.entry(key).or_insert_with(|| spawn_material(scene, model, number))
+        });
+        let (geometry, placement) = placed(model, instance);
+        let part = scene.spawn((MeshInstance { geometry }, placement, MeshPart(entity), ChildOf(entity))).id();
+        scene.entity_mut(part).insert(UsesMaterial(material));
+        let own_name = if instance.name.is_empty() { format!("part {}", at + 1) } else { instance.name.to_string() };
+        let name = name.as_ref().map_or_else(|| own_name.clone(), |name| format!("{name}, {own_name}"));
+        scene.entity_mut(part).insert(Name::new(name));
+    }
+}
+
+/// An instance's geometry and placement; where its matrix shears, that is in the geometry.
+fn placed(model: &OpenModel, instance: &Instance) -> (MeshGeometry, Placement) {
+    let geometry = &model.geometry[instance.mesh];
+    match placement_of(&instance.world_from_object) {
+        Some(placement) => (geometry.clone(), placement),
+        None => (MeshGeometry::new(sheared(geometry, &instance.world_from_object)), Placement::default()),
+    }
+}
+
+fn sheared(mesh: &TriangleMesh, matrix: &DAffine3) -> TriangleMesh {
+    let mut mesh = mesh.clone();
+    for position in &mut mesh.positions {
+        *position = matrix.transform_point3(position.map(f64::from).into()).as_vec3().to_array();
+    }
+    let normal_from_object = matrix.matrix3.inverse().transpose();
+    for normal in mesh.normals.iter_mut().flatten() {
+        let turned = normal_from_object * glam::DVec3::from(normal.map(f64::from));
+        *normal = turned.normalize_or_zero().as_vec3().to_array();
+    }
+    if matrix.matrix3.determinant() < 0.0 {
+        mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+    }
+    mesh
+}

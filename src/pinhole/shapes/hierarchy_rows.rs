@@ -1,0 +1,61 @@
+use super::ray_block::{ClosestHit, ClosestHits, RaySlices, for_each_ray};
+use super::shape::Shape;
+use crate::bvh::{BoundingBox, Bvh, LeafTest, Stack, traverse};
+use glam::DVec3;
+use multiversion::multiversion;
+
+/// The most shapes of a leaf.
+const LEAF: usize = 4;
+
+/// The hierarchy over shapes of one kind; none where one of them is infinite.
+pub fn hierarchy_of<S: Shape>(shapes: &[S]) -> Option<Bvh> {
+    let around = |shape: &S| shape.bounds().map(|bounds| BoundingBox::around(bounds.least, bounds.most));
+    let boxes: Option<Vec<BoundingBox>> = shapes.iter().map(around).collect();
+    Some(Bvh::build::<LEAF>(&boxes?))
+}
+
+/// A ray in the leaves of a table of shapes, and its closest hit so far.
+struct ShapeLeaves<'a, S> {
+    shapes: &'a [S],
+    numbers: &'a [u32],
+    bvh: &'a Bvh,
+    ray: [DVec3; 2],
+    closest: ClosestHit,
+    /// For shapes that have a hierarchy of their own.
+    inner: &'a mut Stack,
+}
+
+impl<S: Shape> LeafTest for ShapeLeaves<'_, S> {
+    #[inline(always)]
+    fn test(&mut self, leaf: usize) -> f64 {
+        for &place in self.bvh.primitives(leaf) {
+            let (shape, number) = (&self.shapes[place as usize], self.numbers[place as usize]);
+            self.closest = shape.keep_closest_of_ray(self.ray, number, self.closest, self.inner);
+        }
+        self.closest.t
+    }
+}
+
+/// Intersects one ray at a time with the shapes whose boxes it hits, and keeps the closest hits.
+///
+/// The result is to the last bit that of testing all shapes: a hierarchy only says which may be left out.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn keep_closest_of<S: Shape>(
+    (shapes, numbers, bvh): (&[S], &[u32], &Bvh),
+    rays: RaySlices<'_>,
+    hits: ClosestHits<'_>,
+) {
+    let ([ox, oy, oz], [dx, dy, dz]) = (rays.origin, rays.direction);
+    let (mut stack, mut inner) = (Stack::default(), Stack::default());
+    for_each_ray(hits, |row, closest| {
+        let origin = DVec3::new(f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
+        let direction = DVec3::new(f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
+        let (ray, t_max, any) = ([origin, direction], closest.t, closest.any);
+        let mut leaves = ShapeLeaves { shapes, numbers, bvh, ray, closest, inner: &mut inner };
+        match any {
+            true => traverse::<true>(bvh, ray, t_max, &mut stack, &mut leaves),
+            false => traverse::<false>(bvh, ray, t_max, &mut stack, &mut leaves),
+        }
+        leaves.closest
+    });
+}

@@ -1,0 +1,329 @@
+use super::arithmetic::{Arithmetic, Precise, dot_of};
+use super::bounds::Bounds;
+use super::emitter::NeverSampled;
+use super::mesh_hierarchy::MeshHierarchy;
+use super::mesh_normal::unnormalised_normal;
+use super::mesh_packet::{MeshPacket, may_be_coherent};
+use super::mesh_traversal::{MeshStacks, closest_of, keep, keep_closest_apart};
+use super::offset::l1_norm;
+use super::ray_block::{ClosestHit, ClosestHits, Intersection, RaySlices};
+use super::shape::{Placed, RayHit, SceneShape, Shape, SurfacePoint};
+use super::space::normal_world_from_object;
+use super::triangle_hit::TriangleHit;
+use super::triangle_row::TriangleRow;
+use super::uv_slope::{UvSlope, planar_slope};
+use crate::bvh::{PACKET, Stack};
+use crate::scene::{MeshGeometry, MeshInstance, SceneError, number};
+use glam::{DMat3, DVec2, DVec3};
+use multiversion::multiversion;
+
+/// A mesh at a place: rays are taken to its object space, and its triangles stay as they are for all of its instances.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedMesh {
+    /// The triangles.
+    pub geometry: MeshGeometry,
+    /// The linear map from render space to object space.
+    pub object_from_world: DMat3,
+    /// Its inverse.
+    pub world_from_object: DMat3,
+    /// The origin of object space, relative to the eye.
+    pub position: DVec3,
+    /// The largest magnitude in the computation of a hit point, for its error bound.
+    pub size: f64,
+    /// Around all of it, in render space.
+    pub bounds: Bounds,
+    /// The sphere through the corners of that box.
+    centre: DVec3,
+    radius: f64,
+}
+
+/// A mesh of more triangles than this is bounded by the corners of its bounding box.
+const FEW: usize = 1024;
+/// A ray that starts farther away than this many times the radius of the sphere around a mesh is moved on to it.
+const FAR_AWAY: f64 = 16.0;
+
+impl SceneShape for MeshInstance {
+    const NAME: &'static str = "MeshInstance";
+    const WORD: &'static str = "mesh";
+
+    fn scale(&mut self, by: f64) {
+        let mut mesh = (*self.geometry).clone();
+        for part in mesh.positions.iter_mut().flatten() {
+            *part = (f64::from(*part) * by) as f32;
+        }
+        self.geometry = MeshGeometry::new(mesh);
+    }
+
+    /// An octahedron, and a flat one.
+    fn examples() -> Vec<Self> {
+        let mut flat = (*MeshGeometry::default()).clone();
+        flat.positions.iter_mut().for_each(|[_, y, _]| *y *= 0.25);
+        vec![Self::default(), Self { geometry: MeshGeometry::new(flat) }]
+    }
+}
+
+impl PlacedMesh {
+    /// Its hierarchy, which is built when the first ray or table asks for it.
+    #[inline(always)]
+    fn hierarchy(&self) -> Option<&MeshHierarchy> {
+        self.geometry.once(MeshHierarchy::of)
+    }
+
+    /// A ray in object space, and whether it starts close enough to the mesh.
+    #[inline(always)]
+    fn near_ray(&self, [origin, direction]: [DVec3; 2]) -> ([DVec3; 2], bool) {
+        let apart = self.centre - origin;
+        let ray = [self.object_from_world * (origin - self.position), self.object_from_world * direction];
+        (ray, apart.length_squared() <= (FAR_AWAY * self.radius) * (FAR_AWAY * self.radius))
+    }
+
+    /// A ray in object space, and the t at which it starts there.
+    ///
+    /// From afar it is moved on to where it is close to the mesh, in double-double, since f64 would not resolve the
+    /// triangles from there; t grows alike in both spaces.
+    #[inline(always)]
+    pub(super) fn own_ray(&self, ray: [DVec3; 2]) -> ([DVec3; 2], f64) {
+        let (own, is_near) = self.near_ray(ray);
+        if is_near { (own, 0.0) } else { self.moved_on(ray).unwrap_or((own, 0.0)) }
+    }
+
+    /// A ray from afar in object space, from where it is about to enter the sphere around the mesh; none for one that
+    /// goes away from it.
+    #[cold]
+    #[inline(never)]
+    fn moved_on(&self, [origin, direction]: [DVec3; 2]) -> Option<([DVec3; 2], f64)> {
+        let length = direction.length();
+        let start = (self.centre - origin).dot(direction) / (length * length) - 1.01 * self.radius / length;
+        if !(start > 0.0 && start.is_finite()) {
+            return None;
+        }
+        let rows = [0, 1, 2].map(|row| self.object_from_world.row(row).to_array().map(Precise::from));
+        let from_position = [0, 1, 2].map(|axis| Precise::from(origin[axis]) - Precise::from(self.position[axis]));
+        let along = direction.to_array().map(Precise::from);
+        let along = rows.map(|row| dot_of(row, along));
+        let at = [0, 1, 2].map(|axis| dot_of(rows[axis], from_position) + Precise::from(start) * along[axis]);
+        let [at, along] = [at, along].map(|vector| DVec3::from(vector.map(Arithmetic::value)));
+        Some(([at, along], start))
+    }
+
+    /// A triangle in object space.
+    pub(super) fn triangle(&self, triangle: u32) -> TriangleRow {
+        let corners = self.geometry.corners(triangle as usize).map(|corner| DVec3::from(corner.map(f64::from)));
+        let size = corners.map(l1_norm).into_iter().fold(0.0, f64::max);
+        TriangleRow { corners, size, centre: DVec3::ZERO, bounding_radius: 0.0 }
+    }
+
+    /// The vertices of a triangle in render space.
+    pub fn placed_triangle(&self, triangle: usize) -> [DVec3; 3] {
+        let placed = |corner: [f32; 3]| self.world_from_object * DVec3::from(corner.map(f64::from)) + self.position;
+        self.geometry.corners(triangle).map(placed)
+    }
+
+    /// The vertices of all triangles in render space.
+    pub fn placed_triangles(&self) -> impl Iterator<Item = [DVec3; 3]> {
+        (0..self.geometry.triangles.len()).map(|triangle| self.placed_triangle(triangle))
+    }
+
+    /// The closest hit, its shape's number 0; [`ClosestHit::NONE`] for a miss.
+    pub fn closest(&self, origin: DVec3, direction: DVec3) -> ClosestHit {
+        self.keep_closest_of_ray([origin, direction], 0, ClosestHit::NONE, &mut Stack::default())
+    }
+
+    /// The same found by testing all triangles.
+    pub fn closest_of_all(&self, origin: DVec3, direction: DVec3) -> ClosestHit {
+        let Some(hierarchy) = self.hierarchy() else { return ClosestHit::NONE };
+        let (ray, start) = self.own_ray([origin, direction]);
+        hierarchy.closest_of_all(ray, start)
+    }
+}
+
+impl Shape for PlacedMesh {
+    type Component = MeshInstance;
+    type Beside = ();
+    type Emitter = NeverSampled;
+
+    const HAS_PRIMITIVES: bool = true;
+
+    fn has_inside(mesh: &MeshInstance) -> bool {
+        is_closed(&mesh.geometry)
+    }
+
+    fn place(mesh: &MeshInstance, placed: &Placed<'_>) -> Result<(Self, ()), SceneError> {
+        let Placed { who, pose, position, .. } = *placed;
+        let geometry = mesh.geometry.clone();
+        let size = geometry.once(MeshHierarchy::of).map_or(0.0, |hierarchy| hierarchy.size);
+        if geometry.triangles.is_empty() || !size.is_finite() {
+            let value = if geometry.triangles.is_empty() { "empty".into() } else { number(size) };
+            return Err(SceneError::new(who, "triangles", value, "there must be one at least, with finite vertices"));
+        }
+        let (world_from_object, object_from_world) = (pose.world_from_entity.matrix3, pose.entity_from_world);
+        let (low, high) = placed_extent(&geometry, world_from_object);
+        let bounds = Bounds::about(position + 0.5 * (low + high), 0.5 * (high - low));
+        // What rounding in object space amounts to in render space.
+        let stretch = norm(world_from_object) * norm(object_from_world);
+        let size = stretch * (l1_norm(position) + norm(world_from_object) * size);
+        if !(size.is_finite() && bounds.least.is_finite() && bounds.most.is_finite()) {
+            return Err(SceneError::new(who, "placed size", number(size), "it must be finite"));
+        }
+        let (centre, radius) = bounds.sphere_around();
+        Ok((Self { geometry, object_from_world, world_from_object, position, size, bounds, centre, radius }, ()))
+    }
+
+    fn intersection(&self, origin: DVec3, direction: DVec3) -> Intersection {
+        Intersection { t: self.closest(origin, direction).t, uncertain: false }
+    }
+
+    fn precise_t(&self, origin: DVec3, direction: DVec3) -> f64 {
+        self.closest(origin, direction).t
+    }
+
+    fn primitive_at(&self, origin: DVec3, direction: DVec3, _t: f64) -> u32 {
+        self.closest(origin, direction).primitive
+    }
+
+    fn keep_closest(meshes: &[Self], numbers: &[u32], rays: RaySlices<'_>, hits: ClosestHits<'_>) {
+        mesh_rows(meshes, numbers, rays, hits);
+    }
+
+    #[inline(always)]
+    fn keep_closest_of_ray(&self, ray: [DVec3; 2], number: u32, closest: ClosestHit, stack: &mut Stack) -> ClosestHit {
+        let Some(hierarchy) = self.hierarchy() else { return closest };
+        hierarchy.keep_closest(self.own_ray(ray), number, closest, stack)
+    }
+
+    fn surface(&self, _: &(), hit: &RayHit) -> SurfacePoint {
+        let triangle = self.triangle(hit.primitive);
+        let ([origin, direction], _) = self.own_ray([hit.origin, hit.direction]);
+        let triangle_hit = TriangleHit::of(origin, direction, &triangle);
+        let point = self.world_from_object * triangle_hit.interpolate(&triangle.corners) + self.position;
+        let along = normal_world_from_object(self.object_from_world, unnormalised_normal(&triangle));
+        let normal = (along / along.abs().max_element()).normalize();
+        let outside = !triangle_hit.along;
+        let normal = if outside { normal } else { -normal };
+        let at = DVec3::from(triangle_hit.weights);
+        SurfacePoint { point, normal, bound: hit.bound(point, self.size), outside, at }
+    }
+
+    fn uv(&self, _: &(), hit: &RayHit, at: DVec3, _own: DVec3) -> [f64; 2] {
+        let uvs = self.uvs_of(hit.primitive);
+        (at.x * uvs[0] + at.y * uvs[1] + at.z * uvs[2]).into()
+    }
+
+    fn uv_slope(&self, _: &(), _uv_from_world: DMat3) -> UvSlope {
+        UvSlope::OfPrimitive
+    }
+
+    fn uv_slope_of(&self, _: &(), triangle: u32) -> UvSlope {
+        let [a, b, c] = self.triangle(triangle).corners.map(|corner| self.world_from_object * corner);
+        planar_slope([b - a, c - a], self.uvs_of(triangle))
+    }
+
+    fn contains(&self, point: DVec3) -> bool {
+        // Any direction will do; this one is along no axis.
+        let direction = DVec3::new(0.6, 0.48, 0.64);
+        let closest = self.closest(point, direction);
+        let hit = RayHit { primitive: closest.primitive, ..RayHit::at_rest(point, direction, closest.t) };
+        closest.t < f64::INFINITY && !self.surface(&(), &hit).outside && is_closed(&self.geometry)
+    }
+
+    fn bounds(&self) -> Option<Bounds> {
+        Some(self.bounds)
+    }
+}
+
+impl PlacedMesh {
+    /// The texture coordinates of a triangle's vertices: those of the mesh, or else (0, 0), (1, 0) and (0, 1).
+    fn uvs_of(&self, triangle: u32) -> [DVec2; 3] {
+        match &self.geometry.uvs {
+            None => [DVec2::ZERO, DVec2::X, DVec2::Y],
+            Some(uvs) => self.geometry.triangles[triangle as usize]
+                .map(|vertex| DVec2::from(uvs[vertex as usize].map(f64::from))),
+        }
+    }
+}
+
+/// The least and greatest coordinates of a placed mesh, without its position: those of all vertices, or of its bounding
+/// box's corners where there are many, since each instance asks.
+fn placed_extent(geometry: &MeshGeometry, world_from_object: DMat3) -> (DVec3, DVec3) {
+    let extent = |points: &mut dyn Iterator<Item = DVec3>| {
+        points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| {
+            let at = world_from_object * at;
+            (low.min(at), high.max(at))
+        })
+    };
+    if let Some(hierarchy) = geometry.once(MeshHierarchy::of).filter(|_| geometry.triangles.len() > FEW) {
+        let sides = [hierarchy.bvh.around.low, hierarchy.bvh.around.high].map(|side| DVec3::from(side.map(f64::from)));
+        let corner = |at: usize| DVec3::new(sides[at & 1].x, sides[at >> 1 & 1].y, sides[at >> 2].z);
+        return extent(&mut (0..8).map(corner));
+    }
+    let vertices = geometry.triangles.iter().flatten();
+    extent(&mut vertices.map(|&vertex| DVec3::from(geometry.positions[vertex as usize].map(f64::from))))
+}
+
+/// Whether a mesh encloses an interior; found out when something first asks for it.
+fn is_closed(geometry: &MeshGeometry) -> bool {
+    geometry.once(MeshHierarchy::of).is_some_and(|hierarchy| hierarchy.is_closed(geometry))
+}
+
+/// The largest factor by which a linear map lengthens a vector, or a little more.
+fn norm(map: DMat3) -> f64 {
+    map.to_cols_array().iter().map(|part| part * part).sum::<f64>().sqrt()
+}
+
+/// Intersects rays with one mesh after another: coherent ones in packets, others one by one, or several in turns where
+/// the hierarchy is larger than a processor's caches.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn mesh_rows(meshes: &[PlacedMesh], numbers: &[u32], rays: RaySlices<'_>, mut hits: ClosestHits<'_>) {
+    if hits.t.len() < PACKET {
+        let mut stack = Stack::default();
+        return for (mesh, &number) in meshes.iter().zip(numbers) {
+            for row in 0..hits.t.len() {
+                let closest = closest_of(&hits, row);
+                keep(&mut hits, row, mesh.keep_closest_of_ray(ray_of(rays, row), number, closest, &mut stack));
+            }
+        };
+    }
+    let (mut packet, mut stacks) = (MeshPacket::default(), MeshStacks::default());
+    for (mesh, &number) in meshes.iter().zip(numbers) {
+        if let Some(hierarchy) = mesh.hierarchy() {
+            let room = (&mut packet, &mut stacks);
+            match hits.any {
+                true => mesh.keep_closest_of_rows::<true>(hierarchy, number, rays, &mut hits, room),
+                false => mesh.keep_closest_of_rows::<false>(hierarchy, number, rays, &mut hits, room),
+            }
+        }
+    }
+}
+
+impl PlacedMesh {
+    #[inline(always)]
+    fn keep_closest_of_rows<const ANY: bool>(
+        &self,
+        hierarchy: &MeshHierarchy,
+        number: u32,
+        rays: RaySlices<'_>,
+        hits: &mut ClosestHits<'_>,
+        (packet, stacks): (&mut MeshPacket, &mut MeshStacks),
+    ) {
+        let own_ray = |row| self.own_ray(ray_of(rays, row));
+        let mut waiting = 0;
+        for start in (0..hits.t.len() / PACKET).map(|packet| packet * PACKET) {
+            let [origin, direction] =
+                [rays.origin, rays.direction].map(|of| of.map(|part| &part[start..start + PACKET]));
+            let some = RaySlices { origin, direction };
+            let near_ray = |place| self.near_ray(ray_of(some, place));
+            if may_be_coherent(some) && packet.set(hierarchy, near_ray) {
+                keep_closest_apart::<ANY>(hierarchy, number, waiting..start, own_ray, hits, stacks);
+                packet.keep_closest::<ANY>(hierarchy, number, start, hits, &mut stacks[0]);
+                waiting = start + PACKET;
+            }
+        }
+        keep_closest_apart::<ANY>(hierarchy, number, waiting..hits.t.len(), own_ray, hits, stacks);
+    }
+}
+
+/// A ray of a column in f64.
+#[inline(always)]
+fn ray_of(rays: RaySlices<'_>, row: usize) -> [DVec3; 2] {
+    [rays.origin, rays.direction].map(|parts| DVec3::from(parts.map(|part| f64::from(part[row]))))
+}

@@ -1,0 +1,47 @@
+use super::exact_sum::{exact_cross, exact_difference};
+use super::mesh::PlacedMesh;
+use super::shape::RayHit;
+use super::space::normal_world_from_object;
+use super::triangle_hit::TriangleHit;
+use super::triangle_row::TriangleRow;
+use glam::DVec3;
+
+/// The least cosine between a shading normal and the direction to the viewer.
+const GRAZING: f64 = 0.01;
+
+impl PlacedMesh {
+    /// The shading normal where a ray hits it, in render space and facing the ray: interpolated from the vertex normals,
+    /// as unit vector; none where the mesh has none, or where they do not all point to one side of the triangle.
+    pub fn shading_normal(&self, hit: &RayHit) -> Option<DVec3> {
+        let normals = self.geometry.normals.as_ref()?;
+        let vertices = self.geometry.triangles[hit.primitive as usize];
+        let normals = vertices.map(|vertex| DVec3::from(normals[vertex as usize].map(f64::from)));
+        let triangle = self.triangle(hit.primitive);
+        let sides = normals.map(|normal| normal.dot(unnormalised_normal(&triangle)));
+        let is_above = sides.iter().all(|&side| side > 0.0);
+        if !(is_above || sides.iter().all(|&side| side < 0.0)) {
+            return None;
+        }
+        let ([origin, direction], _) = self.own_ray([hit.origin, hit.direction]);
+        let triangle_hit = TriangleHit::of(origin, direction, &triangle);
+        let along = normal_world_from_object(self.object_from_world, triangle_hit.interpolate(&normals));
+        let normal = (along / along.abs().max_element()).normalize();
+        let normal = if triangle_hit.along == is_above { -normal } else { normal };
+        // On a coarse mesh it may face away from the viewer, where every material is black.
+        let (towards, cosine) = (-hit.direction, -normal.dot(hit.direction));
+        Some(if cosine < GRAZING { (normal + (GRAZING - cosine) * towards).normalize() } else { normal })
+    }
+}
+
+/// (B − A) × (C − A), from exact differences.
+pub(super) fn unnormalised_normal(triangle: &TriangleRow) -> DVec3 {
+    let [a, b, c] = triangle.corners;
+    let (one, other) = (b - a, c - a);
+    let cross = one.cross(other);
+    // Where a component cancels, f64 would turn the normal of a thin triangle.
+    let largest = one.abs().max_element() * other.abs().max_element();
+    if cross.abs().max_element() > largest * (1.0 / (1_u64 << 24) as f64) {
+        return cross;
+    }
+    DVec3::from(exact_cross(&exact_difference(b, a), &exact_difference(c, a)).map(|part| part.rounded()))
+}

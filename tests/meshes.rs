@@ -1,0 +1,169 @@
+//! Meshes in scenes: the same pictures as their triangles one by one, shared geometry, model files and what is said of
+//! them.
+
+#[path = "models/exporters.rs"]
+mod exporters;
+
+use crate::scenes::{named, offer, one_world};
+use bevy_ecs::prelude::*;
+use glam::{DQuat, DVec3};
+use pinhole::extract::{MeshTable, validate};
+use pinhole::film::Film;
+use pinhole::plan::Census;
+use pinhole::render::render;
+use pinhole::scene::*;
+use pinhole_lab::measure::extremes::{Group, try_group};
+use pinhole_lab::measure::torus_knot::torus_knot;
+use std::fs;
+use std::path::Path;
+
+/// What `cargo run --profile bench -- extremes hierarchy --rays 1000000` tries in full.
+#[test]
+fn a_hierarchy_finds_what_testing_everything_finds_and_no_ray_leaks() {
+    const RAYS: u64 = 2048;
+    let cases = try_group(Group::Hierarchy, "", RAYS, &());
+    for case in &cases {
+        eprint!("{case}");
+        assert!(case.held(), "{case}");
+        assert!(case.rays == RAYS && case.hits > RAYS / 10, "{}: {} of {}", case.name, case.hits, case.rays);
+    }
+}
+
+fn lit() -> World {
+    let mut world = World::new();
+    let look = LookAt { eye: DVec3::new(0.0, 5.0, 8.0), target: DVec3::new(0.0, -0.3, 0.0), ..LookAt::default() };
+    let camera = (Name::new("camera"), PerspectiveCamera::default(), look, Resolution { width: 64, height: 48 });
+    world.spawn(camera);
+    world.spawn((PointLight { intensity: Rgb::grey(900.0), ..PointLight::default() }, Placement::at(4.0, 9.0, 6.0)));
+    world
+}
+
+fn film(scene: &World) -> Film {
+    render(scene, &offer(), &one_world(), &()).expect("renders").film
+}
+
+/// The greatest difference of a pixel of two films.
+fn apart(one: &Film, other: &Film) -> f64 {
+    let pixels = (0..one.height).flat_map(|y| (0..one.width).map(move |x| (x, y)));
+    let part = |(x, y)| (0..3).map(move |part| (one.mean(x, y)[part] - other.mean(x, y)[part]).abs());
+    pixels.flat_map(part).map(f64::from).fold(0.0, f64::max)
+}
+
+fn turned() -> Placement {
+    let orientation = DQuat::from_xyzw(0.1, 0.3, -0.2, 0.9).normalize();
+    Placement { position: DVec3::new(0.3, 0.2, -0.4), orientation, scale: DVec3::new(1.0, 0.8, 1.1) }
+}
+
+/// A mesh in its object space, and the same triangles, each an entity in render space.
+#[test]
+fn a_mesh_looks_like_its_triangles() {
+    let knot = torus_knot(60, 12);
+    let (mut together, mut apart_from) = (lit(), lit());
+    let matte = Matte { colour: Rgb::new(0.6, 0.5, 0.4) };
+    for triangle in 0..knot.triangles.len() {
+        let vertices = knot.corners(triangle).map(|corner| DVec3::from(corner.map(f64::from)));
+        apart_from.spawn((Triangle { vertices, ..Triangle::default() }, turned(), matte));
+    }
+    together.spawn((MeshInstance { geometry: MeshGeometry::new(knot) }, turned(), matte));
+    let worst = apart(&film(&together), &film(&apart_from));
+    eprintln!("a mesh of 1440 triangles and as many entities: pixels differ by {worst:.1e} at most");
+    assert!(worst < 1e-5, "{worst}");
+}
+
+#[test]
+fn instances_have_one_geometry_and_look_like_copies() {
+    let geometry = MeshGeometry::new(torus_knot(60, 12));
+    let scene = |copied: bool| {
+        let mut scene = lit();
+        for x in [-1.5, 1.5] {
+            let own = if copied { MeshGeometry::new((*geometry).clone()) } else { geometry.clone() };
+            let placement = Placement { position: DVec3::X * x, scale: DVec3::splat(0.4), ..turned() };
+            scene.spawn((MeshInstance { geometry: own }, placement, Matte::default()));
+        }
+        scene
+    };
+    let shared = scene(false);
+    let meshes = Census::of(&shared).table::<MeshTable>().expect("meshes");
+    assert!(meshes.row[0].geometry.is(&meshes.row[1].geometry), "the geometry is there once");
+    assert_eq!(apart(&film(&shared), &film(&scene(true))), 0.0);
+}
+
+/// A square of two triangles as a PLY, with one more that has no area.
+const SQUARE: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+    element face 3\nproperty list uchar int vertex_indices\nend_header\n\
+    -1 0 -1\n-1 0 1\n1 0 1\n1 0 -1\n3 0 1 2\n3 0 2 3\n3 1 1 2\n";
+
+const CAMERA: &str = "(perspective_camera: (), look_at: (eye: (0, 5, 8)), resolution: (width: 8, height: 6))";
+
+fn opened(folder: &Path, entities: &str) -> World {
+    let path = folder.join("scene.ron");
+    fs::write(&path, format!("[{CAMERA}, {entities}]")).expect("written");
+    SceneFile::open(&path).expect("a scene file").world()
+}
+
+#[test]
+fn a_scene_file_places_meshes_and_gives_them_materials() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("square.ply"), SQUARE).expect("written");
+    let mesh = "mesh: (file: \"square.ply\")";
+    let mut scene = opened(
+        folder.path(),
+        &format!("(name: \"own\", {mesh}, mirror: ()), (name: \"file's\", {mesh}, placement: (position: (3, 0, 0)))"),
+    );
+    validate(&Census::of(&scene)).expect("accepted");
+    let [own, of_file] = ["own", "file's"].map(|name| {
+        let entity = named(&mut scene, name);
+        let parts: Vec<Entity> = scene.get::<Children>(entity).expect("parts").iter().collect();
+        assert_eq!(parts.len(), 1);
+        (entity, parts[0])
+    });
+    assert_eq!(scene.get::<UsesMaterial>(own.1), Some(&UsesMaterial(own.0)), "the entity's own material");
+    let used = scene.get::<UsesMaterial>(of_file.1).expect("a material").0;
+    assert!(scene.get::<Principled>(used).is_some(), "the file's material");
+    let [one, other] = [own.1, of_file.1].map(|part| scene.get::<MeshInstance>(part).expect("a mesh").geometry.clone());
+    assert!(one.is(&other) && one.triangles.len() == 2, "the file is read once");
+    let ModelNotes(notes) = scene.resource::<ModelNotes>();
+    assert!(notes.iter().any(|note| note.contains("square.ply") && note.contains("without an area")), "{notes:?}");
+    let text = scene_text(&scene).expect("can be written");
+    assert!(text.matches("square.ply").count() == 2 && !text.contains("part 1"), "{text}");
+    film(&scene);
+}
+
+#[test]
+fn what_a_mesh_cannot_be_is_one_sentence() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("square.ply"), SQUARE).expect("written");
+    fs::write(folder.path().join("broken.ply"), &SQUARE[..150]).expect("written");
+    fs::write(folder.path().join("broken.obj"), "v 0 0 0\nf 1 2 3\n").expect("written");
+    fs::write(folder.path().join("square.stl"), SQUARE).expect("written");
+    let said = |entities: &str| {
+        let scene = opened(folder.path(), entities);
+        let error = validate(&Census::of(&scene)).expect_err(entities).to_string();
+        eprintln!("{error}");
+        assert!(!error.contains('\n') && !error.contains(". "), "{error}");
+        error
+    };
+    let missing = said("(name: \"m\", mesh: (file: \"none.ply\"))");
+    assert!(missing.contains("mesh \"m\"") && missing.contains("none.ply"), "{missing}");
+    assert!(said("(name: \"m\", mesh: (file: \"broken.ply\"))").contains("broken.ply"));
+    assert!(said("(name: \"m\", mesh: (file: \"broken.obj\"))").contains("broken.obj"));
+    assert!(said("(name: \"m\", mesh: (file: \"square.stl\"))").contains(".ply"));
+    assert!(said("(name: \"m\", mesh: (file: \"square.ply\"), glass: ())").contains("glass"), "an open mesh of glass");
+    let mut scene = World::new();
+    scene.spawn(PerspectiveCamera::default());
+    scene.spawn(Mesh { file: "square.ply".into() });
+    let error = validate(&Census::of(&scene)).expect_err("nothing has read it").to_string();
+    assert!(error.contains("load_meshes"), "{error}");
+}
+
+/// The fingerprint of a scene is that of what its files hold.
+#[test]
+fn another_mesh_is_another_film() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let print = |text: &str| {
+        fs::write(folder.path().join("square.ply"), text).expect("written");
+        fingerprint(&opened(folder.path(), "(mesh: (file: \"square.ply\"))"))
+    };
+    let (one, again, other) = (print(SQUARE), print(SQUARE), print(&SQUARE.replace("1 0 1\n1", "2 0 1\n1")));
+    assert!(one == again && one != other);
+}
