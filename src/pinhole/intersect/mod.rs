@@ -33,7 +33,7 @@ pub use crate::extract::shape_evidence;
 pub use classify::{classify_hits, classify_stage};
 pub use hits::Hits;
 #[doc(hidden)]
-pub use hits::{HitColumn, HitPrimitives, NO_SHAPE, RayColumn};
+pub use hits::{HitColumn, HitPrimitives, NO_PRIMITIVE, NO_SHAPE, RayColumn};
 #[doc(hidden)]
 pub use moving::{at_rest, intersect_moving, moving_stage, moving_surface_stage};
 #[doc(hidden)]

@@ -45,9 +45,9 @@ pub use decide::{Plan, PlanError, plan};
 pub use evidence::Evidence;
 #[doc(hidden)]
 pub use evidence::{ComponentKind, counted};
+pub use stage::Stage;
 #[doc(hidden)]
-pub use stage::Slot;
-pub use stage::{Stage, StageKind};
+pub use stage::{Slot, StageKind};
 pub use systems::TileSystems;
 #[doc(hidden)]
 pub use systems::{Bounce, RowKind, Sample};

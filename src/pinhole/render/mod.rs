@@ -43,9 +43,9 @@ mod workers;
 pub use adaptive::{Achieved, achieved, planned_samples, samples_for};
 #[doc(hidden)]
 pub use clock::{Lap, StageClock};
+pub use execution::Execution;
 #[doc(hidden)]
-pub use execution::Worlds;
-pub use execution::{Execution, Watch};
+pub use execution::{Watch, Worlds};
 pub use in_progress::RenderInProgress;
 #[doc(hidden)]
 pub use inspect::{

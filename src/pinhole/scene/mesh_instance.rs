@@ -15,6 +15,13 @@ pub struct MeshInstance {
     pub geometry: MeshGeometry,
 }
 
+impl MeshInstance {
+    /// An instance of a mesh of its own; a clone of it has the same geometry.
+    pub fn new(mesh: impl Into<Arc<TriangleMesh>>) -> Self {
+        Self { geometry: MeshGeometry::new(mesh) }
+    }
+}
+
 /// The triangles of a mesh, the same for all of its instances, and what has been computed from them.
 ///
 /// The default is an octahedron of radius 1.

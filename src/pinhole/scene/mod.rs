@@ -111,13 +111,17 @@ pub use image_texture::ImageTexture;
 #[doc(hidden)]
 pub use integrator::LightTransport;
 pub use integrator::{Integrator, LightStrategy};
-pub use layers::{LayerKind, Layers};
+#[doc(hidden)]
+pub use layers::LayerKind;
+pub use layers::Layers;
 pub use lens::{Aperture, Lens};
 pub use light_tracing::LightTracing;
 pub use material::*;
 #[doc(hidden)]
 pub use memory::{TooLittleMemory, check_memory, in_words};
-pub use mesh_instance::{MeshGeometry, MeshInstance};
+#[doc(hidden)]
+pub use mesh_instance::MeshGeometry;
+pub use mesh_instance::MeshInstance;
 #[doc(hidden)]
 pub use model::{MODEL_FILE, MeshPart, ModelFiles, ModelNotes, ModelScene, UnreadMesh, is_model_file};
 pub use model::{Mesh, load_meshes};
@@ -137,7 +141,9 @@ pub use printable::{is_invisible, printable, printable_message, printable_path};
 pub use rectangle::Rectangle;
 #[doc(hidden)]
 pub use request::Statistics;
-pub use request::{TracePixel, View};
+#[doc(hidden)]
+pub use request::TracePixel;
+pub use request::View;
 pub use resolution::Resolution;
 pub use sampling::{Sampler, Sampling};
 pub use scene_error::SceneError;

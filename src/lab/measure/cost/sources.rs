@@ -8,9 +8,10 @@ use std::path::{Path, PathBuf};
 const SOURCE: FileKind = FileKind { name: "a source", most: 16 << 20 };
 
 /// The folders whose code decides what a stage costs.
-const FOLDERS: [&str; 14] = [
+const FOLDERS: [&str; 15] = [
     "plan",
     "cameras",
+    "bvh",
     "shapes",
     "material",
     "lights",
