@@ -3,6 +3,7 @@
 //! At inner nodes intervals of origins and directions stand for all of the rays, which makes one slab test of
 //! sixty-four; before a leaf the rays are tested eight at a time.
 
+use super::by_axis;
 use super::slab_test::{AxisRay, padded_limit, power_of_two_below};
 use super::wide_node::{WIDTH, WideNode};
 
@@ -95,9 +96,7 @@ impl BoxPacket {
     /// Only a far plane's product can be NaN: `most` passes it on, and `least` drops it, so that it is no bound.
     #[inline(always)]
     pub fn enters(&self, node: &WideNode, limit: f32, entry: &mut [f32; WIDTH]) -> u64 {
-        let [x, y, z] = self.first;
-        let enter = [&node.planes[x][0], &node.planes[y][1], &node.planes[z][2]];
-        let leave = [&node.planes[1 - x][0], &node.planes[1 - y][1], &node.planes[1 - z][2]];
+        let [enter, leave] = node.enter_and_leave(self.first);
         let mut enters = [0_u8; WIDTH];
         for child in 0..WIDTH {
             let (mut from, mut until) = (0.0, limit);
@@ -118,8 +117,8 @@ impl BoxPacket {
     /// Whether any ray of a row enters the box of one child before its own limit.
     #[inline(always)]
     pub fn row_enters(&self, node: &WideNode, child: usize, row: usize, limits: &[f32; ROW]) -> bool {
-        let near = [0, 1, 2].map(|axis| node.planes[self.first[axis]][axis][child]);
-        let far = [0, 1, 2].map(|axis| node.planes[1 - self.first[axis]][axis][child]);
+        let near = by_axis(|axis| node.planes[self.first[axis]][axis][child]);
+        let far = by_axis(|axis| node.planes[1 - self.first[axis]][axis][child]);
         let mut enters = [0_u8; ROW];
         for i in 0..ROW {
             let (mut from, mut until) = (0.0, limits[i]);

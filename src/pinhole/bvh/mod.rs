@@ -38,6 +38,15 @@ pub struct Range {
     pub end: u32,
 }
 
+/// A value for each axis.
+///
+/// `[0, 1, 2].map` is left a call where the loop around it is compiled for other instructions than the standard library
+/// is: a sixth of the time of a render of 10⁶ triangles was spent in such calls.
+#[inline(always)]
+pub fn by_axis<T>(of: impl Fn(usize) -> T) -> [T; 3] {
+    [of(0), of(1), of(2)]
+}
+
 /// A bounding volume hierarchy.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bvh {

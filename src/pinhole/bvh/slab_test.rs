@@ -1,6 +1,7 @@
 //! A ray and the eight boxes of a node.
 
 use super::bounding_box::BoundingBox;
+use super::by_axis;
 use super::wide_node::{WIDTH, WideNode};
 use glam::DVec3;
 
@@ -73,7 +74,7 @@ impl BoxRay {
         let direction = direction * (1.0 / unit);
         let extent = (0..3).map(|axis| f64::from(around.high[axis] - around.low[axis]));
         let extent = extent.fold(0.0, |most, extent| if extent > most { extent } else { most });
-        let centre = DVec3::from([0, 1, 2].map(|axis| 0.5 * f64::from(around.doubled_centre(axis))));
+        let centre = DVec3::from(by_axis(|axis| 0.5 * f64::from(around.doubled_centre(axis))));
         let apart = centre - origin;
         let (mut moved, mut error) = (0.0, 0.0);
         if apart.abs().max_element() > FAR_AWAY * extent {
@@ -108,9 +109,7 @@ impl BoxRay {
     /// slab leaves the interval as it is.
     #[inline(always)]
     pub fn enters(&self, node: &WideNode, limit: f32, entry: &mut [f32; WIDTH]) -> u64 {
-        let [x, y, z] = self.first;
-        let near = [&node.planes[x][0], &node.planes[y][1], &node.planes[z][2]];
-        let far = [&node.planes[1 - x][0], &node.planes[1 - y][1], &node.planes[1 - z][2]];
+        let [near, far] = node.enter_and_leave(self.first);
         let mut enters = [0_u8; WIDTH];
         for child in 0..WIDTH {
             let (mut from, mut until) = (0.0, limit);

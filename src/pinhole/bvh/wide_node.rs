@@ -74,6 +74,14 @@ impl WideNode {
         Self { planes, child: [Child::NONE; WIDTH] }
     }
 
+    /// The planes by which a ray enters the slabs of all children, and those by which it leaves them, by axis; `first`
+    /// says for each axis whether it enters by the lower ones, 0, or by the upper ones, 1.
+    #[inline(always)]
+    pub fn enter_and_leave(&self, [x, y, z]: [usize; 3]) -> [[&[f32; WIDTH]; 3]; 2] {
+        let planes = &self.planes;
+        [[&planes[x][0], &planes[y][1], &planes[z][2]], [&planes[1 - x][0], &planes[1 - y][1], &planes[1 - z][2]]]
+    }
+
     /// Sets a child and its box.
     pub fn set(&mut self, place: usize, child: Child, around: &BoundingBox) {
         for axis in 0..3 {

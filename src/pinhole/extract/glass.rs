@@ -46,15 +46,17 @@ impl Table for GlassTable {
 fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
     for &shape in shape_entities(scene).iter() {
         let listed = one_shape(scene, shape)?;
-        if (listed.has_inside)(scene, shape) {
-            continue;
-        }
         let Some(material) = used_material(scene, shape).filter(|&own| matches!(interior_of(scene, own), Ok(Some(_))))
         else {
             continue;
         };
+        // Asked last, since a mesh has to look at all of its edges.
+        if (listed.has_inside)(scene, shape) {
+            continue;
+        }
         let value = format!("the glass {}", called(scene, material));
-        let accepted = "glass needs a shape with an interior: a sphere, a cuboid, a plane or triangles that close";
+        let accepted =
+            "glass needs a shape with an interior: a sphere, a cuboid, a plane, a closed mesh or triangles that close";
         return Err(SceneError::new(kind_and_name(scene, listed.word, shape), "material", value, accepted));
     }
     check_meshes(scene)

@@ -3,13 +3,15 @@ use super::image_file::shown_name;
 use crate::plan::Census;
 use crate::scene::{Mesh, MeshPart, SceneError, UnreadMesh};
 use bevy_ecs::prelude::*;
+use std::collections::BTreeSet;
 
 /// Checks that the model file of every mesh has been read.
 ///
 /// Errors: why one was not.
 pub(super) fn check_mesh_files(scene: &Census<'_>) -> Result<(), SceneError> {
     let parts = scene.entities::<With<MeshPart>>();
-    let owners: Vec<Entity> = parts.iter().filter_map(|&part| scene.get::<MeshPart>(part)).map(|part| part.0).collect();
+    let owners: BTreeSet<Entity> =
+        parts.iter().filter_map(|&part| scene.get::<MeshPart>(part)).map(|part| part.0).collect();
     for &entity in scene.entities::<With<Mesh>>().iter() {
         let Some(mesh) = scene.get::<Mesh>(entity) else { continue };
         let refused = |why: String| {

@@ -86,7 +86,7 @@ impl<S: Listed> Table for ShapesOf<S> {
     }
 
     fn bytes(&self) -> usize {
-        self.row.len() * (size_of::<S>() + size_of::<S::Beside>() + size_of::<u32>())
+        self.row.len() * (size_of::<S>() + size_of::<S::Beside>() + size_of::<u32>()) + S::bytes_beside(&self.row)
     }
 }
 

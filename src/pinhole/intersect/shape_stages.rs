@@ -43,8 +43,8 @@ fn keep_closest<S: Listed>(
     rays: RaySlices<'_>,
     hits: ClosestHits<'_>,
 ) {
-    match hierarchy {
-        Some(hierarchy) => keep_closest_of((&shapes.row, &shapes.shape, &hierarchy.bvh), rays, hits),
+    match hierarchy.and_then(|hierarchy| hierarchy.bvh.as_ref()) {
+        Some(bvh) => keep_closest_of((&shapes.row, &shapes.shape, bvh), rays, hits),
         None => S::keep_closest(&shapes.row, &shapes.shape, rays, hits),
     }
 }

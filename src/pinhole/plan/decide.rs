@@ -82,6 +82,8 @@ pub struct Plan {
     pub columns: Vec<ColumnKind>,
     /// The tables that will exist, each a resource of a render world.
     pub tables: Vec<TableKind>,
+    /// The tables that will not, although there is something to put into them, each with the reason.
+    pub tables_left_out: Vec<(TableKind, String)>,
     /// The passes over the image and over light paths.
     pub passes: Vec<Pass>,
     /// The column that is painted instead of the picture.
@@ -257,7 +259,7 @@ fn find_view(offer: &[&Stage], wanted: &str) -> Result<ColumnKind, PlanError> {
 
 fn collect(scene: &Census<'_>, decided: Vec<Decided<'_>>, view: Option<ColumnKind>) -> Plan {
     let (mut columns, mut tables): (Vec<ColumnKind>, Vec<TableKind>) = (Vec::new(), Vec::new());
-    let (mut stages, mut rows) = (Vec::new(), Vec::new());
+    let (mut stages, mut rows, mut tables_left_out) = (Vec::new(), Vec::new(), Vec::new());
     for decision in decided {
         for column in decision.columns {
             if !columns.contains(&column) {
@@ -270,6 +272,11 @@ fn collect(scene: &Census<'_>, decided: Vec<Decided<'_>>, view: Option<ColumnKin
             }
         }
         if decision.row.kept {
+            for left_out in decision.stage.tables_left_out(scene) {
+                if !tables_left_out.contains(&left_out) {
+                    tables_left_out.push(left_out);
+                }
+            }
             stages.push(decision.stage.clone());
         }
         rows.push(decision.row);
@@ -278,7 +285,16 @@ fn collect(scene: &Census<'_>, decided: Vec<Decided<'_>>, view: Option<ColumnKin
     if stages.iter().any(|stage: &Stage| !stage.runs_in(RowKind::Pixel)) {
         passes.push(Pass { name: "light", row: RowKind::LightPath, product: "splats on the film" });
     }
-    Plan { rows, stages, columns, tables, passes, view, statistics: requested::<Statistics>(scene).is_some() }
+    Plan {
+        rows,
+        stages,
+        columns,
+        tables,
+        tables_left_out,
+        passes,
+        view,
+        statistics: requested::<Statistics>(scene).is_some(),
+    }
 }
 
 fn requested<'s, R: Component>(scene: &'s Census<'_>) -> Option<&'s R> {

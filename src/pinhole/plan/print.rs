@@ -20,6 +20,9 @@ impl fmt::Display for Plan {
         writeln!(f, "columns, bytes per row: {} (together {bytes})", columns.join(", "))?;
         let tables: Vec<&str> = self.tables.iter().map(|table| table.name).collect();
         writeln!(f, "tables: {}", tables.join(", "))?;
+        for (table, why) in &self.tables_left_out {
+            writeln!(f, "without the {}: {why}", table.name)?;
+        }
         if let Some(view) = self.view {
             writeln!(f, "view: `{}` is painted instead of the picture", view.name)?;
         }

@@ -240,6 +240,13 @@ impl Stage {
         self.tables.iter().chain(more).copied().collect()
     }
 
+    /// The tables that it does not read for a scene although there is something to put into them, and why.
+    pub fn tables_left_out(&self, scene: &Census<'_>) -> Vec<(TableKind, String)> {
+        let reasons = self.tables_where.iter().map(|(table, predicate)| (*table, predicate(scene)));
+        let left_out = reasons.filter(|(_, evidence)| !evidence.needed && evidence.count > 0);
+        left_out.map(|(table, evidence)| (table, evidence.reason)).collect()
+    }
+
     /// Makes it read the column that a `View` names.
     pub fn reads_the_view(mut self) -> Self {
         self.reads_view = true;

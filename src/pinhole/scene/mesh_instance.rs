@@ -31,7 +31,7 @@ pub struct MeshGeometry(Arc<Kept>);
 #[derive(Debug)]
 struct Kept {
     mesh: Arc<TriangleMesh>,
-    computed: OnceLock<Box<dyn Any + Send + Sync>>,
+    computed: OnceLock<Arc<dyn Any + Send + Sync>>,
 }
 
 impl MeshGeometry {
@@ -40,9 +40,11 @@ impl MeshGeometry {
         Self(Arc::new(Kept { mesh: mesh.into(), computed: OnceLock::new() }))
     }
 
-    /// The result of a function of the mesh, which is called only the first time; later calls must ask for the same type.
-    pub fn once<A: Any + Send + Sync>(&self, compute: impl FnOnce(&TriangleMesh) -> A) -> Option<&A> {
-        self.0.computed.get_or_init(|| Box::new(compute(&self.0.mesh))).downcast_ref()
+    /// The result of a function of the mesh, which is called only the first time; for results of another type than the
+    /// first it is called every time.
+    pub fn once<A: Any + Send + Sync>(&self, compute: impl Fn(&TriangleMesh) -> A) -> Arc<A> {
+        let computed = self.0.computed.get_or_init(|| Arc::new(compute(&self.0.mesh)));
+        Arc::clone(computed).downcast().unwrap_or_else(|_| Arc::new(compute(&self.0.mesh)))
     }
 
     /// Whether both are the same, and not just equal.

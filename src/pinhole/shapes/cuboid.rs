@@ -66,6 +66,8 @@ impl Shape for Slabs {
     type Beside = ();
     type Emitter = EmittingCuboid;
 
+    const MANY: usize = 64;
+
     fn has_inside(_: &Cuboid) -> bool {
         true
     }

@@ -29,6 +29,8 @@ impl Shape for PlacedDisk {
     type Beside = ();
     type Emitter = EmittingDisk;
 
+    const MANY: usize = 24;
+
     fn has_inside(_: &Disk) -> bool {
         false
     }

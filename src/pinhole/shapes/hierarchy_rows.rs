@@ -1,4 +1,4 @@
-use super::ray_block::{ClosestHit, ClosestHits, RaySlices, for_each_ray};
+use super::ray_block::{ClosestHit, ClosestHits, RaySlices};
 use super::shape::Shape;
 use crate::bvh::{BoundingBox, Bvh, LeafTest, Stack, traverse};
 use glam::DVec3;
@@ -43,19 +43,19 @@ impl<S: Shape> LeafTest for ShapeLeaves<'_, S> {
 pub fn keep_closest_of<S: Shape>(
     (shapes, numbers, bvh): (&[S], &[u32], &Bvh),
     rays: RaySlices<'_>,
-    hits: ClosestHits<'_>,
+    mut hits: ClosestHits<'_>,
 ) {
-    let ([ox, oy, oz], [dx, dy, dz]) = (rays.origin, rays.direction);
     let (mut stack, mut inner) = (Stack::default(), Stack::default());
-    for_each_ray(hits, |row, closest| {
-        let origin = DVec3::new(f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
-        let direction = DVec3::new(f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
-        let (ray, t_max, any) = ([origin, direction], closest.t, closest.any);
-        let mut leaves = ShapeLeaves { shapes, numbers, bvh, ray, closest, inner: &mut inner };
-        match any {
-            true => traverse::<true>(bvh, ray, t_max, &mut stack, &mut leaves),
-            false => traverse::<false>(bvh, ray, t_max, &mut stack, &mut leaves),
+    for row in 0..hits.t.len() {
+        let (ray, closest) = (rays.ray(row), hits.get(row));
+        if closest.is_enough() {
+            continue;
         }
-        leaves.closest
-    });
+        let mut leaves = ShapeLeaves { shapes, numbers, bvh, ray, closest, inner: &mut inner };
+        match closest.any {
+            true => traverse::<true>(bvh, ray, closest.t, &mut stack, &mut leaves),
+            false => traverse::<false>(bvh, ray, closest.t, &mut stack, &mut leaves),
+        }
+        hits.set(row, leaves.closest);
+    }
 }

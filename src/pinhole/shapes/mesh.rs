@@ -4,7 +4,7 @@ use super::emitter::NeverSampled;
 use super::mesh_hierarchy::MeshHierarchy;
 use super::mesh_normal::unnormalised_normal;
 use super::mesh_packet::{MeshPacket, may_be_coherent};
-use super::mesh_traversal::{MeshStacks, closest_of, keep, keep_closest_apart};
+use super::mesh_traversal::{MeshStacks, keep_closest_apart};
 use super::offset::l1_norm;
 use super::ray_block::{ClosestHit, ClosestHits, Intersection, RaySlices};
 use super::shape::{Placed, RayHit, SceneShape, Shape, SurfacePoint};
@@ -16,12 +16,15 @@ use crate::bvh::{PACKET, Stack};
 use crate::scene::{MeshGeometry, MeshInstance, SceneError, number};
 use glam::{DMat3, DVec2, DVec3};
 use multiversion::multiversion;
+use std::sync::Arc;
 
 /// A mesh at a place: rays are taken to its object space, and its triangles stay as they are for all of its instances.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedMesh {
     /// The triangles.
     pub geometry: MeshGeometry,
+    /// The same in a hierarchy.
+    hierarchy: Arc<MeshHierarchy>,
     /// The linear map from render space to object space.
     pub object_from_world: DMat3,
     /// Its inverse.
@@ -38,9 +41,10 @@ pub struct PlacedMesh {
 }
 
 /// A mesh of more triangles than this is bounded by the corners of its bounding box.
-const FEW: usize = 1024;
-/// A ray that starts farther away than this many times the radius of the sphere around a mesh is moved on to it.
-const FAR_AWAY: f64 = 16.0;
+const FEW: usize = 64;
+/// A ray that starts farther away than this many times the radius of the sphere around a mesh is moved on to it; from
+/// there f64 still resolves 2⁻⁴² of the radius.
+const FAR_AWAY: f64 = 1024.0;
 
 impl SceneShape for MeshInstance {
     const NAME: &'static str = "MeshInstance";
@@ -63,12 +67,6 @@ impl SceneShape for MeshInstance {
 }
 
 impl PlacedMesh {
-    /// Its hierarchy, which is built when the first ray or table asks for it.
-    #[inline(always)]
-    fn hierarchy(&self) -> Option<&MeshHierarchy> {
-        self.geometry.once(MeshHierarchy::of)
-    }
-
     /// A ray in object space, and whether it starts close enough to the mesh.
     #[inline(always)]
     fn near_ray(&self, [origin, direction]: [DVec3; 2]) -> ([DVec3; 2], bool) {
@@ -131,9 +129,8 @@ impl PlacedMesh {
 
     /// The same found by testing all triangles.
     pub fn closest_of_all(&self, origin: DVec3, direction: DVec3) -> ClosestHit {
-        let Some(hierarchy) = self.hierarchy() else { return ClosestHit::NONE };
         let (ray, start) = self.own_ray([origin, direction]);
-        hierarchy.closest_of_all(ray, start)
+        self.hierarchy.closest_of_all(ray, start)
     }
 }
 
@@ -143,6 +140,7 @@ impl Shape for PlacedMesh {
     type Emitter = NeverSampled;
 
     const HAS_PRIMITIVES: bool = true;
+    const MANY: usize = 6;
 
     fn has_inside(mesh: &MeshInstance) -> bool {
         is_closed(&mesh.geometry)
@@ -150,14 +148,14 @@ impl Shape for PlacedMesh {
 
     fn place(mesh: &MeshInstance, placed: &Placed<'_>) -> Result<(Self, ()), SceneError> {
         let Placed { who, pose, position, .. } = *placed;
-        let geometry = mesh.geometry.clone();
-        let size = geometry.once(MeshHierarchy::of).map_or(0.0, |hierarchy| hierarchy.size);
+        let (geometry, hierarchy) = (mesh.geometry.clone(), hierarchy_in(&mesh.geometry));
+        let size = hierarchy.size;
         if geometry.triangles.is_empty() || !size.is_finite() {
             let value = if geometry.triangles.is_empty() { "empty".into() } else { number(size) };
             return Err(SceneError::new(who, "triangles", value, "there must be one at least, with finite vertices"));
         }
         let (world_from_object, object_from_world) = (pose.world_from_entity.matrix3, pose.entity_from_world);
-        let (low, high) = placed_extent(&geometry, world_from_object);
+        let (low, high) = placed_extent(&geometry, &hierarchy, world_from_object);
         let bounds = Bounds::about(position + 0.5 * (low + high), 0.5 * (high - low));
         // What rounding in object space amounts to in render space.
         let stretch = norm(world_from_object) * norm(object_from_world);
@@ -166,7 +164,10 @@ impl Shape for PlacedMesh {
             return Err(SceneError::new(who, "placed size", number(size), "it must be finite"));
         }
         let (centre, radius) = bounds.sphere_around();
-        Ok((Self { geometry, object_from_world, world_from_object, position, size, bounds, centre, radius }, ()))
+        Ok((
+            Self { geometry, hierarchy, object_from_world, world_from_object, position, size, bounds, centre, radius },
+            (),
+        ))
     }
 
     fn intersection(&self, origin: DVec3, direction: DVec3) -> Intersection {
@@ -187,8 +188,7 @@ impl Shape for PlacedMesh {
 
     #[inline(always)]
     fn keep_closest_of_ray(&self, ray: [DVec3; 2], number: u32, closest: ClosestHit, stack: &mut Stack) -> ClosestHit {
-        let Some(hierarchy) = self.hierarchy() else { return closest };
-        hierarchy.keep_closest(self.own_ray(ray), number, closest, stack)
+        self.hierarchy.keep_closest(self.own_ray(ray), number, closest, stack)
     }
 
     fn surface(&self, _: &(), hit: &RayHit) -> SurfacePoint {
@@ -223,11 +223,22 @@ impl Shape for PlacedMesh {
         let direction = DVec3::new(0.6, 0.48, 0.64);
         let closest = self.closest(point, direction);
         let hit = RayHit { primitive: closest.primitive, ..RayHit::at_rest(point, direction, closest.t) };
-        closest.t < f64::INFINITY && !self.surface(&(), &hit).outside && is_closed(&self.geometry)
+        closest.t < f64::INFINITY && !self.surface(&(), &hit).outside && self.hierarchy.is_closed(&self.geometry)
     }
 
     fn bounds(&self) -> Option<Bounds> {
         Some(self.bounds)
+    }
+
+    /// The geometry and the hierarchy of each mesh, however many instances it has.
+    fn bytes_beside(meshes: &[Self]) -> usize {
+        let mut seen: Vec<(*const MeshHierarchy, usize)> = meshes
+            .iter()
+            .map(|mesh| (Arc::as_ptr(&mesh.hierarchy), mesh.geometry.bytes() + mesh.hierarchy.bytes()))
+            .collect();
+        seen.sort_unstable();
+        seen.dedup();
+        seen.iter().map(|(_, bytes)| bytes).sum()
     }
 }
 
@@ -244,14 +255,14 @@ impl PlacedMesh {
 
 /// The least and greatest coordinates of a placed mesh, without its position: those of all vertices, or of its bounding
 /// box's corners where there are many, since each instance asks.
-fn placed_extent(geometry: &MeshGeometry, world_from_object: DMat3) -> (DVec3, DVec3) {
+fn placed_extent(geometry: &MeshGeometry, hierarchy: &MeshHierarchy, world_from_object: DMat3) -> (DVec3, DVec3) {
     let extent = |points: &mut dyn Iterator<Item = DVec3>| {
         points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| {
             let at = world_from_object * at;
             (low.min(at), high.max(at))
         })
     };
-    if let Some(hierarchy) = geometry.once(MeshHierarchy::of).filter(|_| geometry.triangles.len() > FEW) {
+    if geometry.triangles.len() > FEW {
         let sides = [hierarchy.bvh.around.low, hierarchy.bvh.around.high].map(|side| DVec3::from(side.map(f64::from)));
         let corner = |at: usize| DVec3::new(sides[at & 1].x, sides[at >> 1 & 1].y, sides[at >> 2].z);
         return extent(&mut (0..8).map(corner));
@@ -260,9 +271,14 @@ fn placed_extent(geometry: &MeshGeometry, world_from_object: DMat3) -> (DVec3, D
     extent(&mut vertices.map(|&vertex| DVec3::from(geometry.positions[vertex as usize].map(f64::from))))
 }
 
+/// The hierarchy of a mesh, built when the first instance asks for it.
+fn hierarchy_in(geometry: &MeshGeometry) -> Arc<MeshHierarchy> {
+    geometry.once(MeshHierarchy::of)
+}
+
 /// Whether a mesh encloses an interior; found out when something first asks for it.
 fn is_closed(geometry: &MeshGeometry) -> bool {
-    geometry.once(MeshHierarchy::of).is_some_and(|hierarchy| hierarchy.is_closed(geometry))
+    hierarchy_in(geometry).is_closed(geometry)
 }
 
 /// The largest factor by which a linear map lengthens a vector, or a little more.
@@ -278,19 +294,16 @@ fn mesh_rows(meshes: &[PlacedMesh], numbers: &[u32], rays: RaySlices<'_>, mut hi
         let mut stack = Stack::default();
         return for (mesh, &number) in meshes.iter().zip(numbers) {
             for row in 0..hits.t.len() {
-                let closest = closest_of(&hits, row);
-                keep(&mut hits, row, mesh.keep_closest_of_ray(ray_of(rays, row), number, closest, &mut stack));
+                hits.set(row, mesh.keep_closest_of_ray(rays.ray(row), number, hits.get(row), &mut stack));
             }
         };
     }
     let (mut packet, mut stacks) = (MeshPacket::default(), MeshStacks::default());
     for (mesh, &number) in meshes.iter().zip(numbers) {
-        if let Some(hierarchy) = mesh.hierarchy() {
-            let room = (&mut packet, &mut stacks);
-            match hits.any {
-                true => mesh.keep_closest_of_rows::<true>(hierarchy, number, rays, &mut hits, room),
-                false => mesh.keep_closest_of_rows::<false>(hierarchy, number, rays, &mut hits, room),
-            }
+        let room = (&mut packet, &mut stacks);
+        match hits.any {
+            true => mesh.keep_closest_of_rows::<true>(number, rays, &mut hits, room),
+            false => mesh.keep_closest_of_rows::<false>(number, rays, &mut hits, room),
         }
     }
 }
@@ -299,19 +312,18 @@ impl PlacedMesh {
     #[inline(always)]
     fn keep_closest_of_rows<const ANY: bool>(
         &self,
-        hierarchy: &MeshHierarchy,
         number: u32,
         rays: RaySlices<'_>,
         hits: &mut ClosestHits<'_>,
         (packet, stacks): (&mut MeshPacket, &mut MeshStacks),
     ) {
-        let own_ray = |row| self.own_ray(ray_of(rays, row));
+        let (hierarchy, own_ray) = (&*self.hierarchy, |row| self.own_ray(rays.ray(row)));
         let mut waiting = 0;
         for start in (0..hits.t.len() / PACKET).map(|packet| packet * PACKET) {
             let [origin, direction] =
                 [rays.origin, rays.direction].map(|of| of.map(|part| &part[start..start + PACKET]));
             let some = RaySlices { origin, direction };
-            let near_ray = |place| self.near_ray(ray_of(some, place));
+            let near_ray = |place| self.near_ray(some.ray(place));
             if may_be_coherent(some) && packet.set(hierarchy, near_ray) {
                 keep_closest_apart::<ANY>(hierarchy, number, waiting..start, own_ray, hits, stacks);
                 packet.keep_closest::<ANY>(hierarchy, number, start, hits, &mut stacks[0]);
@@ -320,10 +332,4 @@ impl PlacedMesh {
         }
         keep_closest_apart::<ANY>(hierarchy, number, waiting..hits.t.len(), own_ray, hits, stacks);
     }
-}
-
-/// A ray of a column in f64.
-#[inline(always)]
-fn ray_of(rays: RaySlices<'_>, row: usize) -> [DVec3; 2] {
-    [rays.origin, rays.direction].map(|parts| DVec3::from(parts.map(|part| f64::from(part[row]))))
 }

@@ -3,7 +3,6 @@
 //! Each ray of a packet computes what it would compute alone, so its hit is the same to the last bit.
 
 use super::mesh_hierarchy::MeshHierarchy;
-use super::mesh_traversal::{closest_of, keep};
 use super::ray_block::{ClosestHit, ClosestHits, RaySlices};
 use super::triangle_block::{ROUNDING, TriangleBlock, certain_t, edge_values, may_be_hit};
 use super::triangle_edges::longest_axis;
@@ -153,16 +152,16 @@ impl MeshPacket {
         stack: &mut Stack,
     ) {
         for place in 0..PACKET {
-            let (row, i, closest) = (place / ROW, place % ROW, closest_of(hits, start + place));
+            let (row, i, closest) = (place / ROW, place % ROW, hits.get(start + place));
             (self.t[row][i], self.shape[row][i]) = (closest.t, closest.shape);
             self.primitive[row][i] = closest.primitive;
-            self.limit[row][i] = self.boxes.limit(closest.t);
+            self.limit[row][i] = if closest.is_enough() { -1.0 } else { self.boxes.limit(closest.t) };
         }
         self.traverse::<ANY>(hierarchy, number, stack);
         for place in 0..PACKET {
-            let (row, i, closest) = (place / ROW, place % ROW, closest_of(hits, start + place));
+            let (row, i, closest) = (place / ROW, place % ROW, hits.get(start + place));
             let (t, shape, primitive) = (self.t[row][i], self.shape[row][i], self.primitive[row][i]);
-            keep(hits, start + place, ClosestHit { t, shape, primitive, ..closest });
+            hits.set(start + place, ClosestHit { t, shape, primitive, ..closest });
         }
     }
 

@@ -44,9 +44,12 @@ struct MeshTraversal<'a> {
 }
 
 impl<'a> MeshTraversal<'a> {
-    /// A ray at the root; none if it is not finite, since it hits nothing then.
+    /// A ray at the root; none if it is not finite, since it hits nothing then, and none if a hit is enough and there.
     #[inline(always)]
     fn new(hierarchy: &'a MeshHierarchy, (ray, start): OwnRay, number: u32, closest: ClosestHit) -> Option<Self> {
+        if closest.is_enough() {
+            return None;
+        }
         // More than the rounding of the sum start + τ, so that ties are found.
         let slack = start * (1.0 / (1_u64 << 50) as f64) - start;
         let traversal = Traversal::new(&hierarchy.bvh, ray, closest.t + slack)?;
@@ -103,15 +106,15 @@ pub fn keep_closest_apart<const ANY: bool>(
 ) {
     if hierarchy.bytes() <= BEYOND_CACHES || rows.len() < TURNS {
         for row in rows {
-            let closest = closest_of(hits, row);
+            let closest = hits.get(row);
             let closest = hierarchy.keep_closest_until::<ANY>(own_ray(row), number, closest, &mut stacks[0]);
-            keep(hits, row, closest);
+            hits.set(row, closest);
         }
         return;
     }
     let mut next = |hits: &ClosestHits<'_>| {
         rows.find_map(|row| {
-            let traversal = MeshTraversal::new(hierarchy, own_ray(row), number, closest_of(hits, row))?;
+            let traversal = MeshTraversal::new(hierarchy, own_ray(row), number, hits.get(row))?;
             Some((row, traversal))
         })
     };
@@ -121,26 +124,10 @@ pub fn keep_closest_apart<const ANY: bool>(
         for (turn, stack) in under_way.iter_mut().zip(&mut *stacks) {
             let Some((row, traversal)) = turn else { continue };
             if !traversal.step::<ANY>(stack) {
-                keep(hits, *row, traversal.leaves.closest);
+                hits.set(*row, traversal.leaves.closest);
                 *turn = next(hits);
                 count -= usize::from(turn.is_none());
             }
         }
-    }
-}
-
-/// The closest hit of a row so far.
-#[inline(always)]
-pub(super) fn closest_of(hits: &ClosestHits<'_>, row: usize) -> ClosestHit {
-    let primitive = hits.primitive.as_deref().map_or(0, |primitive| primitive[row]);
-    ClosestHit { t: hits.t[row], shape: hits.shape[row], primitive, any: hits.any }
-}
-
-/// Keeps the closest hit of a row.
-#[inline(always)]
-pub(super) fn keep(hits: &mut ClosestHits<'_>, row: usize, closest: ClosestHit) {
-    (hits.t[row], hits.shape[row]) = (closest.t, closest.shape);
-    if let Some(primitive) = &mut hits.primitive {
-        primitive[row] = closest.primitive;
     }
 }

@@ -38,6 +38,8 @@ impl<C: FrustumShape> Shape for PlacedFrustum<C> {
     type Beside = ();
     type Emitter = EmittingFrustum;
 
+    const MANY: usize = 48;
+
     fn has_inside(component: &C) -> bool {
         component.is_capped()
     }

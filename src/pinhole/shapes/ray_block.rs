@@ -1,4 +1,5 @@
 use super::shape::Shape;
+use crate::bvh::by_axis;
 use glam::DVec3;
 use multiversion::multiversion;
 
@@ -16,6 +17,15 @@ pub struct RaySlices<'a> {
     pub direction: [&'a [f32]; 3],
 }
 
+impl RaySlices<'_> {
+    /// The origin and direction of a row, exact in f64.
+    #[inline(always)]
+    pub fn ray(&self, row: usize) -> [DVec3; 2] {
+        let vector = |parts: [&[f32]; 3]| DVec3::from(by_axis(|axis| f64::from(parts[axis][row])));
+        [vector(self.origin), vector(self.direction)]
+    }
+}
+
 /// The closest hits of a column of rays so far, one row for each ray.
 pub struct ClosestHits<'a> {
     /// The distance t in r(t) = O + tR, or t_max.
@@ -28,15 +38,19 @@ pub struct ClosestHits<'a> {
     pub any: bool,
 }
 
-/// Replaces the closest hit of each ray by what a function makes of it.
-#[inline(always)]
-pub(super) fn for_each_ray(hits: ClosestHits<'_>, mut closer: impl FnMut(usize, ClosestHit) -> ClosestHit) {
-    let ClosestHits { t, shape, mut primitive, any } = hits;
-    for row in 0..t.len() {
-        let primitive_of_row = primitive.as_deref().map_or(0, |primitive| primitive[row]);
-        let closest = closer(row, ClosestHit { t: t[row], shape: shape[row], primitive: primitive_of_row, any });
-        (t[row], shape[row]) = (closest.t, closest.shape);
-        if let Some(primitive) = &mut primitive {
+impl ClosestHits<'_> {
+    /// That of a row.
+    #[inline(always)]
+    pub fn get(&self, row: usize) -> ClosestHit {
+        let primitive = self.primitive.as_deref().map_or(0, |primitive| primitive[row]);
+        ClosestHit { t: self.t[row], shape: self.shape[row], primitive, any: self.any }
+    }
+
+    /// Sets that of a row.
+    #[inline(always)]
+    pub fn set(&mut self, row: usize, closest: ClosestHit) {
+        (self.t[row], self.shape[row]) = (closest.t, closest.shape);
+        if let Some(primitive) = &mut self.primitive {
             primitive[row] = closest.primitive;
         }
     }
@@ -58,6 +72,12 @@ pub struct ClosestHit {
 impl ClosestHit {
     /// Nothing, up to infinity.
     pub const NONE: Self = Self { t: f64::INFINITY, shape: u32::MAX, primitive: u32::MAX, any: false };
+
+    /// Whether nothing more needs to be tested, since there is a hit and any will do.
+    #[inline(always)]
+    pub fn is_enough(&self) -> bool {
+        self.any && self.shape != u32::MAX
+    }
 }
 
 /// The intersection of a ray with a shape in f64, and whether its error bound leaves it uncertain.

@@ -30,6 +30,8 @@ impl Shape for PlacedRectangle {
     type Beside = ();
     type Emitter = Parallelogram;
 
+    const MANY: usize = 24;
+
     fn has_inside(_: &Rectangle) -> bool {
         false
     }

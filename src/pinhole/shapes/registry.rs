@@ -2,7 +2,7 @@
 
 use super::emitter::{Emitting, LightPoint};
 use super::kind::ShapeKind;
-use super::ray_block::{ClosestHits, RayBlock, for_each_ray, keep_closest_block, vector};
+use super::ray_block::{ClosestHits, RayBlock, keep_closest_block, vector};
 use super::shape::{RayHit, Shape, ShapeNames, SurfacePoint};
 use super::uv::face_axes;
 use super::uv_slope::{UvSlope, most_of, round_step};
@@ -159,14 +159,15 @@ macro_rules! registry {
 with_shapes!(registry);
 
 #[inline(always)]
-fn keep_closest_of_one<S: Shape>(rays: &RayBlock, one: &S, number: u32, hits: ClosestHits<'_>) {
+fn keep_closest_of_one<S: Shape>(rays: &RayBlock, one: &S, number: u32, mut hits: ClosestHits<'_>) {
     if !S::HAS_PRIMITIVES {
         return keep_closest_block(rays, one, number, hits.t, hits.shape);
     }
     let mut stack = Stack::default();
-    for_each_ray(hits, |lane, closest| {
-        one.keep_closest_of_ray([vector(&rays.o, lane), vector(&rays.d, lane)], number, closest, &mut stack)
-    });
+    for lane in 0..hits.t.len() {
+        let ray = [vector(&rays.o, lane), vector(&rays.d, lane)];
+        hits.set(lane, one.keep_closest_of_ray(ray, number, hits.get(lane), &mut stack));
+    }
 }
 
 #[inline(always)]

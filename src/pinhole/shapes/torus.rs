@@ -44,6 +44,8 @@ impl Shape for PlacedTorus {
     type Beside = ();
     type Emitter = NeverSampled;
 
+    const MANY: usize = 16;
+
     fn has_inside(_: &Torus) -> bool {
         true
     }

@@ -4,6 +4,7 @@ use super::ray_block::{ClosestHit, UNIT_ROUNDOFF};
 use super::triangle_edges::longest_axis;
 use super::triangle_exact::exact_triangle_t;
 use super::triangle_row::TriangleRow;
+use crate::bvh::by_axis;
 use glam::DVec3;
 use pinhole_models::TriangleMesh;
 
@@ -123,7 +124,7 @@ impl TriangleBlock {
     /// The vertices of a triangle, whose axes are permuted.
     #[inline(always)]
     pub(super) fn permuted(&self, lane: usize, axes: [usize; 3]) -> [[f64; 3]; 3] {
-        self.corners.each_ref().map(|corner| axes.map(|axis| f64::from(corner[axis][lane])))
+        by_axis(|corner| by_axis(|axis| f64::from(self.corners[corner][axes[axis]][lane])))
     }
 
     /// One of its triangles, for exact arithmetic.

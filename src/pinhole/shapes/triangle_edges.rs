@@ -74,7 +74,8 @@ pub fn edges<const Z: usize>(origin: DVec3, shear: Shear, triangle: &TriangleRow
         let [x, y, z] = permuted::<Z>(vertex - origin);
         (x - shear.x * z, y - shear.y * z, z)
     };
-    let [(ax, ay, az), (bx, by, bz), (cx, cy, cz)] = triangle.corners.map(sheared);
+    let [a, b, c] = triangle.corners;
+    let ((ax, ay, az), (bx, by, bz), (cx, cy, cz)) = (sheared(a), sheared(b), sheared(c));
     let areas = [bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx];
     let lengths = ax.abs() + ay.abs() + bx.abs() + by.abs() + cx.abs() + cy.abs();
     let size = ray_size + triangle.size;

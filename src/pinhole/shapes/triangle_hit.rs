@@ -3,6 +3,7 @@ use super::shape::{RayHit, SurfacePoint};
 use super::triangle_edges::{Edges, Shear, edges, longest_axis};
 use super::triangle_exact::exact_barycentrics;
 use super::triangle_row::TriangleRow;
+use crate::bvh::by_axis;
 use glam::DVec3;
 
 /// The point at which a ray hits a triangle, in barycentric coordinates, and the side.
@@ -33,13 +34,13 @@ impl TriangleHit {
         let Edges { areas, error, .. } = edges::<Z>(origin, shear, triangle, size);
         let whole: f64 = areas.iter().sum();
         let (weights, along) = if 4.0 * error < 0.25 * UNIT_ROUNDOFF * whole.abs() {
-            (areas.map(|area| area / whole), whole * shear.z)
+            (by_axis(|corner| areas[corner] / whole), whole * shear.z)
         } else {
             exact_barycentrics(origin, direction, triangle)
         };
-        let weights = weights.map(|weight| weight.max(0.0));
+        let weights = by_axis(|corner| weights[corner].max(0.0));
         let sum: f64 = weights.iter().sum();
-        Self { weights: weights.map(|weight| weight / sum), along: along > 0.0 }
+        Self { weights: by_axis(|corner| weights[corner] / sum), along: along > 0.0 }
     }
 
     /// Interpolates vectors given at the vertices.

@@ -25,7 +25,7 @@ use bevy_ecs::prelude::*;
 
 /// Whether an entity has a material of its own.
 pub(super) fn is_material(entity: EntityRef<'_>) -> bool {
-    MATERIALS.iter().any(|word| (word.write)(&entity).is_some())
+    MATERIALS.iter().any(|word| entity.contains_type_id((word.kind)()))
 }
 
 /// Every component that is a material, with its word in scene files.

@@ -2,7 +2,7 @@
 
 use super::open_model::OpenModel;
 use crate::scene::{
-    Degrees, DirectionalLight, Emissive, FovAxis, Glass, ImageTexture, NormalMap, OrthographicCamera,
+    Degrees, DirectionalLight, Emissive, FovAxis, Glass, ImageTexture, Name, NormalMap, OrthographicCamera,
     PerspectiveCamera, Placement, PointLight, Principled, Rgb, RoughGlass, SpotLight, TextureBy, Wrap,
 };
 use bevy_ecs::prelude::*;
@@ -15,10 +15,18 @@ const SMOOTH: f64 = 1e-3;
 /// fraction of its size.
 const SHEARED: f64 = 1e-9;
 
+/// Gives an entity the name that the file gives it, if it gives one.
+fn name(scene: &mut World, entity: Entity, name: &str) {
+    if !name.is_empty() {
+        scene.entity_mut(entity).insert(Name::new(name.to_owned()));
+    }
+}
+
 /// Spawns a material of a model.
 pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize) -> Entity {
     let Some(own) = model.model.materials.get(material).cloned() else {
-        return scene.spawn(Principled { base_colour: Rgb::grey(0.8), metallic: 0.0, roughness: 0.5 }).id();
+        let grey = Principled { base_colour: Rgb::grey(0.8), metallic: 0.0, roughness: 0.5 };
+        return scene.spawn((grey, Name::new("default material"))).id();
     };
     let [r, g, b] = own.base_colour;
     let entity = if own.transmission > 0.5 {
@@ -34,6 +42,7 @@ pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize) -> 
         let metallic = if own.metallic_roughness_texture.is_some() { 0.0 } else { own.metallic };
         scene.spawn(Principled { base_colour, metallic, roughness: own.roughness }).id()
     };
+    name(scene, entity, &own.name);
     if own.emission != [0.0; 3] && own.emission_texture.is_none() {
         let [r, g, b] = own.emission;
         scene.entity_mut(entity).insert(Emissive { radiance: Rgb::new(r, g, b), ..Emissive::default() });
@@ -79,7 +88,7 @@ fn stance_of(matrix: &DAffine3) -> Placement {
 /// Spawns a camera of a model.
 pub fn spawn_camera(scene: &mut World, camera: &ModelCamera) -> Entity {
     let placement = stance_of(&camera.world_from_camera);
-    match camera.projection {
+    let entity = match camera.projection {
         Projection::Perspective { yfov, .. } => {
             let fov = Degrees(yfov.to_degrees());
             scene.spawn((PerspectiveCamera { fov, axis: FovAxis::Vertical }, placement)).id()
@@ -87,7 +96,9 @@ pub fn spawn_camera(scene: &mut World, camera: &ModelCamera) -> Entity {
         Projection::Orthographic { ymag, .. } => {
             scene.spawn((OrthographicCamera { view_height: 2.0 * ymag }, placement)).id()
         }
-    }
+    };
+    name(scene, entity, &camera.name);
+    entity
 }
 
 /// Spawns a light of a model.
@@ -95,7 +106,7 @@ pub fn spawn_light(scene: &mut World, light: &ModelLight) -> Entity {
     let placement = stance_of(&light.world_from_light);
     let [r, g, b] = light.colour.map(|part| part * light.intensity);
     let rgb = Rgb::new(r, g, b);
-    match light.kind {
+    let entity = match light.kind {
         LightKind::Directional => {
             scene.spawn((DirectionalLight { irradiance: rgb, casts_shadows: true }, placement)).id()
         }
@@ -104,5 +115,7 @@ pub fn spawn_light(scene: &mut World, light: &ModelLight) -> Entity {
             let [inner_angle, outer_angle] = [inner, outer].map(|half| Degrees((2.0 * half).to_degrees()));
             scene.spawn((SpotLight { intensity: rgb, inner_angle, outer_angle, casts_shadows: true }, placement)).id()
         }
-    }
+    };
+    name(scene, entity, &light.name);
+    entity
 }

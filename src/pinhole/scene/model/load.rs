@@ -6,7 +6,7 @@ use crate::scene::{ChildOf, Disabled, MeshGeometry, MeshInstance, Name, Placemen
 use bevy_ecs::prelude::*;
 use glam::DAffine3;
 use pinhole_models::{Instance, TriangleMesh};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Reads the model file of every enabled entity that names one, and spawns its meshes as children of that entity; what has
@@ -18,7 +18,7 @@ pub fn load_meshes(scene: &mut World) {
     let mut named: Vec<(Entity, String)> =
         query.iter(scene).map(|(entity, mesh)| (entity, mesh.file.clone())).collect();
     named.sort_by_key(|(entity, _)| entity.index());
-    let loaded: Vec<Entity> = scene.query::<&MeshPart>().iter(scene).map(|part| part.0).collect();
+    let loaded: BTreeSet<Entity> = scene.query::<&MeshPart>().iter(scene).map(|part| part.0).collect();
     let mut materials = BTreeMap::new();
     for (entity, file) in named.into_iter().filter(|(entity, _)| !loaded.contains(entity)) {
         match open_model(scene, &file) {

@@ -72,7 +72,8 @@ impl ModelScene {
         let camera = open.as_ref().ok().and_then(|open| Some(spawn_camera(&mut scene, open.model.cameras.first()?)));
         let camera = camera.unwrap_or_else(|| {
             let looks = open.as_ref().map_or_else(|_| LookAt::default(), |open| fitted(&open.model));
-            scene.spawn((PerspectiveCamera { fov: FOV, axis: FovAxis::Smaller }, looks)).id()
+            let fitted = PerspectiveCamera { fov: FOV, axis: FovAxis::Smaller };
+            scene.spawn((Name::new("fitted camera"), fitted, looks)).id()
         });
         let sampling = Sampling { samples: 16, ..Sampling::default() };
         let resolution = Resolution { width: 640, height: 360 };
@@ -83,9 +84,11 @@ impl ModelScene {
                 spawn_light(&mut scene, &ModelLight { intensity: light.intensity * exposure, ..light.clone() });
             }
             if !has_lights(&open.model) {
-                scene.spawn(Gradient { bottom: Rgb::grey(0.2), top: Rgb::new(0.36, 0.46, 0.64) });
-                let sun = LookAt { eye: DVec3::new(0.6, 1.0, 0.5), target: DVec3::ZERO, ..LookAt::default() };
-                scene.spawn((DirectionalLight { irradiance: Rgb::new(1.8, 1.7, 1.5), casts_shadows: true }, sun));
+                let sky = Gradient { bottom: Rgb::grey(0.2), top: Rgb::new(0.36, 0.46, 0.64) };
+                scene.spawn((Name::new("added sky"), sky));
+                let shines = LookAt { eye: DVec3::new(0.6, 1.0, 0.5), target: DVec3::ZERO, ..LookAt::default() };
+                let sun = DirectionalLight { irradiance: Rgb::new(1.8, 1.7, 1.5), casts_shadows: true };
+                scene.spawn((Name::new("added sun"), sun, shines));
             }
         }
         let name = self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
