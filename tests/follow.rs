@@ -22,6 +22,8 @@ mod leaning;
 mod light_paths;
 #[path = "follow/long_paths.rs"]
 mod long_paths;
+#[path = "follow/many_lights.rs"]
+mod many_lights;
 #[path = "follow/materials.rs"]
 mod materials;
 #[path = "follow/nested.rs"]

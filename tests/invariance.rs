@@ -16,6 +16,7 @@ use pinhole_lab::measure::film_bits::digest;
 use pinhole_lab::measure::sweep::{scale, shift};
 use scenes::caustics::{caustics, traced};
 use scenes::followed::{INTEGRATORS, followed};
+use scenes::many::many_lights;
 use scenes::material::{brushed, specular};
 use scenes::{
     EYES, Eye, FilmBits, Setup, blurred, film, film_by, full, moving, named, offer, one_world, shapes_of_all_kinds,
@@ -47,6 +48,7 @@ fn pictures() -> Vec<(&'static str, World)> {
         ("paths", paths(Setup::default())),
         ("Whitted's rays", whitted(Setup::default())),
         ("the sky", sky(Setup::default())),
+        ("many lights", sampled_once(many_lights(Setup::default()))),
         ("ties", ties()),
         ("unlit", unlit),
     ]
@@ -54,7 +56,10 @@ fn pictures() -> Vec<(&'static str, World)> {
 
 /// Brushed metal by one ray a pixel, as what is inspected has.
 fn brushed_once() -> World {
-    let mut scene = brushed(Setup::default());
+    sampled_once(brushed(Setup::default()))
+}
+
+fn sampled_once(mut scene: World) -> World {
     let camera = named(&mut scene, "camera");
     scene.entity_mut(camera).remove::<Sampling>();
     scene
@@ -338,7 +343,13 @@ fn light_from_area_lights_scales_by_powers_of_two() {
             film(&scaled).assert_is(&expected, &format!("lamps {lamps}, lens {lens}, scaled by 2^{k}"));
         }
     }
-    eprintln!("scale of light from lamps: 3 scenes, 4 powers of two, all equal");
+    let expected = film(&many_lights(Setup::default()));
+    for k in [-20, -3, 1, 20] {
+        let mut scaled = many_lights(Setup::default());
+        scale(&mut scaled, k);
+        film(&scaled).assert_is(&expected, &format!("many lights, scaled by 2^{k}"));
+    }
+    eprintln!("scale of light from lamps: 4 scenes, 4 powers of two, all equal");
 }
 
 #[test]

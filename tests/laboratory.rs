@@ -4,6 +4,7 @@ mod book;
 mod book_numbers;
 mod conventions;
 mod costs;
+mod curves;
 mod entity_per_ray;
 mod exercises;
 mod extremes;

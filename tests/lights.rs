@@ -1,5 +1,8 @@
 //! Every registered light without an area, tested with no line for it: what it sends, what arrives, what it is refused.
 
+#[path = "lights/many.rs"]
+mod many;
+
 use crate::scenes::named;
 use bevy_ecs::prelude::*;
 use glam::DVec3;

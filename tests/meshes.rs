@@ -4,16 +4,23 @@
 #[path = "models/exporters.rs"]
 mod exporters;
 
+#[path = "../chapters/28_meshes/seashell.rs"]
+mod seashell;
+
 use crate::scenes::{named, offer, one_world};
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
 use pinhole::extract::{MeshTable, validate};
 use pinhole::film::Film;
-use pinhole::plan::Census;
+use pinhole::plan::{Census, Table};
 use pinhole::render::render;
 use pinhole::scene::*;
+use pinhole::shapes::{PlacedMesh, Shape};
 use pinhole_lab::measure::extremes::{Group, try_group};
+use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::measure::torus_knot::torus_knot;
+use pinhole_lab::naive::mesh::{closest_hit, vertex_normals};
+use seashell::{MOON, TOWER, coiled};
 use std::fs;
 use std::path::Path;
 
@@ -166,4 +173,55 @@ fn another_mesh_is_another_film() {
     };
     let (one, again, other) = (print(SQUARE), print(SQUARE), print(&SQUARE.replace("1 0 1\n1", "2 0 1\n1")));
     assert!(one == again && one != other);
+}
+
+/// The book's model: closed, its triangles anticlockwise from outside, its normals those of its faces on the whole.
+#[test]
+fn shells_are_closed_and_their_normals_point_outward() {
+    for (coil, along, around) in
+        [(&TOWER, 300, 16), (&TOWER, 64, 12), (&TOWER, 30, 5), (&MOON, 100, 24), (&MOON, 20, 3)]
+    {
+        let geometry = coiled(coil, along, around);
+        assert!(PlacedMesh::has_inside(&MeshInstance { geometry: geometry.clone() }), "{along} x {around}");
+        let corners = |triangle: usize| geometry.corners(triangle).map(|at| DVec3::from(at.map(f64::from)));
+        let faces = (0..geometry.triangles.len()).map(corners);
+        let volume: f64 = faces.map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum();
+        assert!(volume > 0.1, "{along} x {around}: {volume}");
+        let normals = geometry.normals.as_ref().expect("normals");
+        let of_faces = vertex_normals(&geometry);
+        let apart =
+            normals.iter().zip(&of_faces).filter(|(own, face)| face.dot(DVec3::from(own.map(f64::from))) <= 0.0);
+        let apart = apart.count();
+        eprintln!("{along} x {around}: volume {volume:.3}, {apart} of {} normals on the other side", normals.len());
+        assert!(apart * 20 < normals.len(), "{along} x {around}: {apart} of {}", normals.len());
+    }
+}
+
+/// The textbook's loop over all triangles, and pinhole's hierarchy.
+#[test]
+fn brute_force_finds_the_same_hits_on_a_shell() {
+    const RAYS: u64 = 4000;
+    let mut scene = lit();
+    let geometry = coiled(&TOWER, 80, 10);
+    scene.spawn((MeshInstance { geometry: geometry.clone() }, turned()));
+    let table = MeshTable::extract(&Census::of(&scene)).expect("a mesh");
+    let mesh = &table.row[0];
+    let (mut hits, mut wrong) = (0, 0);
+    for index in 0..RAYS {
+        let mut draws = Draws::new(2802, index);
+        let target = mesh.position + draws.unit_vector() * draws.unit();
+        let origin = target + 4.0 * draws.unit_vector();
+        let direction = (target - origin).normalize();
+        let own = [mesh.object_from_world * (origin - mesh.position), mesh.object_from_world * direction];
+        let expected = closest_hit(own[0], own[1], &geometry);
+        let found = mesh.closest(origin, direction);
+        hits += u64::from(expected.is_some());
+        wrong += u64::from(match expected {
+            None => found.t < f64::INFINITY,
+            Some((t, _)) => (found.t - t).abs() > 1e-9 * t,
+        });
+    }
+    eprintln!("{RAYS} rays at a shell of {} triangles: {hits} hit, {wrong} differ", geometry.triangles.len());
+    assert_eq!(wrong, 0);
+    assert!(hits > RAYS / 5, "{hits}");
 }

@@ -1,8 +1,10 @@
 //! What the renderer must hold, stage by stage and as a whole.
 
+mod boxes;
 mod cameras;
 mod census;
 mod circles;
+mod counted;
 mod emitters;
 mod film;
 mod follow;

@@ -18,6 +18,8 @@ mod hostile;
 mod json;
 #[path = "scene_files/list.rs"]
 mod list;
+#[path = "scene_files/many_lights.rs"]
+mod many_lights;
 #[path = "scene_files/round_trip.rs"]
 mod round_trip;
 #[path = "scene_files/watch.rs"]

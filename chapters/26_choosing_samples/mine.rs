@@ -4,7 +4,9 @@ use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{AreaLightTable, EmissiveTable, NO_ROW};
 use pinhole::follow;
+use glam::DVec3;
 use pinhole::intersect::{EmissiveRows, Hits, SurfaceSides};
+use pinhole::lights::Receiver;
 use pinhole::plan::Shared;
 use pinhole::rays::{Paths, PixelSamples, Tile, WorldRays};
 use pinhole::shade::{Radiance, area_light_pdf};
@@ -30,8 +32,10 @@ pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                     let weight = if paths.pdf[row] == f64::INFINITY || light == NO_ROW {
                         1.0
                     } else {
-                        let (from, at) = (rays.origin_of(row), rays.point_at(row, hits.t[row]));
-                        let asked = (paths.pdf[row], area_light_pdf(&lights, light as usize, from, at));
+                        let at = rays.point_at(row, hits.t[row]);
+                        // Few lights are chosen by power alone, whatever the normal.
+                        let receiver = Receiver { position: rays.origin_of(row), normal: DVec3::ZERO };
+                        let asked = (paths.pdf[row], area_light_pdf(&lights, light as usize, &receiver, at));
                         ask.at((tile, samples, Some(paths)), row, asked).unwrap_or_default()
                     } as f32;
                     radiance.r[row] += weight * r;

@@ -1,6 +1,7 @@
 use crate::remarks::Remarks;
 use glam::DVec3;
 
+// ANCHOR: triangle_mesh
 /// A mesh of triangles, as plain columns: one row per vertex, and one per triangle.
 ///
 /// Every position is finite, every triangle has an area, and every index is that of a vertex.
@@ -15,6 +16,7 @@ pub struct TriangleMesh {
     /// The vertices' texture coordinates: u to the right and v down, (0, 0) at the image's upper left corner.
     pub uvs: Option<Vec<[f32; 2]>>,
 }
+// ANCHOR_END: triangle_mesh
 
 impl TriangleMesh {
     /// The positions of a triangle's vertices.

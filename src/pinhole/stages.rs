@@ -86,10 +86,14 @@ const LIST: &[Part] = &[Part(&[
     (DirectLight, shade::start_light_stage),
     (Bounces, follow::start_paths_stage),
     (Bounces, follow::start_scattered_stage),
+    (AreaLights, follow::start_departures_stage),
 
     // Rays are intersected with each kind of shape, and the closest hit is kept.
 ], intersections), Part(&[
     (Motion, intersect::moving_stage),
+
+    // What rays were tested against is counted, where a view asks for it.
+    (Intersection, intersect::count_stage),
 
     // Rows are sorted by the kinds of shapes and materials that were hit.
     (Surfaces, intersect::classify_stage),
@@ -155,6 +159,7 @@ const LIST: &[Part] = &[Part(&[
     (Bounces, follow::add_bounce_stage),
     (LightTracing, follow::splat_stage),
     (Glass, follow::carry_media_stage),
+    (AreaLights, follow::keep_departures_stage),
     (Bounces, follow::next_bounce_stage),
     (Bounces, follow::footprints_stage),
     (Bounces, follow::times_stage),

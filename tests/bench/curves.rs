@@ -1,28 +1,44 @@
 //! What a ray costs against the number of spheres and of triangles: `cargo bench --bench curves`.
 //!
-//! `--most 1000000` ends the curves there; `--only spheres` or `--only triangles` draws one of them.
+//! `--most 1000000` ends the curves there; `--only spheres` or `--only triangles` draws one of them; `--write` keeps both
+//! beside chapter 31, whose page shows them.
 //! Spheres lie at random in a cube and fill the same part of it at any number; triangles are those of a torus knot.
 //! Coherent rays are those of a camera in 8 × 8 tiles, random ones start in the cube and go anywhere.
-//! Each time is the least of five, of one thread, in processor time; for up to 1024 spheres, and some kinds of shapes
-//! beside, testing all of them one after another is timed as well, which says from how many on a hierarchy pays.
+//! Each time is the least of five, of one thread, in processor time; where testing everything would take too long, fewer
+//! rays do it.
+//! The binary tree is the laboratory's plain one, of single boxes and single triangles in f64; rays alone are traced in
+//! columns too short for packets and for turns.
+//! For some kinds of shapes beside, it is timed from how many on a hierarchy pays.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 use cpu_time::ProcessTime;
 use glam::DVec3;
+use pinhole::bvh::BoundingBox;
 use pinhole::intersect::NO_SHAPE;
 use pinhole::scene::{MeshGeometry, MeshInstance, Placement};
 use pinhole::shapes::{ClosestHits, Ellipsoid, MeshHierarchy, PlacedCylinder, PlacedDisk, PlacedMesh, PlacedRectangle};
-use pinhole::shapes::{PlacedSphere, PlacedTorus, RaySlices, Shape, Slabs, TriangleRow, hierarchy_of, keep_closest_of};
+use pinhole::shapes::{PlacedSphere, PlacedTorus, RaySlices, Shape, Slabs, TriangleRow};
+use pinhole::shapes::{hierarchy_of, keep_closest_of, triangle_t};
+use pinhole_lab::measure::cost::made_from_these;
 use pinhole_lab::measure::oracle::Oracle;
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::measure::specimen::Specimen;
 use pinhole_lab::measure::torus_knot::torus_knot;
+use pinhole_lab::naive::tree::{Search, Tree, build as build_tree, by_cost, to_visit};
 
 /// The rays that a stage gets at once.
 const BATCH: usize = 1024;
 /// The side of the picture whose rays are coherent; as many rays are random.
 const SIDE: usize = 256;
 const ROUNDS: usize = 5;
+/// A column of so few rays has no packet, and none of its rays takes turns.
+const ALONE: usize = 32;
+/// The most primitives that are all tested, and that are put in the binary tree.
+const MOST_ALL: usize = 120_000;
+const MOST_BINARY: usize = 1_200_000;
+
+const CHAPTER: &str = "31_wide_tree";
+const BESIDE: [&str; 3] = ["src/lab/naive/tree.rs", "src/lab/measure/torus_knot.rs", "tests/bench/curves.rs"];
 
 /// Rays as the columns of a tile hold them.
 struct Rays([Vec<f32>; 6]);
@@ -59,15 +75,21 @@ impl Rays {
         }))
     }
 
-    /// Nanoseconds a ray that a kernel takes, and how many hit something.
-    fn time(&self, mut keep_closest: impl FnMut(RaySlices<'_>, ClosestHits<'_>)) -> (f64, usize) {
-        let rows = self.0[0].len();
+    /// Nanoseconds a ray that a kernel takes, and the part of the rays that hits something; `rows` rays in columns of
+    /// `batch`.
+    fn time(
+        &self,
+        rows: usize,
+        batch: usize,
+        mut keep_closest: impl FnMut(RaySlices<'_>, ClosestHits<'_>),
+    ) -> (f64, f64) {
+        let rows = rows.min(self.0[0].len());
         let (mut least, mut hit) = (f64::INFINITY, 0);
         for _ in 0..ROUNDS {
             let (mut t, mut shape) = (vec![f64::INFINITY; rows], vec![NO_SHAPE; rows]);
             let start = ProcessTime::now();
-            for first in (0..rows).step_by(BATCH) {
-                let batch = first..rows.min(first + BATCH);
+            for first in (0..rows).step_by(batch) {
+                let batch = first..rows.min(first + batch);
                 let [ox, oy, oz, dx, dy, dz] = self.0.each_ref().map(|column| &column[batch.clone()]);
                 let rays = RaySlices { origin: [ox, oy, oz], direction: [dx, dy, dz] };
                 let (t, shape) = (&mut t[batch.clone()], &mut shape[batch]);
@@ -76,7 +98,50 @@ impl Rays {
             least = least.min(start.elapsed().as_nanos() as f64 / rows as f64);
             hit = shape.iter().filter(|shape| **shape != NO_SHAPE).count();
         }
-        (least, hit)
+        (least, hit as f64 / rows as f64)
+    }
+}
+
+/// So many rays test everything where there are so many primitives.
+fn rays_for(primitives: usize) -> usize {
+    (200_000_000 / primitives).clamp(BATCH, SIDE * SIDE)
+}
+
+/// A table of numbers, a row for each count.
+struct Curve {
+    title: String,
+    columns: Vec<&'static str>,
+    rows: Vec<(usize, Vec<Option<f64>>)>,
+}
+
+impl Curve {
+    fn new(title: &str, columns: &[&'static str]) -> Self {
+        println!("{title}");
+        Self { title: title.into(), columns: columns.to_vec(), rows: Vec::new() }
+    }
+
+    /// Keeps a row and prints it.
+    fn push(&mut self, count: usize, row: Vec<Option<f64>>) {
+        self.rows.push((count, row));
+        if self.rows.len() == 1 {
+            println!("{}", self.lines()[0]);
+        }
+        println!("{}", self.lines()[self.rows.len()]);
+    }
+
+    /// The names of its columns, and a line for each row.
+    fn lines(&self) -> Vec<String> {
+        let named = |name: &&str| format!("  {name:>10}");
+        let mut lines = vec![format!("{:>9}{}", "count", self.columns.iter().map(named).collect::<String>())];
+        for (count, row) in &self.rows {
+            let shown = |(value, name): (&Option<f64>, &&str)| {
+                let number = value.map_or_else(|| "-".into(), |value| format!("{value:.1}"));
+                format!("  {number:>width$}", width = name.len().max(10))
+            };
+            let shown: String = row.iter().zip(&self.columns).map(shown).collect();
+            lines.push(format!("{count:>9}{shown}"));
+        }
+        lines
     }
 }
 
@@ -94,33 +159,91 @@ fn shapes_of<S: Oracle>(count: usize) -> Vec<S> {
     shapes
 }
 
-fn shape_curve<S: Oracle>(plural: &str, counts: &[usize], one_by_one: usize) {
-    let sets = [("coherent", Rays::coherent(1.0)), ("random", Rays::random(1.0))];
-    println!("{plural}: ns a ray through the hierarchy and one by one, build, bytes each");
+/// Where a hierarchy begins to pay for a kind of shape.
+fn shape_curve<S: Oracle>(plural: &str, counts: &[usize]) {
+    let columns = ["tree, coherent", "all, coherent", "tree, random", "all, random"];
+    let mut curve = Curve::new(plural, &columns);
+    let sets = [Rays::coherent(1.0), Rays::random(1.0)];
     for &count in counts {
         let shapes = shapes_of::<S>(count);
+        let numbers: Vec<u32> = (0..count as u32).collect();
+        let bvh = hierarchy_of(&shapes).expect("bounded shapes");
+        let row = sets.iter().flat_map(|rays| {
+            let all = SIDE * SIDE;
+            let (tree, hits) =
+                rays.time(all, BATCH, |rays, hits| keep_closest_of((&shapes, &numbers, &bvh), rays, hits));
+            let (one_by_one, same) = rays.time(all, BATCH, |rays, hits| S::keep_closest(&shapes, &numbers, rays, hits));
+            assert_eq!(hits, same, "{count} {plural}");
+            [Some(tree), Some(one_by_one)]
+        });
+        curve.push(count, row.collect());
+    }
+}
+
+/// One ray after another through the laboratory's tree.
+fn through_plain_tree(
+    tree: &Tree,
+    t_of: impl Fn(usize, [DVec3; 2]) -> f64,
+) -> impl FnMut(RaySlices<'_>, ClosestHits<'_>) {
+    move |rays, hits| {
+        for row in 0..hits.t.len() {
+            let ray = rays.ray(row);
+            let mut search = Search::new(ray, hits.t[row]);
+            tree.closest(&mut search, &to_visit, &mut |number| t_of(number, ray));
+            (hits.t[row], hits.shape[row]) = (search.t, search.number.min(NO_SHAPE as usize) as u32);
+        }
+    }
+}
+
+const SPHERES: [&str; 7] =
+    ["all, random", "binary, random", "wide, random", "all, coherent", "wide, coherent", "hierarchy KiB", "build ms"];
+
+fn sphere_curve(counts: &[usize]) -> Curve {
+    let mut curve = Curve::new("spheres at random in a cube", &SPHERES);
+    let [coherent, random] = [Rays::coherent(1.0), Rays::random(1.0)];
+    let whole = SIDE * SIDE;
+    for &count in counts {
+        let shapes = shapes_of::<PlacedSphere>(count);
         let numbers: Vec<u32> = (0..count as u32).collect();
         let start = ProcessTime::now();
         let bvh = hierarchy_of(&shapes).expect("bounded shapes");
         let build = 1e3 * start.elapsed().as_secs_f64();
-        print!("{count:>9}");
-        for (name, rays) in &sets {
-            let (ns, hits) = rays.time(|rays, hits| keep_closest_of((&shapes, &numbers, &bvh), rays, hits));
-            print!("  {name} {ns:>7.1} ns");
-            if count <= one_by_one {
-                let (all, same) = rays.time(|rays, hits| S::keep_closest(&shapes, &numbers, rays, hits));
-                assert_eq!(hits, same, "{count} {plural}");
-                print!(" for {all:>8.1}");
-            }
-            print!(" ({:.0} % hit)", 100.0 * hits as f64 / (SIDE * SIDE) as f64);
-        }
-        println!("  built in {build:.2} ms, {:.1} bytes", bvh.bytes() as f64 / count as f64);
+        let wide = |rays: &Rays| {
+            rays.time(whole, BATCH, |rays, hits| keep_closest_of((&shapes, &numbers, &bvh), rays, hits)).0
+        };
+        let all = |rays: &Rays| {
+            let few = rays_for(count);
+            let kernel = |rays: RaySlices<'_>, hits: ClosestHits<'_>| {
+                PlacedSphere::keep_closest(&shapes, &numbers, rays, hits);
+            };
+            (count <= MOST_ALL).then(|| rays.time(few, BATCH, kernel).0)
+        };
+        let binary = (count <= MOST_BINARY).then(|| {
+            let tree = Tree::of_shapes(&shapes, by_cost);
+            random.time(whole, BATCH, through_plain_tree(&tree, |at, [o, d]| shapes[at].t(o, d))).0
+        });
+        let row = [all(&random), binary, Some(wide(&random)), all(&coherent), Some(wide(&coherent))];
+        let rest = [bvh.bytes() as f64 / 1024.0, build].map(Some);
+        curve.push(count, row.into_iter().chain(rest).collect());
     }
+    curve
 }
 
-fn triangle_curve(most: usize) {
-    let sets = [("coherent", Rays::coherent(3.5)), ("random", Rays::random(3.0))];
-    println!("triangles of a mesh: ns a ray, build, bytes each");
+const TRIANGLES: [&str; 8] = [
+    "all, random",
+    "binary, random",
+    "alone, random",
+    "turns, random",
+    "alone, coherent",
+    "packets, coherent",
+    "hierarchy KiB",
+    "build ms",
+];
+
+fn triangle_curve(most: usize) -> Curve {
+    let mut curve = Curve::new("triangles of a torus knot", &TRIANGLES);
+    let [coherent, random] = [Rays::coherent(3.5), Rays::random(3.0)];
+    let whole = SIDE * SIDE;
     for power in 4..=14 {
         // 2 · 12.8 a · a triangles.
         let around = libm::round(libm::sqrt(libm::exp10(f64::from(power) / 2.0) / 25.6)).max(3.0);
@@ -133,38 +256,98 @@ fn triangle_curve(most: usize) {
         let start = ProcessTime::now();
         let bytes = MeshHierarchy::of(&geometry).bytes();
         let build = 1e3 * start.elapsed().as_secs_f64();
+        let binary = (count <= MOST_BINARY).then(|| {
+            let row = |triangle: usize| {
+                let corners = geometry.corners(triangle).map(|corner| DVec3::from(corner.map(f64::from)));
+                TriangleRow { corners, size: 10.0, centre: DVec3::ZERO, bounding_radius: 0.0 }
+            };
+            let rows: Vec<TriangleRow> = (0..count).map(row).collect();
+            let around = |TriangleRow { corners: [a, b, c], .. }: &TriangleRow| {
+                BoundingBox::around(a.min(*b).min(*c), a.max(*b).max(*c))
+            };
+            let tree = build_tree(&rows.iter().map(around).collect::<Vec<_>>(), (0..count).collect(), by_cost);
+            random.time(whole, BATCH, through_plain_tree(&tree, |at, [o, d]| triangle_t(o, d, &rows[at])))
+        });
         let mesh = Specimen::<PlacedMesh>::of(MeshInstance { geometry }, Placement::default()).expect("a mesh").shape;
-        print!("{count:>9}");
-        for (name, rays) in &sets {
-            let one = std::slice::from_ref(&mesh);
-            let (ns, hits) = rays.time(|rays, hits| PlacedMesh::keep_closest(one, &[0], rays, hits));
-            print!("  {name} {ns:>7.1} ns ({:.0} % hit)", 100.0 * hits as f64 / (SIDE * SIDE) as f64);
-        }
-        println!("  built in {build:.2} ms, {:.1} bytes", bytes as f64 / count as f64);
+        let one = std::slice::from_ref(&mesh);
+        let all = (count <= MOST_ALL).then(|| {
+            random.time(rays_for(count), BATCH, |rays, hits| {
+                for row in 0..hits.t.len() {
+                    let [origin, direction] = rays.ray(row);
+                    let closest = mesh.closest_of_all(origin, direction);
+                    (hits.t[row], hits.shape[row]) = (closest.t, closest.shape);
+                }
+            })
+        });
+        let wide = |rays: &Rays, batch: usize| {
+            rays.time(whole, batch, |rays, hits| PlacedMesh::keep_closest(one, &[0], rays, hits))
+        };
+        let [alone, turns] = [ALONE, BATCH].map(|batch| wide(&random, batch));
+        let [coherent_alone, packets] = [ALONE, BATCH].map(|batch| wide(&coherent, batch));
+        assert!(alone.1 == turns.1 && coherent_alone.1 == packets.1, "{count} triangles: other rays hit");
+        assert!(binary.is_none_or(|(_, hits)| hits == alone.1), "{count} triangles: other rays hit the binary tree");
+        let row = [all, binary, Some(alone), Some(turns), Some(coherent_alone), Some(packets)];
+        let rest = [bytes as f64 / 1024.0, build].map(Some);
+        curve.push(count, row.into_iter().map(|timed| timed.map(|(ns, _)| ns)).chain(rest).collect());
     }
+    curve
+}
+
+/// The processor's name and its caches, as Linux tells them.
+fn machine() -> String {
+    let read = |path: String| std::fs::read_to_string(path).unwrap_or_default().trim().to_owned();
+    let cpus = read("/proc/cpuinfo".into());
+    let name = cpus.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
+    let caches = (0..8).filter_map(|index| {
+        let of = |what: &str| read(format!("/sys/devices/system/cpu/cpu0/cache/index{index}/{what}"));
+        let kib: usize = of("size").strip_suffix('K')?.parse().ok()?;
+        (of("type") != "Instruction").then(|| format!("L{} {kib} KiB", of("level")))
+    });
+    let caches: Vec<String> = caches.collect();
+    format!("machine: {}; caches: {}", name.map_or("unknown", |(_, name)| name), caches.join(", "))
+}
+
+/// Keeps the curves beside their chapter.
+fn keep(curves: &[Curve]) {
+    let made_from = made_from_these(CHAPTER, &BESIDE).expect("the sources are here");
+    let head = "nanoseconds a ray, processor time of one thread, the least of five; - is not measured";
+    let mut text = format!("{head}\n");
+    for curve in curves {
+        text += &format!("\n{}\n{}\n", curve.title, curve.lines().join("\n"));
+    }
+    text += &format!("\n{}\nmade from {made_from}\n", machine());
+    let file = format!("{}/chapters/{CHAPTER}/curves.txt", env!("CARGO_MANIFEST_DIR"));
+    std::fs::write(file, text).expect("the curves can be written");
 }
 
 fn main() {
-    let after = |flag: &str| std::env::args().skip_while(|word| word != flag).nth(1);
+    let words: Vec<String> = std::env::args().collect();
+    let after = |flag: &str| words.iter().position(|word| word == flag).and_then(|at| words.get(at + 1));
     let most = after("--most").map_or(10_000_000, |most| most.parse().expect("a number"));
     let only = after("--only");
-    let wants = |what: &str| only.as_deref().is_none_or(|only| only == what);
-    if wants("spheres") {
-        let counts: Vec<usize> = [16, 32, 64, 100, 128, 192, 256, 512, 1000, 10_000, 100_000, 1_000_000]
-            .into_iter()
-            .filter(|&count| count <= most)
-            .collect();
-        shape_curve::<PlacedSphere>("spheres", &counts, 1024);
-        shape_curve::<Slabs>("cuboids", &[16, 32, 64, 128, 256], 1024);
-        shape_curve::<TriangleRow>("single triangles", &[16, 32, 64, 128, 192, 256], 1024);
-        shape_curve::<PlacedMesh>("meshes", &[2, 4, 8, 16, 32, 64], 1024);
-        shape_curve::<PlacedDisk>("disks", &[16, 32, 64, 128, 192, 256], 1024);
-        shape_curve::<PlacedRectangle>("rectangles", &[16, 32, 64, 128, 192, 256], 1024);
-        shape_curve::<PlacedCylinder>("cylinders", &[8, 16, 32, 64, 128], 1024);
-        shape_curve::<PlacedTorus>("tori", &[4, 8, 16, 32, 64], 1024);
-        shape_curve::<Ellipsoid>("ellipsoids", &[16, 32, 64, 128, 192, 256], 1024);
-    }
+    let wants = |what: &str| only.is_none_or(|only| only == what);
+    let mut curves = Vec::new();
     if wants("triangles") {
-        triangle_curve(most);
+        curves.push(triangle_curve(most));
+    }
+    if wants("spheres") {
+        let counts = (4..=12).map(|power| libm::round(libm::exp10(f64::from(power) / 2.0)) as usize);
+        let counts: Vec<usize> = counts.filter(|&count| count <= most).collect();
+        curves.push(sphere_curve(&counts));
+    }
+    println!("{}", machine());
+    if words.iter().any(|word| word == "--write") && only.is_none() {
+        return keep(&curves);
+    }
+    if wants("spheres") {
+        shape_curve::<PlacedSphere>("spheres", &[16, 32, 64, 100, 128, 192, 256, 512]);
+        shape_curve::<Slabs>("cuboids", &[16, 32, 64, 128, 256]);
+        shape_curve::<TriangleRow>("single triangles", &[16, 32, 64, 128, 192, 256]);
+        shape_curve::<PlacedMesh>("meshes", &[2, 4, 8, 16, 32, 64]);
+        shape_curve::<PlacedDisk>("disks", &[16, 32, 64, 128, 192, 256]);
+        shape_curve::<PlacedRectangle>("rectangles", &[16, 32, 64, 128, 192, 256]);
+        shape_curve::<PlacedCylinder>("cylinders", &[8, 16, 32, 64, 128]);
+        shape_curve::<PlacedTorus>("tori", &[4, 8, 16, 32, 64]);
+        shape_curve::<Ellipsoid>("ellipsoids", &[16, 32, 64, 128, 192, 256]);
     }
 }

@@ -3,6 +3,7 @@
 use super::environment::{evening, summed};
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
+use pinhole::models::TriangleMesh;
 use pinhole::plan::{Census, Stage, plan};
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
@@ -81,10 +82,30 @@ fn lamps() -> Vec<(&'static str, f64, fn(&mut World, Emissive))> {
                 w.spawn((Triangle { vertices, ..Triangle::default() }, Placement::default(), e));
             }
         }),
+        ("mesh of a square", square_above, |w, e| {
+            w.spawn((square_mesh(12), Placement::at(0.0, 1.0, 0.0), e));
+        }),
+        ("mesh of two triangles", square_above, |w, e| {
+            w.spawn((square_mesh(1), Placement::at(0.0, 1.0, 0.0), e));
+        }),
         ("under side of a cuboid", square_above, |w, e| {
             w.spawn((Cuboid { size: DVec3::new(2.0, 0.5, 2.0) }, Placement::at(0.0, 1.25, 0.0), e));
         }),
     ]
+}
+
+/// A square of side 2 in the plane y = 0, its front below, of so many cells a side, each of two triangles.
+fn square_mesh(cells: u32) -> MeshInstance {
+    let at = |step: u32| 2.0 * step as f32 / cells as f32 - 1.0;
+    let corners = (0..=cells).flat_map(|x| (0..=cells).map(move |z| [at(x), 0.0, at(z)]));
+    let vertex = |x: u32, z: u32| x * (cells + 1) + z;
+    let cells = (0..cells).flat_map(|x| (0..cells).map(move |z| (x, z)));
+    let triangles = cells.flat_map(|(x, z)| {
+        let [a, b, c, d] = [vertex(x, z), vertex(x + 1, z), vertex(x + 1, z + 1), vertex(x, z + 1)];
+        [[a, b, c], [a, c, d]]
+    });
+    let mesh = TriangleMesh { positions: corners.collect(), triangles: triangles.collect(), ..Default::default() };
+    MeshInstance { geometry: MeshGeometry::new(mesh) }
 }
 
 #[test]
@@ -96,13 +117,13 @@ fn a_floor_is_as_bright_as_closed_forms_say() {
         for (sides, seen) in [(DQuat::IDENTITY, 1.0), (DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0), 0.0)] {
             let mut world = floor(Sampler::Independent);
             spawn(&mut world, Emissive { radiance: Rgb::grey(2.0), sides: Sides::Front });
-            let planar = matches!(name, "disk" | "square" | "square of two triangles");
+            let planar = matches!(name, "disk" | "square" | "square of two triangles") || name.starts_with("mesh");
             let lamps: Vec<Entity> = world.query_filtered::<Entity, With<Emissive>>().iter(&world).collect();
             if planar && seen == 0.0 {
                 // Turned over about an axis through its middle at its own height, and so in place.
                 for lamp in lamps {
                     let mut placement = world.get_mut::<Placement>(lamp).expect("placed");
-                    let height = if name.ends_with("triangles") { 2.0 } else { 0.0 };
+                    let height = if name == "square of two triangles" { 2.0 } else { 0.0 };
                     placement.orientation = sides * placement.orientation;
                     placement.position.y += height;
                 }

@@ -4,16 +4,20 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::system::RunSystemOnce;
 use glam::{DQuat, DVec3, Vec3};
 use pinhole::extract::{
-    AreaLightTable, CuboidTable, DiskTable, PlaneTable, RectangleTable, SamplingTable, SphereTable, TriangleTable,
+    AreaLightTable, CuboidTable, DiskTable, MeshTable, PlaneTable, RectangleTable, SamplingTable, SphereTable,
+    TriangleTable,
 };
 use pinhole::intersect::{MaterialRows, NO_SHAPE, Surface, Surfaces, intersect_shapes};
+use pinhole::lights::Receiver;
+use pinhole::models::TriangleMesh;
 use pinhole::plan::{Census, Column, Shared, Table};
 use pinhole::rays::{SampleNumber, Tile};
 use pinhole::scene::*;
 use pinhole::shade::{LightPdfs, LightRays, ShadowHits, area_light_pdf, sample_area_lights, start_shadows};
 use pinhole::shapes::emitter::EmittingTriangle;
 use pinhole::shapes::{
-    Emitter, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere, Slabs, TriangleRow, offset_bound, point_on,
+    Emitter, PlacedDisk, PlacedMesh, PlacedPlane, PlacedRectangle, PlacedSphere, Slabs, TriangleRow, offset_bound,
+    point_on,
 };
 use pinhole_lab::measure::ray_aim::Draws;
 
@@ -35,6 +39,7 @@ fn tile_world(scene: &World) -> (World, Entity) {
     insert::<CuboidTable>(&mut world, scene);
     insert::<TriangleTable>(&mut world, scene);
     insert::<PlaneTable>(&mut world, scene);
+    insert::<MeshTable>(&mut world, scene);
     let columns = (
         Surfaces::default(),
         MaterialRows::default(),
@@ -66,6 +71,7 @@ fn traced(world: &mut World, tile: Entity, surfaces: &[Surface], sample: u32) ->
     world.run_system_once(intersect_shapes::<Slabs, LightRays, ShadowHits>).expect("runs");
     world.run_system_once(intersect_shapes::<TriangleRow, LightRays, ShadowHits>).expect("runs");
     world.run_system_once(intersect_shapes::<PlacedPlane, LightRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<PlacedMesh, LightRays, ShadowHits>).expect("runs");
     let entity = world.entity(tile);
     let rays = entity.get::<LightRays>().expect("rays");
     assert_eq!(entity.get::<LightPdfs>().expect("pdfs").rows(), rays.rows());
@@ -75,7 +81,7 @@ fn traced(world: &mut World, tile: Entity, surfaces: &[Surface], sample: u32) ->
 type Lamp = fn(&mut World, Placement, f64);
 
 /// Every kind of light, of about this size.
-const LAMPS: [(&str, Lamp); 8] = [
+const LAMPS: [(&str, Lamp); 9] = [
     ("sphere", |w, at, size| {
         w.spawn((Sphere { radius: size }, at, Emissive::default()));
     }),
@@ -100,6 +106,13 @@ const LAMPS: [(&str, Lamp); 8] = [
     }),
     ("cuboid", |w, at, size| {
         w.spawn((Cuboid { size: DVec3::new(1.0, 0.3, 2.0) * size }, at, Emissive::default()));
+    }),
+    ("flat mesh", |w, at, size| {
+        let corner = |x: f64, y: f64| [(x * size) as f32, (y * size) as f32, 0.0];
+        let positions = vec![corner(0.0, 0.0), corner(1.0, 0.1), corner(0.9, 1.0), corner(-0.1, 0.8), corner(0.4, 0.4)];
+        let triangles = vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+        let mesh = TriangleMesh { positions, triangles, ..TriangleMesh::default() };
+        w.spawn((MeshInstance { geometry: MeshGeometry::new(mesh) }, at, Emissive::default()));
     }),
     ("several", |w, at, size| {
         w.spawn((Sphere { radius: size }, at, Emissive::default()));
@@ -137,7 +150,8 @@ fn no_light_occludes_itself() {
                 .map(|row| {
                     let mut draws = Draws::new(900 + case, u64::from(row));
                     let from = far_off + draws.unit_vector() * size * 3.0;
-                    let on = from + point_on(&lights.emitter[0], from, [draws.unit(), draws.unit()]).to;
+                    let u = [draws.unit(), draws.unit()];
+                    let on = from + lights.with_light(0, |emitter, _, _| point_on(emitter, from, u).to);
                     let away = draws.unit_vector() * (size * draws.power_of_ten(-7.0, 3.0));
                     let position = (on + away).as_vec3();
                     let normal = (-away.normalize() + 0.9 * draws.unit_vector()).normalize().as_vec3();
@@ -149,7 +163,7 @@ fn no_light_occludes_itself() {
                 let (rays, blockers) = traced(&mut world, tile, &surfaces, sample);
                 let occluders = blockers.iter().filter(|&&shape| shape != NO_SHAPE).count();
                 // Of several, one may hide the other.
-                if lights.emitter.len() == 1 {
+                if name != "several" {
                     assert_eq!(occluders, 0, "{name}, case {case}, size {size:e} at {far_off}");
                     blocked += occluders;
                 }
@@ -157,7 +171,7 @@ fn no_light_occludes_itself() {
             }
         }
     }
-    eprintln!("light rays: {sent} sent to 8 kinds of light, {blocked} stopped by the light itself");
+    eprintln!("light rays: {sent} sent to 9 kinds of light, {blocked} stopped by the light itself");
     assert!(sent > 100_000);
 }
 
@@ -194,6 +208,13 @@ fn what_stands_before_a_light_hides_it() {
     assert!(sent > 30_000);
 }
 
+/// By how much the triangles from a point to the edges of a triangle are larger than it.
+fn excess(emitter: &Emitter, at: DVec3) -> f64 {
+    let Emitter::Mesh(EmittingTriangle { corners: [a, b, c], .. }) = *emitter else { return 0.0 };
+    let area = |a: DVec3, b: DVec3, c: DVec3| (b - a).cross(c - a).length();
+    area(at, a, b) + area(at, b, c) + area(at, c, a) - area(a, b, c)
+}
+
 /// The pdf beside each ray is the one that a ray which hits the light by BSDF sampling is given.
 #[test]
 fn both_strategies_know_one_pdf() {
@@ -228,14 +249,22 @@ fn both_strategies_know_one_pdf() {
                 _ => 0.0,
             };
             let nearest = (0..lights.emitter.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-            let light = nearest.expect("a light");
-            let off = (area_light_pdf(&lights, light, from, at) / pdfs.pdf[ray] - 1.0).abs();
+            let triangle = || {
+                // The triangle of a mesh that the point lies in: its areas with the corners add up to the least.
+                let excess = |light: &usize| lights.with_light(*light, |emitter, _, _| excess(emitter, at));
+                (0..lights.lights()).min_by(|a, b| excess(a).total_cmp(&excess(b))).expect("a light")
+            };
+            let light = nearest.unwrap_or_else(triangle);
+            let receiver = Receiver { position: from, normal: DVec3::Y };
+            let off = (area_light_pdf(&lights, light, &receiver, at) / pdfs.pdf[ray] - 1.0).abs();
             // The direction is rounded to f32 in between, which at a disk's ends, where its pdf grows without end,
             // is much; from afar a pdf goes with the square of the distance, and t_max ends short of the light.
             // Where a planar light is seen obliquely, the rounding counts by one over the cosine more.
-            let obliqueness = match &lights.emitter[0] {
+            let obliqueness = match &lights.with_light(light, |emitter, _, _| *emitter) {
                 Emitter::Rectangle(planar) => planar.normal.dot(direction).abs(),
-                Emitter::Triangle(EmittingTriangle { normal, .. }) => normal.dot(direction).abs(),
+                Emitter::Triangle(EmittingTriangle { normal, .. }) | Emitter::Mesh(EmittingTriangle { normal, .. }) => {
+                    normal.dot(direction).abs()
+                }
                 _ => 1.0,
             };
             let off = off * obliqueness;

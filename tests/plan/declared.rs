@@ -119,7 +119,7 @@ fn systems_say_what_stages_touch() {
     let [reads, reads_if, _, writes, ..] = touched(&stage);
     assert_eq!(
         (reads, reads_if),
-        (vec!["surface", "material rows", "light"], vec!["shading", "transmissive rows"]),
+        (vec!["surface", "material rows", "light"], vec!["shading", "transmissive rows", "samples", "path"]),
         "a stage that appends"
     );
     assert_eq!((writes, stage.appends), (vec!["light", "light pdf"], true));
@@ -127,7 +127,7 @@ fn systems_say_what_stages_touch() {
     let stage = remaining_bounces_stage();
     let [reads, _, reasons, writes, tables, _] = touched(&stage);
     assert_eq!((reads, writes), (vec!["world", "path light"], vec!["path light"]), "an exclusive system declares");
-    assert_eq!((reasons.len(), tables), (4, vec!["integrator"]));
+    assert_eq!((reasons.len(), tables), (5, vec!["integrator"]));
 
     let chapter = chapters::all().into_iter().find(|chapter| chapter.name == "12_how_it_is_built").expect("a chapter");
     let own = chapter.offer.iter().find(|stage| stage.name == "Compute facing ratios").expect("on offer");

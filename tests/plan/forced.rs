@@ -90,9 +90,17 @@ fn forcing_an_exact_stage_on_changes_nothing() {
          together {together} ran; never dropped: {untried:?}",
         scenes.len()
     );
-    // Two are needed by every picture; media are carried where a scene needs them, or read by nothing; the rows of glass
-    // are read by alternatives only.
-    let never = ["Accumulate film", "Carry media to the next bounce", "Clear radiance", "List rows: glass"];
+    // Two are needed by every picture; media and the surfaces that rays leave are carried where a scene needs them, or
+    // read by nothing; the rows of glass are read by alternatives only, and counts of tests by views.
+    let never = [
+        "Accumulate film",
+        "Carry media to the next bounce",
+        "Clear radiance",
+        "Clear the surfaces that rays left",
+        "Count tests",
+        "Keep the surfaces that rays leave",
+        "List rows: glass",
+    ];
     assert_eq!(untried, never.each_ref(), "tried too little");
 }
 
@@ -211,6 +219,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("light from lamps on frosted glass", on_frosted_glass()),
         ("bumps", bumps()),
         ("a mesh", a_mesh()),
+        ("many lights", scenes::many::many_lights(Setup { size, ..Setup::default() })),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();

@@ -4,7 +4,8 @@ use super::*;
 use pinhole::extract::NO_ROW;
 use pinhole::follow::{CausticPaths, LightPower, Media, Scattered, Splats};
 use pinhole::intersect::{
-    EmissiveRows, HitPrimitives, Hits, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, SurfaceUvs, Surfaces,
+    BoxTests, EmissiveRows, HitPrimitives, Hits, MaterialRows, NO_SHAPE, PrimitiveTests, ShadingNormals, SurfaceSides,
+    SurfaceUvs, Surfaces, TraversalDepths,
 };
 use pinhole::plan::Column;
 use pinhole::rays::{
@@ -95,6 +96,10 @@ fn each_column_is_painted_as_its_page_says() {
         ),
         shown(LightRays { path: vec![0], dx, dy, dz, ..Default::default() }, &[LEANING]),
         shown(LightPdfs { path: vec![0; 2], pdf: vec![0.0, 3.0] }, &[BLACK, grey(0.75)]),
+        // Half of the scale, which is red, at 64 boxes, 16 primitives or 4 nodes; white would be infinity.
+        shown(BoxTests { boxes: vec![0, 64] }, &[BLACK, [0.8, 0.22, 0.28]]),
+        shown(PrimitiveTests { primitives: vec![0, 16, 48] }, &[BLACK, [0.8, 0.22, 0.28], [0.98, 0.66, 0.15]]),
+        shown(TraversalDepths { depth: vec![0, 4] }, &[BLACK, [0.8, 0.22, 0.28]]),
         shown(Radiance { r: vec![0.25], g: vec![0.5], b: vec![2.0] }, &[COLOUR]),
     ];
     let hits = Hits { t: vec![0.0, 60.0, 0.0, 1.0], shape: vec![0, 0, 1, NO_SHAPE] };

@@ -3,6 +3,7 @@
 
 pub mod caustics;
 pub mod followed;
+pub mod many;
 pub mod material;
 pub mod public;
 mod soft;

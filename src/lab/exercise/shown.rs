@@ -26,6 +26,16 @@ impl Shown for u32 {
     }
 }
 
+impl Shown for bool {
+    fn shown(&self) -> String {
+        self.to_string()
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        Vec::new()
+    }
+}
+
 impl<T: Shown, const N: usize> Shown for [T; N] {
     fn shown(&self) -> String {
         let parts: Vec<String> = self.iter().map(Shown::shown).collect();

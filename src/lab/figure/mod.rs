@@ -9,9 +9,11 @@
 
 pub mod acne;
 pub mod aliasing;
+pub mod boxes;
 pub mod broken_paths;
 pub mod cameras;
 pub mod caustics;
+pub mod curves;
 mod drawn_image;
 pub mod field_of_view;
 pub mod filters;
@@ -25,6 +27,7 @@ mod label;
 pub mod lobes;
 pub mod look_at;
 pub mod materials;
+pub mod meshes;
 pub mod ndc;
 pub mod normals;
 mod occluders;
@@ -49,9 +52,11 @@ mod sketch;
 pub mod slabs;
 mod subject;
 mod svg;
+pub mod tree;
 #[cfg(test)]
 mod trial;
 pub mod two_classes;
+pub mod wide_tree;
 
 pub use drawn_image::{DRAWN_IMAGES, DrawnImage};
 pub use grid::{Grid, drawn_distance};
@@ -110,6 +115,11 @@ impl Figure {
     fn stamp(&self, [width, height]: [u32; 2], note: &str) -> String {
         let note = if note.is_empty() { String::new() } else { format!(" · {note}") };
         format!("scene {}, {width} × {height} pixels{note} · cargo run --release -- figure {}", self.chapter, self.name)
+    }
+
+    /// The same for a figure of what was measured and kept, with the machine that measured it.
+    fn kept_stamp(&self, machine: &str) -> String {
+        format!("scene {}, its curves.txt · {machine} · cargo run --release -- figure {}", self.chapter, self.name)
     }
 
     /// Why a chapter's scene does not suit the figure.

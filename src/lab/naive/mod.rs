@@ -4,6 +4,7 @@
 //! textbook would. No chapter's render uses anything from here; figures show what would have come of it.
 
 pub mod adaptive;
+pub mod boxes;
 pub mod camera;
 pub mod caustics;
 pub mod cuboid;
@@ -17,6 +18,7 @@ pub mod film;
 pub mod lens;
 pub mod light;
 pub mod material;
+pub mod mesh;
 pub mod mistake;
 pub mod motion;
 pub mod ndc;
@@ -28,4 +30,6 @@ pub mod screen;
 pub mod shadow;
 pub mod sphere;
 pub mod texture;
+pub mod tree;
 pub mod triangle;
+pub mod wide;

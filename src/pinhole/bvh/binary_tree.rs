@@ -30,6 +30,7 @@ impl BinaryNode {
         (node, [0.0; WIDTH + 1])
     }
 
+    // ANCHOR: inner
     /// An inner node: its costs follow from its children's, which is what makes this dynamic programming.
     ///
     /// With two slots or more it may hand them to its children, in whatever division costs least; with one it becomes a
@@ -57,6 +58,7 @@ impl BinaryNode {
         }
         (Self { around, link: link as u32, count: 0, slots_of_lower }, costs)
     }
+    // ANCHOR_END: inner
 
     /// Whether it has children.
     pub fn is_inner(&self) -> bool {
@@ -100,6 +102,7 @@ impl Subtree {
     }
 }
 
+// ANCHOR: must_be_even
 /// Whether a set has to be divided evenly, so that no path has more than [`MOST_LEVELS`] inner nodes.
 ///
 /// Even divisions of n entries need ⌈log₂ ⌈n / LEAF⌉⌉ levels; an uneven one may leave almost as many entries to one
@@ -108,6 +111,7 @@ fn must_be_even<const LEAF: usize>(count: usize, level: usize) -> bool {
     let even_levels = usize::BITS - (count.div_ceil(LEAF) - 1).leading_zeros();
     level + even_levels as usize >= MOST_LEVELS
 }
+// ANCHOR_END: must_be_even
 
 /// The binary tree over these entries, which are put in the order of its leaves.
 pub fn binary_tree<const LEAF: usize>(entries: &mut [Entry], extent: &Extent) -> Vec<BinaryNode> {

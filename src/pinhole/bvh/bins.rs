@@ -93,6 +93,7 @@ impl Bins {
         bins
     }
 
+    // ANCHOR: best_division
     /// The division of least cost, as its axis and the first bin above it: each part's area, to which the probability
     /// of a visit is proportional, times the work of a visit, which is one leaf test for every `LEAF` primitives.
     #[inline(always)]
@@ -123,6 +124,7 @@ impl Bins {
         }
         best
     }
+    // ANCHOR_END: best_division
 }
 
 /// Divides a set in two, the lower part first: where the heuristic says, or in the middle of the list where all centres

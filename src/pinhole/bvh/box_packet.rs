@@ -88,6 +88,7 @@ impl BoxPacket {
         padded_limit(t_max, self.unit)
     }
 
+    // ANCHOR: packet_enters
     /// The boxes of a node that any ray may enter before `limit`, as a byte each; `entry` receives a τ before
     /// which none enters it.
     ///
@@ -113,6 +114,7 @@ impl BoxPacket {
         }
         u64::from_le_bytes(enters)
     }
+    // ANCHOR_END: packet_enters
 
     /// Whether any ray of a row enters the box of one child before its own limit.
     #[inline(always)]

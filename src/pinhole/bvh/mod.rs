@@ -12,6 +12,7 @@ mod bins;
 mod bounding_box;
 mod box_packet;
 mod build;
+mod count;
 mod entry;
 mod slab_test;
 mod traverse;
@@ -19,6 +20,7 @@ mod wide_node;
 
 pub use bounding_box::{BoundingBox, rounded_down, rounded_up};
 pub use box_packet::{BoxPacket, PACKET, PerRay, ROW, ROWS};
+pub use count::{TestCounts, traverse_counted};
 pub use slab_test::{BoxRay, take_first};
 pub use traverse::{LeafTest, Stack, Traversal, traverse};
 pub use wide_node::{Child, ChildKind, WIDTH, WideNode};

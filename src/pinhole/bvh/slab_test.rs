@@ -5,10 +5,12 @@ use super::by_axis;
 use super::wide_node::{WIDTH, WideNode};
 use glam::DVec3;
 
+// ANCHOR: far
 /// u = 2⁻²⁴, the unit roundoff of f32.
 const UNIT_ROUNDOFF: f32 = 1.0 / (1_u64 << 24) as f32;
 /// 1 + 2γ₃ and a little more: what the far planes are multiplied by (Ize, *Robust BVH Ray Traversal*, 2013).
 const FAR: f32 = 1.0 + 8.0 * UNIT_ROUNDOFF;
+// ANCHOR_END: far
 /// A direction's component below this, where the largest lies in [1, 2), counts as either sign and as 0.
 const PARALLEL: f64 = 1e-30;
 /// An origin farther away than this many times the extent of what is in the hierarchy is moved on to it.
@@ -102,6 +104,7 @@ impl BoxRay {
         padded_limit(t_max - self.start, self.unit)
     }
 
+    // ANCHOR: enters_eight
     /// The boxes of a node that the ray enters before `limit`, as a byte each, 0 or 1; `entry` receives
     /// where it enters each of them.
     ///
@@ -125,6 +128,7 @@ impl BoxRay {
         }
         u64::from_le_bytes(enters)
     }
+    // ANCHOR_END: enters_eight
 }
 
 /// Takes the first child off a mask of bytes, which must not be 0.

@@ -6,7 +6,7 @@ use super::{Bvh, MOST_LEVELS};
 use glam::DVec3;
 
 /// The entries that the stack has room for: a power of two that is more than seven for each level, and eight.
-const ROOM: usize = 512;
+pub(super) const ROOM: usize = 512;
 const _: () = assert!((WIDTH - 1) * MOST_LEVELS + WIDTH < ROOM);
 
 /// What a traversal has still to visit, made once for many rays.
@@ -91,6 +91,17 @@ impl Traversal {
         Some(Self { ray, t: t_max, limit: ray.limit(t_max), height: 0, at: Child::ROOT })
     }
 
+    /// What it visits next.
+    pub(super) fn at(&self) -> Child {
+        self.at
+    }
+
+    /// The entries on its stack.
+    pub(super) fn height(&self) -> usize {
+        self.height
+    }
+
+    // ANCHOR: step
     /// Visits one node or one leaf, and says whether there is more to visit.
     #[inline(always)]
     pub fn step<const ANY: bool>(&mut self, bvh: &Bvh, stack: &mut Stack, leaves: &mut impl LeafTest) -> bool {
@@ -144,6 +155,7 @@ impl Traversal {
         }
         false
     }
+    // ANCHOR_END: step
 }
 
 /// Visits the leaves whose boxes a ray hits, the nearest first, until none can hold anything closer.

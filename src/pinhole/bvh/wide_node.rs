@@ -53,6 +53,7 @@ impl Child {
     }
 }
 
+// ANCHOR: wide_node
 /// A node with eight children: a structure of arrays, so that one ray is tested against all eight boxes at once.
 ///
 /// It fills four cache lines.
@@ -65,6 +66,7 @@ pub struct WideNode {
     /// The children; the first ones are there, the others are [`Child::NONE`].
     pub child: [Child; WIDTH],
 }
+// ANCHOR_END: wide_node
 
 impl WideNode {
     /// A node without children.
@@ -80,6 +82,11 @@ impl WideNode {
     pub fn enter_and_leave(&self, [x, y, z]: [usize; 3]) -> [[&[f32; WIDTH]; 3]; 2] {
         let planes = &self.planes;
         [[&planes[x][0], &planes[y][1], &planes[z][2]], [&planes[1 - x][0], &planes[1 - y][1], &planes[1 - z][2]]]
+    }
+
+    /// The number of its children.
+    pub fn children(&self) -> usize {
+        self.child.iter().filter(|&&child| child != Child::NONE).count()
     }
 
     /// Sets a child and its box.

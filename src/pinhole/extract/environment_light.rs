@@ -1,5 +1,5 @@
-use super::area_light::luminance;
 use super::{EnvironmentTable, Texels};
+use crate::lights::luminance;
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Environment, SceneError};
 use bevy_ecs::prelude::*;

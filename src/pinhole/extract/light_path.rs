@@ -1,9 +1,9 @@
-use super::area_light::light_distribution;
 use super::camera::eye;
+use super::light_choice::light_distribution;
 use super::lights_of::{light_kinds, shadowed_evidence};
 use super::shape_kind::{listed_kind, one_shape, shape_entities};
 use super::{
-    AreaLightTable, EnvironmentLightTable, EnvironmentTable, MaterialTable, NO_ROW, ShapeTable,
+    AreaLightTable, EnvironmentLightTable, EnvironmentTable, MaterialTable, MeshLights, NO_ROW, ShapeTable,
     environment_light_evidence, luminance,
 };
 use crate::lights::{AnyLight, MOST_TARGETS, Target, Targets};
@@ -48,7 +48,11 @@ fn environment_strength(environment: &EnvironmentTable) -> f64 {
 pub struct LightPathTable {
     /// The lights: area lights, then those without an area, kind after kind, each in spawn order, then the
     /// environment image.
+    ///
+    /// The triangles of emitting meshes follow.
     pub light: Vec<LightSource>,
+    /// The meshes that emit.
+    pub mesh: Vec<MeshLights>,
     /// The cumulative distribution in units of 2⁻³², as in [`super::AreaLightTable`].
     pub until: Vec<u64>,
     /// The probability of choosing each light: half in proportion to its power, half uniform.
@@ -62,6 +66,12 @@ impl LightPathTable {
     #[inline(always)]
     pub fn chosen(&self, fraction: u32) -> usize {
         self.until.partition_point(|&until| until <= u64::from(fraction))
+    }
+
+    /// The mesh of a light that is one of its triangles.
+    #[inline(always)]
+    pub fn mesh_of(&self, light: usize) -> &MeshLights {
+        &self.mesh[self.mesh.partition_point(|mesh| mesh.first as usize <= light) - 1]
     }
 }
 
@@ -91,12 +101,20 @@ impl Table for LightPathTable {
             powers.push(environment_strength(&environment) * across);
             light.push(LightSource::Environment(environment, scene.table()?));
         }
+        let mut mesh = areas.mesh.clone();
+        for lights in &mut mesh {
+            lights.first = powers.len() as u32;
+            let own = lights.first as usize..lights.first as usize + lights.triangles();
+            powers.extend(own.map(|light| lights.power(light)));
+        }
         let (until, probability) = light_distribution(&powers);
-        Ok(Self { light, until, probability, targets: Targets::clone(&targets) })
+        Ok(Self { light, mesh, until, probability, targets: Targets::clone(&targets) })
     }
 
     fn bytes(&self) -> usize {
-        self.light.len() * (size_of::<LightSource>() + 16)
+        size_of_val(&self.light[..])
+            + size_of_val(&self.mesh[..])
+            + self.until.len() * 16
             + size_of_val(&self.targets.sphere[..])
             + size_of_val(&self.targets.infinite[..])
     }

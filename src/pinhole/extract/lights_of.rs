@@ -1,16 +1,22 @@
 //! Which entities are a light without an area, and what extraction asks of each kind.
 
 use super::check::kind_and_name;
+use super::light_choice::{LightChoice, hierarchy_of_lights, light_distribution};
 use super::pose::ahead;
 use super::{eye, world_from_entity};
 use crate::lights::{
     AnyLight, LightVisitor, ListedLight, PlacedDirectionalLight, PlacedLight, PlacedPointLight, PlacedSpotLight,
-    SceneLight, visit_lights,
+    SceneLight, luminance, visit_lights,
 };
 use crate::plan::{Census, ComponentKind, Evidence, Table};
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use std::sync::{Arc, OnceLock};
+
+/// The most lights of a kind to all of which each surface sends a shadow ray, which gives their light without noise.
+///
+/// A tile of 1024 surfaces then has 65,536 shadow rays of a kind at most, which take 5 MB.
+const MOST_SUMMED: usize = 64;
 
 /// Lights of one kind in render space, in spawn order.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +25,8 @@ pub struct LightsOf<L: ListedLight> {
     pub row: Vec<L>,
     /// Whether shapes block the light of each.
     pub casts_shadows: Vec<bool>,
+    /// How one of them is chosen for a surface where there are many; none where each surface gets a ray from all.
+    pub choice: Option<LightChoice>,
 }
 
 /// The table of point lights.
@@ -30,7 +38,7 @@ pub type SpotLightTable = LightsOf<PlacedSpotLight>;
 
 impl<L: ListedLight> Default for LightsOf<L> {
     fn default() -> Self {
-        Self { row: Vec::new(), casts_shadows: Vec::new() }
+        Self { row: Vec::new(), casts_shadows: Vec::new(), choice: None }
     }
 }
 
@@ -48,11 +56,22 @@ impl<L: ListedLight> Table for LightsOf<L> {
             table.row.push(L::place(&light, &placed)?);
             table.casts_shadows.push(light.casts_shadows());
         }
+        if table.row.len() > MOST_SUMMED {
+            let powers = || table.row.iter().map(|light| luminance(light.power(1.0))).collect::<Vec<f64>>();
+            table.choice = Some(if L::IS_DISTANT {
+                let (until, probability) = light_distribution(&powers());
+                LightChoice::Power { until, probability }
+            } else {
+                let bounds_of = |light: usize| table.row[light].bounds();
+                LightChoice::Hierarchy(hierarchy_of_lights(L::NAMES.table, table.row.len(), bounds_of)?)
+            });
+        }
         Ok(table)
     }
 
     fn bytes(&self) -> usize {
-        self.row.len() * (size_of::<L>() + size_of::<bool>())
+        let chosen = self.choice.as_ref().map_or(0, LightChoice::bytes);
+        self.row.len() * (size_of::<L>() + size_of::<bool>()) + chosen
     }
 }
 
@@ -108,6 +127,28 @@ pub fn light_kinds() -> &'static [LightKind] {
         visit_lights(&mut collected);
         collected.0
     })
+}
+
+/// Evidence of lights of one kind, and whether one of many is chosen for each surface.
+pub fn lights_evidence<L: ListedLight>(scene: &Census<'_>) -> Evidence {
+    let found = Evidence::of::<L::Component>(scene, L::Component::WORD);
+    if found.count <= MOST_SUMMED {
+        return found;
+    }
+    let by = if L::IS_DISTANT { "power" } else { "a hierarchy" };
+    Evidence { reason: format!("{}; one of {} chosen by {by}", found.reason, found.count), ..found }
+}
+
+/// Evidence that one of many lights of a kind is chosen for each surface.
+pub fn many_lights_evidence<L: ListedLight>(scene: &Census<'_>) -> Evidence {
+    let found = lights_evidence::<L>(scene);
+    Evidence { needed: found.count > MOST_SUMMED, count: 0, ..found }
+}
+
+/// The greatest number of shadow rays from a surface to lights without an area.
+pub fn delta_light_rays(scene: &Census<'_>) -> usize {
+    let of_kind = |lights: usize| if lights > MOST_SUMMED { 1 } else { lights };
+    light_kinds().iter().map(|kind| of_kind((kind.entities)(scene).len())).sum()
 }
 
 /// Evidence of a light without an area that passes a test.

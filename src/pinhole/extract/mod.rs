@@ -42,6 +42,7 @@ mod integrator;
 mod integrator_table;
 mod layers;
 mod lens;
+mod light_choice;
 mod light_path;
 mod light_tracing;
 mod lights_of;
@@ -73,8 +74,9 @@ pub use crate::cameras::{
     angle_of_tan_half, half_extent, tan_half,
 };
 pub use crate::filters::{FilterCells, Span, cells_of, filter_area, filter_value, radius_of, sign_change};
+pub use crate::lights::luminance;
 pub use adaptive::adaptive_of;
-pub use area_light::{AreaLightTable, area_light_evidence, luminance};
+pub use area_light::{AreaLightTable, MeshLights, area_light_evidence, many_area_lights_evidence};
 pub use background::BackgroundTable;
 pub use camera::{CameraAxes, camera_spread, eye};
 pub use camera_entity::{CAMERA_KINDS, CameraKind, camera_entity, camera_kind};
@@ -97,14 +99,15 @@ pub use integrator::{
 pub use integrator_table::IntegratorTable;
 pub use layers::{LayerTable, layer_evidence};
 pub use lens::{LensTable, lens_evidence};
+pub use light_choice::LightChoice;
 pub use light_path::{LightPathTable, LightSource, distant_start_evidence};
 pub use light_tracing::{
     LightTracingTable, environment_traced_evidence, shadowed_distant_evidence, shadowed_point_evidence,
     started_on_evidence, traced_evidence,
 };
 pub use lights_of::{
-    DirectionalLightTable, LightKind, LightsOf, PointLightTable, SpotLightTable, delta_light_evidence, light_kinds,
-    point_evidence,
+    DirectionalLightTable, LightKind, LightsOf, PointLightTable, SpotLightTable, delta_light_evidence,
+    delta_light_rays, light_kinds, lights_evidence, many_lights_evidence, point_evidence,
 };
 pub use material::{
     bsdf_evidence, glass_evidence, glossy_evidence, lit_from_behind_evidence, material_evidence,

@@ -1,6 +1,7 @@
 use super::deeper_media::deeper_media_evidence;
+use super::departure::departure_evidence;
 use super::media::media_evidence;
-use super::{DeeperMedia, Media, Scattered, Stop};
+use super::{DeeperMedia, Departures, Media, Scattered, Stop};
 use crate::extract::{IntegratorTable, filtered_evidence, followed_evidence, motion_evidence};
 use crate::plan::{Bounce, Column, Shared, Stage, TileSystems};
 use crate::rays::{Depth, PathLight, Paths, RayTimes, WorldRays};
@@ -127,6 +128,7 @@ pub fn remaining_bounces_stage() -> Stage {
         .reads::<WorldRays>()
         .reads_where::<Media>(media_evidence)
         .reads_where::<DeeperMedia>(deeper_media_evidence)
+        .reads_where::<Departures>(departure_evidence)
         .reads_where::<RayTimes>(motion_evidence)
         .reads_where::<Footprints>(filtered_evidence)
         .reads::<PathLight>()

@@ -1,14 +1,18 @@
-use super::CausticPaths;
+use super::departure::departure_evidence;
+use super::{CausticPaths, Departures};
 use crate::extract::{
-    AreaLightTable, EmissiveTable, EnvironmentLightTable, EnvironmentTable, IntegratorTable, NO_ROW, emissive_evidence,
-    environment_light_evidence, followed_evidence, light_sampling_evidence, one_sided_evidence, traced_evidence,
+    AreaLightTable, EmissiveTable, EnvironmentLightTable, EnvironmentTable, IntegratorTable, emissive_evidence,
+    environment_light_evidence, followed_evidence, light_sampling_evidence, one_sided_evidence, primitive_evidence,
+    traced_evidence,
 };
-use crate::intersect::{EmissiveRows, Hits, NO_SHAPE, SurfaceSides};
+use crate::intersect::{EmissiveRows, HitPrimitives, Hits, NO_SHAPE, SurfaceSides};
+use crate::lights::Receiver;
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{Depth, Paths, WorldRays};
 use crate::shade::{Radiance, area_light_pdf, environment_pdf, environment_radiance};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
+use glam::DVec3;
 
 // ANCHOR: power_heuristic
 /// The MIS weight of a sample taken with pdf `own` that the other strategy would take with pdf `other`: the power
@@ -33,7 +37,9 @@ pub struct MisEmissionView {
     paths: &'static Paths,
     rays: &'static WorldRays,
     caustic: Option<&'static CausticPaths>,
+    departures: Option<&'static Departures>,
     hits: &'static Hits,
+    primitives: Option<&'static HitPrimitives>,
     list: &'static EmissiveRows,
     sides: Option<&'static SurfaceSides>,
     radiance: &'static mut Radiance,
@@ -52,26 +58,32 @@ pub fn add_mis_emission(
     integrator: Res<Shared<IntegratorTable>>,
     mut tiles: Query<MisEmissionView>,
 ) {
-    for MisEmissionViewItem { depth, paths, rays, caustic, hits, list, sides, mut radiance } in &mut tiles {
+    for MisEmissionViewItem { depth, paths, rays, caustic, departures, hits, primitives, list, sides, mut radiance } in
+        &mut tiles
+    {
         for (&row, &of) in list.row.iter().zip(&list.emissive) {
             let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
             if sides.is_some_and(|sides| sides.outside[row] == 0 && emissive.one_sided[of as usize]) {
                 continue;
             }
-            let light = lights.light_of_shape[hits.shape[row] as usize];
+            let light = lights.light_of_hit(hits.shape[row], || primitives.map_or(0, |own| own.primitive[row]));
             let by_mirror = paths.pdf[row] == f64::INFINITY;
             let from_light = |caustic: &CausticPaths| {
-                by_mirror && depth.0 > 0 && light != NO_ROW && caustic.spread[paths.first[row] as usize] != 0
+                by_mirror && depth.0 > 0 && light.is_some() && caustic.spread[paths.first[row] as usize] != 0
             };
             let weight = if caustic.is_some_and(from_light) {
                 0.0
-            } else if by_mirror || light == NO_ROW || !integrator.samples_lights {
-                1.0
-            } else if integrator.mis {
-                let (from, at) = (rays.origin_of(row), rays.point_at(row, hits.t[row]));
-                power_heuristic(paths.pdf[row], area_light_pdf(&lights, light as usize, from, at))
+            } else if let Some(light) = light.filter(|_| !by_mirror && integrator.samples_lights) {
+                if integrator.mis {
+                    let normal = departures.map_or(DVec3::ZERO, |departures| departures.normal(row));
+                    let receiver = Receiver { position: rays.origin_of(row), normal };
+                    let at = rays.point_at(row, hits.t[row]);
+                    power_heuristic(paths.pdf[row], area_light_pdf(&lights, light, &receiver, at))
+                } else {
+                    0.0
+                }
             } else {
-                0.0
+                1.0
             } as f32;
             radiance.r[row] += weight * r;
             radiance.g[row] += weight * g;
@@ -88,6 +100,8 @@ pub fn mis_emission_stage() -> Stage {
         .kind(StageKind::Alternative)
         .reads_where::<SurfaceSides>(one_sided_evidence)
         .reads_where::<CausticPaths>(traced_evidence)
+        .reads_where::<HitPrimitives>(primitive_evidence)
+        .reads_where::<Departures>(departure_evidence)
         .when(mis_emission_evidence)
 }
 

@@ -42,30 +42,37 @@ impl LightPower {
 #[inline(always)]
 pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
     let light = table.chosen(draws.light);
-    let chosen = 1.0 / table.probability[light];
-    match &table.light[light] {
-        LightSource::Area { emitter, radiance, one_sided } => {
-            let point = leaving_point(emitter, *one_sided, draws.point, draws.side);
-            let (targets, limit) = (&table.targets.sphere, MAX_TARGETS_SOLID_ANGLE);
-            let (direction, weight) =
-                match direction_to_targets(targets, point.position, limit, draws.target, draws.direction) {
-                    Some((direction, weight)) => (direction, direction.dot(point.normal).max(0.0) * weight),
-                    None => (frame_of(point.normal) * cosine_direction(draws.direction), PI),
-                };
-            let bound = offset_bound(point.position, DVec3::ZERO, point.size);
-            LightStart {
-                origin: offset_origin(point.position.as_vec3(), point.normal.as_vec3(), bound),
-                direction,
-                power: radiance.map(|part| part * point.area * weight * chosen),
-            }
-        }
-        LightSource::Delta(light) => times(light.start(&table.targets, draws), chosen),
-        LightSource::Environment(environment, light) => {
+    // None is chosen where no light has an area.
+    let Some(probability) = table.probability.get(light) else { return LightStart::default() };
+    let chosen = 1.0 / probability;
+    let of_mesh;
+    let (emitter, radiance, one_sided) = match table.light.get(light) {
+        Some(LightSource::Area { emitter, radiance, one_sided }) => (emitter, *radiance, *one_sided),
+        Some(LightSource::Delta(light)) => return times(light.start(&table.targets, draws), chosen),
+        Some(LightSource::Environment(environment, light)) => {
             let (to_light, pdf) = environment_direction(light, environment.turn, draws.direction);
             let radiance = environment_radiance(environment, to_light);
             let irradiance = radiance.map(|part| if pdf > 0.0 { part / pdf } else { 0.0 });
-            times(table.targets.parallel_start(-to_light, irradiance, draws), chosen)
+            return times(table.targets.parallel_start(-to_light, irradiance, draws), chosen);
         }
+        None => {
+            let mesh = table.mesh_of(light);
+            of_mesh = mesh.emitter(light);
+            (&of_mesh, mesh.radiance, mesh.one_sided)
+        }
+    };
+    let point = leaving_point(emitter, one_sided, draws.point, draws.side);
+    let (targets, limit) = (&table.targets.sphere, MAX_TARGETS_SOLID_ANGLE);
+    let (direction, weight) = match direction_to_targets(targets, point.position, limit, draws.target, draws.direction)
+    {
+        Some((direction, weight)) => (direction, direction.dot(point.normal).max(0.0) * weight),
+        None => (frame_of(point.normal) * cosine_direction(draws.direction), PI),
+    };
+    let bound = offset_bound(point.position, DVec3::ZERO, point.size);
+    LightStart {
+        origin: offset_origin(point.position.as_vec3(), point.normal.as_vec3(), bound),
+        direction,
+        power: radiance.map(|part| part * point.area * weight * chosen),
     }
 }
 // ANCHOR_END: light_start

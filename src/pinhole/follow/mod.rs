@@ -20,6 +20,7 @@ mod bsdf;
 mod bsdf_rows;
 mod caustic_paths;
 mod deeper_media;
+mod departure;
 mod depth;
 mod emission;
 mod interface;
@@ -49,6 +50,7 @@ pub use caustic_paths::{
     CausticPaths, caustic_paths_stage, environment_caustics_stage, leave_environment_caustics, mark_caustic_paths,
 };
 pub use deeper_media::{DeeperMedia, deeper_media_evidence};
+pub use departure::{Departures, keep_departures, keep_departures_stage, start_departures, start_departures_stage};
 pub use depth::{
     add_bounce, add_bounce_stage, advance_to_next_bounce, carry_times, drop_footprints, footprints_stage,
     next_bounce_stage, remaining_bounces_stage, sum_bounces, sum_bounces_stage, times_stage, trace_bounces,

@@ -17,6 +17,7 @@
 //! ```
 
 mod classify;
+mod count;
 mod hits;
 mod moving;
 mod named_stages;
@@ -31,6 +32,8 @@ mod view;
 pub use crate::extract::shape_evidence;
 #[doc(hidden)]
 pub use classify::{classify_hits, classify_stage};
+#[doc(hidden)]
+pub use count::{AllShapes, BoxTests, PrimitiveTests, TraversalDepths, count_stage};
 pub use hits::Hits;
 #[doc(hidden)]
 pub use hits::{HitColumn, HitPrimitives, NO_PRIMITIVE, NO_SHAPE, RayColumn};
@@ -39,8 +42,8 @@ pub use moving::{at_rest, intersect_moving, moving_stage, moving_surface_stage};
 #[doc(hidden)]
 pub use named_stages::{
     cuboid_stage, cuboid_surface_stage, disk_stage, disk_surface_stage, ellipsoid_stage, ellipsoid_surface_stage,
-    plane_stage, plane_surface_stage, rectangle_stage, rectangle_surface_stage, sphere_stage, sphere_surface_stage,
-    triangle_stage, triangle_surface_stage,
+    mesh_stage, mesh_surface_stage, plane_stage, plane_surface_stage, rectangle_stage, rectangle_surface_stage,
+    sphere_stage, sphere_surface_stage, triangle_stage, triangle_surface_stage,
 };
 pub(crate) use rows::rows_of_kind;
 #[doc(hidden)]

@@ -2,7 +2,9 @@
 
 use super::shape_stages::{intersect_stage, surface_stage};
 use crate::plan::Stage;
-use crate::shapes::{Ellipsoid, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere, Slabs, TriangleRow};
+use crate::shapes::{
+    Ellipsoid, PlacedDisk, PlacedMesh, PlacedPlane, PlacedRectangle, PlacedSphere, Slabs, TriangleRow,
+};
 
 /// The stage that intersects camera rays with spheres.
 pub fn sphere_stage() -> Stage {
@@ -72,4 +74,14 @@ pub fn triangle_stage() -> Stage {
 /// The stage that fills the surfaces of triangles.
 pub fn triangle_surface_stage() -> Stage {
     surface_stage::<TriangleRow>()
+}
+
+/// The stage that intersects camera rays with meshes.
+pub fn mesh_stage() -> Stage {
+    intersect_stage::<PlacedMesh>()
+}
+
+/// The stage that fills the surfaces of meshes.
+pub fn mesh_surface_stage() -> Stage {
+    surface_stage::<PlacedMesh>()
 }

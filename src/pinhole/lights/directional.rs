@@ -1,4 +1,5 @@
 use super::light::{Light, LightSample, PlacedLight, SceneLight};
+use super::light_bounds::LightBounds;
 use super::start::{LightStart, StartDraws};
 use super::targets::Targets;
 use crate::scene::{DirectionalLight, SceneError, light_colour};
@@ -38,6 +39,10 @@ impl Light for PlacedDirectionalLight {
 
     fn power(&self, across: f64) -> [f64; 3] {
         self.irradiance.map(|part| part * across)
+    }
+
+    fn bounds(&self) -> Option<LightBounds> {
+        None
     }
 
     #[inline(always)]

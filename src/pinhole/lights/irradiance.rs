@@ -1,3 +1,8 @@
+/// The luminance of linear Rec. 709 light.
+pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
 // ANCHOR: irradiance_from_point
 /// The irradiance from a point light of intensity I: I cos θ / d².
 ///

@@ -1,4 +1,5 @@
 use super::irradiance::{irradiance_from_direction, irradiance_from_point};
+use super::light_bounds::LightBounds;
 use super::start::{LightStart, StartDraws};
 use super::targets::Targets;
 use crate::scene::SceneError;
@@ -77,6 +78,9 @@ pub trait Light: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// The power that it emits (PBRT's `Phi`), linear Rec. 709; for a light without a position, what passes through
     /// `across` square scene units at right angles to its rays.
     fn power(&self, across: f64) -> [f64; 3];
+
+    /// From where and in which directions it shines, by which one of many is chosen; none for a light without a position.
+    fn bounds(&self) -> Option<LightBounds>;
 
     /// Samples a ray that leaves the light (PBRT's `SampleLe`), towards the targets where these subtend less than it
     /// illuminates.

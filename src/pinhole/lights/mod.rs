@@ -26,18 +26,24 @@ macro_rules! with_lights {
 }
 // ANCHOR_END: light_list
 
+mod choose_light;
 mod directional;
 mod irradiance;
 mod light;
+mod light_bounds;
+mod light_hierarchy;
 mod point;
 mod registry;
 mod spot;
 mod start;
 mod targets;
 
+pub use choose_light::{ChosenLight, Receiver};
 pub use directional::PlacedDirectionalLight;
-pub use irradiance::{irradiance_from_direction, irradiance_from_point};
+pub use irradiance::{irradiance_from_direction, irradiance_from_point, luminance};
 pub use light::{Light, LightSample, PlacedLight, SceneLight};
+pub use light_bounds::LightBounds;
+pub use light_hierarchy::LightHierarchy;
 pub use point::PlacedPointLight;
 pub use registry::{AnyLight, LightNames, LightVisitor, ListedLight, visit_lights};
 pub use spot::{PlacedSpotLight, spot_falloff, versine, versine_of_half};

@@ -1,7 +1,10 @@
+use super::irradiance::luminance;
 use super::light::{Light, LightSample, PlacedLight, SceneLight};
+use super::light_bounds::LightBounds;
 use super::start::{LightStart, StartDraws};
 use super::targets::{Targets, direction_to_targets};
 use crate::scene::{PointLight, SceneError, finite_point, light_colour};
+use crate::shapes::Bounds;
 use crate::shapes::emitter::sphere_direction;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -44,6 +47,10 @@ impl Light for PlacedPointLight {
 
     fn power(&self, _across: f64) -> [f64; 3] {
         self.intensity.map(|part| part * 4.0 * PI)
+    }
+
+    fn bounds(&self) -> Option<LightBounds> {
+        Some(LightBounds::everywhere(Bounds { least: self.position, most: self.position }, luminance(self.intensity)))
     }
 
     #[inline(always)]

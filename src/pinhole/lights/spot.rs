@@ -1,4 +1,6 @@
+use super::irradiance::luminance;
 use super::light::{Light, LightSample, PlacedLight, SceneLight};
+use super::light_bounds::LightBounds;
 use super::start::{LightStart, StartDraws};
 use super::targets::{Targets, direction_to_targets};
 use crate::scene::{Degrees, SceneError, SpotLight, finite_point, light_colour, number};
@@ -55,6 +57,10 @@ impl Light for PlacedSpotLight {
 
     fn power(&self, _across: f64) -> [f64; 3] {
         self.intensity.map(|part| part * PI * (self.inner + self.outer))
+    }
+
+    fn bounds(&self) -> Option<LightBounds> {
+        Some(LightBounds::cone(self.position, self.axis, self.outer, luminance(self.intensity)))
     }
 
     #[inline(always)]

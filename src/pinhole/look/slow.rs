@@ -1,5 +1,5 @@
 use super::pilot::Pilot;
-use crate::extract::point_evidence;
+use crate::extract::delta_light_rays;
 use crate::plan::Census;
 
 /// A warning about time is given from this many seconds on.
@@ -83,7 +83,7 @@ pub fn why_slow(scene: &Census<'_>, pilot: &Pilot, max_depth: u32, shapes: usize
             pilot.deepest
         );
     }
-    let lights = point_evidence(scene).count;
+    let lights = delta_light_rays(scene);
     let tests = if lights > 1 { format!(", for each of {lights} lights") } else { String::new() };
     format!("each ray is tested against {shapes} shapes{tests}")
 }

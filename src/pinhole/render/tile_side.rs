@@ -1,4 +1,4 @@
-use crate::extract::{point_evidence, shape_entities};
+use crate::extract::{delta_light_rays, shape_entities};
 use crate::plan::{Census, ColumnKind, Plan};
 use crate::shade::{LightPdfs, LightRays, ShadowHits};
 
@@ -13,14 +13,14 @@ const LEAST: u32 = 2;
 /// The side of a full tile, in pixels: at most this, and less where many lights or shapes would make its columns large
 /// or its stages slow.
 ///
-/// Every pixel sends a shadow ray to each light without an area, and those of a tile are in memory at once.
+/// Every pixel sends a shadow ray to each of a few lights without an area, and those of a tile are in memory at once.
 /// No bit of the image depends on the side.
 pub(super) fn tile_side(scene: &Census<'_>, plan: &Plan, most: u32) -> u32 {
     let of_light =
         |column: &&ColumnKind| column.is::<LightRays>() || column.is::<LightPdfs>() || column.is::<ShadowHits>();
     let columns = plan.columns.iter().filter(of_light);
     let bytes: usize = columns.map(|column| column.bytes_per_row()).sum();
-    let lights = if bytes > 0 { point_evidence(scene).count.max(1) } else { 1 } as f64;
+    let lights = if bytes > 0 { delta_light_rays(scene).max(1) } else { 1 } as f64;
     let shapes = shape_entities(scene).len().max(1) as f64;
     let mut side = most;
     while side > LEAST {

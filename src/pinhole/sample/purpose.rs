@@ -26,11 +26,13 @@ pub enum Purpose {
     Time,
     /// The point of the environment map.
     EnvironmentPoint,
+    /// The choice of one of many lights without an area.
+    DeltaLightChoice,
 }
 
 impl Purpose {
     /// All purposes.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Pixel,
         Self::Lens,
         Self::LightPoint,
@@ -40,13 +42,14 @@ impl Purpose {
         Self::Roulette,
         Self::Time,
         Self::EnvironmentPoint,
+        Self::DeltaLightChoice,
     ];
 
     /// The number of dimensions that it needs: 1 or 2.
     pub const fn numbers(self) -> u32 {
         match self {
             Self::Pixel | Self::Lens | Self::LightPoint | Self::Direction | Self::EnvironmentPoint => 2,
-            Self::LightChoice | Self::MaterialChoice | Self::Roulette | Self::Time => 1,
+            Self::LightChoice | Self::MaterialChoice | Self::Roulette | Self::Time | Self::DeltaLightChoice => 1,
         }
     }
 
@@ -63,6 +66,7 @@ impl Purpose {
             Self::Roulette => 10,
             Self::Time => 11,
             Self::EnvironmentPoint => 12,
+            Self::DeltaLightChoice => 14,
         };
         depth * DIMENSIONS + within
     }

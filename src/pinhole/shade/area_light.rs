@@ -4,6 +4,7 @@ use super::receivers::{LightRay, LightRows, RayLists, append_sampled};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{AreaLightTable, SamplingTable, area_light_evidence, light_sampling_evidence, material_evidence};
 use crate::intersect::Surface;
+use crate::lights::Receiver;
 use crate::plan::{Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, Paths};
 use crate::sample::{Draw, PixelKey, Purpose, unit, with_sampler};
@@ -26,41 +27,47 @@ pub fn irradiance_from_area(radiance: [f64; 3], cosine: f64, pdf: f64) -> [f64; 
 /// The pdf of sampling a point on a light from another point, in 1/sr, including the probability of choosing that
 /// light; 0 where the light does not shine.
 ///
-/// `from` is the origin of a ray that hit the light at `at`.
+/// `receiver` is where a ray starts that hit the light at `at`; its normal counts where there are many lights.
 #[inline(always)]
-pub fn area_light_pdf(lights: &AreaLightTable, light: usize, from: DVec3, at: DVec3) -> f64 {
-    let emitter = &lights.emitter[light];
-    let shines = !lights.one_sided[light] || emitter.faces(from);
-    if shines { lights.probability[light] * pdf_towards(emitter, from, at) } else { 0.0 }
+pub fn area_light_pdf(lights: &AreaLightTable, light: usize, receiver: &Receiver, at: DVec3) -> f64 {
+    let from = receiver.position;
+    lights.with_light(light, |emitter, _, one_sided| {
+        let shines = !one_sided || emitter.faces(from);
+        if shines { lights.probability_of(light, receiver) * pdf_towards(emitter, from, at) } else { 0.0 }
+    })
 }
 
 // ANCHOR: sample_light
-/// Samples a point on a light; returns the shadow ray towards it and its pdf in 1/sr.
+/// Chooses a light and samples a point on it; returns the shadow ray towards it and its pdf in 1/sr.
 ///
 /// The shadow ray follows its direction as rounded to f32, so its end is computed anew by intersecting the light along
 /// it: otherwise a light hit at grazing incidence would block its own ray.
 #[inline(always)]
 fn sample_light(
     lights: &AreaLightTable,
-    light: usize,
+    choice: u32,
     surface: &Surface,
     normal: DVec3,
     u: [f64; 2],
 ) -> (LightRay, f64) {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
-    let (from, emitter) = (origin.as_dvec3(), &lights.emitter[light]);
-    let point = point_on(emitter, from, u);
-    let pdf = lights.probability[light] * point.pdf;
-    let shines = pdf > 0.0 && (!lights.one_sided[light] || emitter.faces(from));
+    let from = origin.as_dvec3();
+    let receiver = Receiver { position: from, normal: surface.normal.as_dvec3() };
+    let (light, probability) = lights.choose(&receiver, choice);
+    lights.with_light(light, |emitter, radiance, one_sided| {
+        let point = point_on(emitter, from, u);
+        let pdf = probability * point.pdf;
+        let shines = pdf > 0.0 && (!one_sided || emitter.faces(from));
 
-    let length = point.to.length();
-    let direction = (point.to * (1.0 / length)).as_vec3();
-    let hit = distance_to(emitter, from, direction.as_dvec3());
-    let distance = if hit > 0.0 && hit < f64::INFINITY { hit } else { length };
-    let cosine = if shines { cosine_of(surface, normal, direction) } else { 0.0 };
-    let irradiance = irradiance_from_area(lights.radiance[light], cosine, pdf);
-    let ray = ShadowRay { origin, direction, distance, cosine };
-    (LightRay { ray, t_max: shadow_t_max(distance), irradiance }, pdf)
+        let length = point.to.length();
+        let direction = (point.to * (1.0 / length)).as_vec3();
+        let hit = distance_to(emitter, from, direction.as_dvec3());
+        let distance = if hit > 0.0 && hit < f64::INFINITY { hit } else { length };
+        let cosine = if shines { cosine_of(surface, normal, direction) } else { 0.0 };
+        let irradiance = irradiance_from_area(radiance, cosine, pdf);
+        let ray = ShadowRay { origin, direction, distance, cosine };
+        (LightRay { ray, t_max: shadow_t_max(distance), irradiance }, pdf)
+    })
 }
 // ANCHOR_END: sample_light
 
@@ -70,7 +77,7 @@ pub fn sample_area_lights(
     sampling: Res<Shared<SamplingTable>>,
     mut tiles: Query<(LightSamplingView, DrawsView, Option<&Paths>)>,
 ) {
-    if lights.emitter.is_empty() {
+    if lights.is_empty() {
         return;
     }
     for (LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs }, draws, paths) in &mut tiles {
@@ -94,8 +101,7 @@ fn sample_rows<D: Draw>(
 ) {
     append_sampled(receivers, to, |row, surface, normal| {
         let key = key(row);
-        let light = lights.chosen(choice.one(key));
-        sample_light(lights, light, surface, normal, place.two(key).map(unit))
+        sample_light(lights, choice.one(key), surface, normal, place.two(key).map(unit))
     });
 }
 

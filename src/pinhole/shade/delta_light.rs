@@ -1,16 +1,20 @@
-//! One stage for each registered light without an area: a shadow ray from each surface to each of its lights.
+//! One stage for each registered light without an area: a shadow ray from each surface to each of its lights, or to one
+//! chosen of many.
 
 use super::LightRays;
 use super::light::{ShadowRay, cosine_of, shadow_t_max};
-use super::receivers::{LightRay, LightRows, MakesRays, RayLists, append_rays};
+use super::receivers::{LightRay, LightRows, MakesRays, RayLists, append_rays, append_sampled, is_apart};
 use super::view::{LightSamplingView, LightSamplingViewItem};
-use crate::extract::{LightsOf, material_evidence, unless_occlusion};
+use crate::extract::{
+    LightChoice, LightsOf, SamplingTable, lights_evidence, many_lights_evidence, material_evidence, unless_occlusion,
+};
 use crate::intersect::Surface;
 use crate::lights::{
-    Light, LightVisitor, ListedLight, PlacedDirectionalLight, PlacedPointLight, PlacedSpotLight, SceneLight,
-    visit_lights,
+    Light, LightVisitor, ListedLight, PlacedDirectionalLight, PlacedPointLight, PlacedSpotLight, Receiver, visit_lights,
 };
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Shared, Stage, TileSystems};
+use crate::rays::{DrawsView, Paths};
+use crate::sample::{Draw, Purpose, with_sampler};
 use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -38,14 +42,52 @@ impl<L: Light> MakesRays for L {
 }
 // ANCHOR_END: shadow_ray_to
 
-/// Appends shadow rays to all lights of one kind, light after light.
-pub fn sample_lights<L: ListedLight>(lights: Res<Shared<LightsOf<L>>>, mut tiles: Query<LightSamplingView>) {
-    for LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs } in &mut tiles {
+/// Appends shadow rays to all lights of one kind, light after light; where there are many, each surface sends a ray to
+/// one that is chosen at random.
+pub fn sample_lights<L: ListedLight>(
+    lights: Res<Shared<LightsOf<L>>>,
+    sampling: Option<Res<Shared<SamplingTable>>>,
+    mut tiles: Query<(LightSamplingView, DrawsView, Option<&Paths>)>,
+) {
+    for (LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs }, draws, paths) in &mut tiles {
         let receivers = LightRows::new(surfaces, shading, list, far);
+        if let (Some(choice), Some(sampling)) = (&lights.choice, &sampling) {
+            let (draws, to) = (draws.draws(sampling, paths), (&mut *rays, pdfs.as_deref_mut()));
+            with_sampler!(sampling.sampler, D => {
+                let drawn = D::of(draws.sample(), Purpose::DeltaLightChoice);
+                append_sampled(&receivers, to, |row, surface, normal| {
+                    (chosen_ray(&lights, choice, drawn.one(draws.key(row)), surface, normal), 0.0)
+                });
+            });
+            continue;
+        }
         for (light, &casts_shadows) in lights.row.iter().zip(&lights.casts_shadows) {
             sample_rows(&receivers, light, casts_shadows, (&mut rays, pdfs.as_deref_mut()));
         }
     }
+}
+
+/// The shadow ray to one light chosen of many; its irradiance is divided by the probability of the choice.
+#[inline(always)]
+fn chosen_ray<L: ListedLight>(
+    lights: &LightsOf<L>,
+    choice: &LightChoice,
+    fraction: u32,
+    surface: &Surface,
+    normal: DVec3,
+) -> LightRay {
+    let origin = offset_origin(surface.position, surface.normal, surface.bound);
+    let receiver = Receiver { position: origin.as_dvec3(), normal: surface.normal.as_dvec3() };
+    let (light, probability) = choice.choose(&receiver, fraction);
+    let mut light_ray = lights.row[light].ray_from(surface, normal);
+    light_ray.irradiance = light_ray.irradiance.map(|part| part / probability);
+    if !lights.casts_shadows[light] {
+        light_ray.t_max = 0.0;
+    }
+    if !is_apart(&light_ray.ray) {
+        light_ray.ray.cosine = 0.0;
+    }
+    light_ray
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
@@ -56,10 +98,10 @@ fn sample_rows<L: Light>(receivers: &LightRows<'_>, light: &L, casts_shadows: bo
 
 /// The stage that runs [`sample_lights`].
 pub fn light_sampling_stage<L: ListedLight>() -> Stage {
-    Stage::new(L::NAMES.sample, TileSystems::SampleLights, sample_lights::<L>).appends::<LightRays>().when(|scene| {
-        let found = Evidence::of::<L::Component>(scene, L::Component::WORD);
-        unless_occlusion(scene, found.and(|| material_evidence(scene)))
-    })
+    Stage::new(L::NAMES.sample, TileSystems::SampleLights, sample_lights::<L>)
+        .appends::<LightRays>()
+        .table_where::<SamplingTable>(many_lights_evidence::<L>)
+        .when(|scene| unless_occlusion(scene, lights_evidence::<L>(scene).and(|| material_evidence(scene))))
 }
 
 /// The stage that samples point lights.

@@ -93,6 +93,12 @@ pub(super) fn append_rays(
     }
 }
 
+/// Whether a light is far enough away to have a direction; at shorter distances the square is subnormal.
+#[inline(always)]
+pub(super) fn is_apart(ray: &ShadowRay) -> bool {
+    ray.distance * ray.distance >= f64::MIN_POSITIVE
+}
+
 /// Every row is written, and the next one overwrites it unless it counts, so that no branch depends on the surface.
 #[inline(always)]
 fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, ray_of: impl Fn(usize) -> LightRay) {
@@ -106,9 +112,7 @@ fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, ray_of: impl 
         (dx[at], dy[at], dz[at]) = light_ray.ray.direction.into();
         t_max[at] = light_ray.t_max;
         [r[at], g[at], b[at]] = light_ray.irradiance.map(|part| part.min(MOST) as f32);
-        // At shorter distances the square is subnormal, and the direction is undefined.
-        let apart = light_ray.ray.distance * light_ray.ray.distance >= f64::MIN_POSITIVE;
-        at += usize::from(light_ray.ray.cosine > 0.0 && apart);
+        at += usize::from(light_ray.ray.cosine > 0.0 && is_apart(&light_ray.ray));
     }
     if !casts_shadows {
         t_max[length..at].fill(0.0);

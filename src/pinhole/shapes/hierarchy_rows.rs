@@ -1,6 +1,6 @@
 use super::ray_block::{ClosestHit, ClosestHits, RaySlices};
 use super::shape::Shape;
-use crate::bvh::{BoundingBox, Bvh, LeafTest, Stack, traverse};
+use crate::bvh::{BoundingBox, Bvh, LeafTest, Stack, TestCounts, Traversal, traverse, traverse_counted};
 use glam::DVec3;
 use multiversion::multiversion;
 
@@ -58,4 +58,30 @@ pub fn keep_closest_of<S: Shape>(
         }
         hits.set(row, leaves.closest);
     }
+}
+
+/// Intersects one ray with shapes, keeps the closest hit, and counts what it is tested against: where there is no
+/// hierarchy, all of them.
+pub fn keep_closest_counted<S: Shape>(
+    (shapes, numbers, bvh): (&[S], &[u32], Option<&Bvh>),
+    ray: [DVec3; 2],
+    mut closest: ClosestHit,
+    counts: &mut TestCounts,
+) -> ClosestHit {
+    let Some(bvh) = bvh else {
+        for (shape, &number) in shapes.iter().zip(numbers) {
+            closest = shape.keep_closest_counted(ray, number, closest, 0, counts);
+        }
+        return closest;
+    };
+    if let Some(traversal) = Traversal::new(bvh, ray, closest.t) {
+        traverse_counted(bvh, traversal, 0, counts, |leaf, above, counts| {
+            for &place in bvh.primitives(leaf) {
+                let (shape, number) = (&shapes[place as usize], numbers[place as usize]);
+                closest = shape.keep_closest_counted(ray, number, closest, above, counts);
+            }
+            closest.t
+        });
+    }
+    closest
 }

@@ -1,6 +1,6 @@
 use super::arithmetic::{Arithmetic, Precise, dot_of};
 use super::bounds::Bounds;
-use super::emitter::NeverSampled;
+use super::emitter::EmittingTriangle;
 use super::mesh_hierarchy::MeshHierarchy;
 use super::mesh_normal::unnormalised_normal;
 use super::mesh_packet::{MeshPacket, may_be_coherent};
@@ -12,7 +12,7 @@ use super::space::normal_world_from_object;
 use super::triangle_hit::TriangleHit;
 use super::triangle_row::TriangleRow;
 use super::uv_slope::{UvSlope, planar_slope};
-use crate::bvh::{PACKET, Stack};
+use crate::bvh::{PACKET, Stack, TestCounts};
 use crate::scene::{MeshGeometry, MeshInstance, SceneError, number};
 use glam::{DMat3, DVec2, DVec3};
 use multiversion::multiversion;
@@ -67,6 +67,7 @@ impl SceneShape for MeshInstance {
 }
 
 impl PlacedMesh {
+    // ANCHOR: near_ray
     /// A ray in object space, and whether it starts close enough to the mesh.
     #[inline(always)]
     fn near_ray(&self, [origin, direction]: [DVec3; 2]) -> ([DVec3; 2], bool) {
@@ -74,6 +75,7 @@ impl PlacedMesh {
         let ray = [self.object_from_world * (origin - self.position), self.object_from_world * direction];
         (ray, apart.length_squared() <= (FAR_AWAY * self.radius) * (FAR_AWAY * self.radius))
     }
+    // ANCHOR_END: near_ray
 
     /// A ray in object space, and the t at which it starts there.
     ///
@@ -117,6 +119,21 @@ impl PlacedMesh {
         self.geometry.corners(triangle).map(placed)
     }
 
+    /// A triangle as a light; its normal is NaN where it has no area.
+    #[inline(always)]
+    pub fn emitting_triangle(&self, triangle: usize) -> EmittingTriangle {
+        let normal = self.normal_of(&self.triangle(triangle as u32));
+        EmittingTriangle { corners: self.placed_triangle(triangle), normal }
+    }
+
+    /// The unit normal of a triangle in render space, on the side from which its vertices run anticlockwise in object
+    /// space.
+    #[inline(always)]
+    fn normal_of(&self, triangle: &TriangleRow) -> DVec3 {
+        let along = normal_world_from_object(self.object_from_world, unnormalised_normal(triangle));
+        (along / along.abs().max_element()).normalize()
+    }
+
     /// The vertices of all triangles in render space.
     pub fn placed_triangles(&self) -> impl Iterator<Item = [DVec3; 3]> {
         (0..self.geometry.triangles.len()).map(|triangle| self.placed_triangle(triangle))
@@ -137,7 +154,7 @@ impl PlacedMesh {
 impl Shape for PlacedMesh {
     type Component = MeshInstance;
     type Beside = ();
-    type Emitter = NeverSampled;
+    type Emitter = EmittingTriangle;
 
     const HAS_PRIMITIVES: bool = true;
     const MANY: usize = 6;
@@ -191,13 +208,23 @@ impl Shape for PlacedMesh {
         self.hierarchy.keep_closest(self.own_ray(ray), number, closest, stack)
     }
 
+    fn keep_closest_counted(
+        &self,
+        ray: [DVec3; 2],
+        number: u32,
+        closest: ClosestHit,
+        above: u32,
+        counts: &mut TestCounts,
+    ) -> ClosestHit {
+        self.hierarchy.keep_closest_counted(self.own_ray(ray), number, closest, above, counts)
+    }
+
     fn surface(&self, _: &(), hit: &RayHit) -> SurfacePoint {
         let triangle = self.triangle(hit.primitive);
         let ([origin, direction], _) = self.own_ray([hit.origin, hit.direction]);
         let triangle_hit = TriangleHit::of(origin, direction, &triangle);
         let point = self.world_from_object * triangle_hit.interpolate(&triangle.corners) + self.position;
-        let along = normal_world_from_object(self.object_from_world, unnormalised_normal(&triangle));
-        let normal = (along / along.abs().max_element()).normalize();
+        let normal = self.normal_of(&triangle);
         let outside = !triangle_hit.along;
         let normal = if outside { normal } else { -normal };
         let at = DVec3::from(triangle_hit.weights);

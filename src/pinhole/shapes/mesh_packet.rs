@@ -86,6 +86,7 @@ impl MeshPacket {
         true
     }
 
+    // ANCHOR: signs_agree
     #[inline(always)]
     fn signs_agree(&self) -> bool {
         let mut differ = 0;
@@ -95,6 +96,7 @@ impl MeshPacket {
         }
         differ >> 63 == 0
     }
+    // ANCHOR_END: signs_agree
 
     #[inline(always)]
     fn set_shear(&mut self, mesh_size: f64) {

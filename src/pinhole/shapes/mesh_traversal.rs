@@ -3,7 +3,7 @@
 use super::mesh_hierarchy::MeshHierarchy;
 use super::ray_block::{ClosestHit, ClosestHits};
 use super::triangle_block::MeshRay;
-use crate::bvh::{LeafTest, Stack, Traversal};
+use crate::bvh::{LeafTest, Stack, TestCounts, Traversal, traverse_counted};
 use glam::DVec3;
 use std::ops::Range;
 
@@ -74,6 +74,25 @@ impl MeshHierarchy {
             true => self.keep_closest_until::<true>(ray, number, closest, stack),
             false => self.keep_closest_until::<false>(ray, number, closest, stack),
         }
+    }
+
+    /// The same, and counts what the ray is tested against; `above` nodes of a hierarchy over meshes are above this one.
+    pub fn keep_closest_counted(
+        &self,
+        ray: OwnRay,
+        number: u32,
+        closest: ClosestHit,
+        above: u32,
+        counts: &mut TestCounts,
+    ) -> ClosestHit {
+        let Some(MeshTraversal { mut leaves, traversal }) = MeshTraversal::new(self, ray, number, closest) else {
+            return closest;
+        };
+        traverse_counted(&self.bvh, traversal, above, counts, |leaf, _, counts| {
+            counts.primitives += self.bvh.primitives(leaf).len() as u32;
+            leaves.test(leaf)
+        });
+        leaves.closest
     }
 
     #[inline(always)]

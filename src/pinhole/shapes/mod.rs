@@ -93,7 +93,7 @@ pub use ellipsoid::{Ellipsoid, ellipsoid_intersection, ellipsoid_surface, ellips
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
 pub use frustum::Frustum;
 pub use frustum_light::EmittingFrustum;
-pub use hierarchy_rows::{hierarchy_of, keep_closest_of};
+pub use hierarchy_rows::{hierarchy_of, keep_closest_counted, keep_closest_of};
 pub use kind::ShapeKind;
 pub use mesh::PlacedMesh;
 pub use mesh_hierarchy::MeshHierarchy;

@@ -2,11 +2,11 @@
 
 use super::emitter::{Emitting, LightPoint};
 use super::kind::ShapeKind;
-use super::ray_block::{ClosestHits, RayBlock, keep_closest_block, vector};
+use super::ray_block::{ClosestHit, ClosestHits, RayBlock, keep_closest_block, vector};
 use super::shape::{RayHit, Shape, ShapeNames, SurfacePoint};
 use super::uv::face_axes;
 use super::uv_slope::{UvSlope, most_of, round_step};
-use crate::bvh::Stack;
+use crate::bvh::{Stack, TestCounts};
 use glam::DVec3;
 
 /// A shape of the list.
@@ -96,6 +96,17 @@ macro_rules! registry {
                 match self { $(Self::$kind(one, _) => keep_closest_of_one(rays, one, number, hits),)+ }
             }
 
+            /// Intersects one ray with it, keeps the closest hit, and counts what the ray is tested against.
+            pub(crate) fn keep_closest_counted(
+                &self,
+                ray: [DVec3; 2],
+                number: u32,
+                closest: ClosestHit,
+                counts: &mut TestCounts,
+            ) -> ClosestHit {
+                match self { $(Self::$kind(one, _) => one.keep_closest_counted(ray, number, closest, 0, counts),)+ }
+            }
+
             /// The surface where a ray hits it.
             pub fn surface(&self, hit: &RayHit) -> SurfacePoint {
                 match self { $(Self::$kind(shape, beside) => shape.surface(beside, hit),)+ }
@@ -112,6 +123,11 @@ macro_rules! registry {
             /// The area that emits, on one side, in square scene units.
             pub fn area(&self) -> f64 {
                 match self { $(Self::$kind(emitter) => Emitting::area(emitter),)+ }
+            }
+
+            /// The unit normal on its own side where all of it is in one plane; none for other shapes.
+            pub fn plane_normal(&self) -> Option<DVec3> {
+                match self { $(Self::$kind(emitter) => emitter.plane_normal(),)+ }
             }
 
             /// Whether a point is on the side of the shape's own normal, which is the outside of a closed shape.

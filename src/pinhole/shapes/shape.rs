@@ -4,7 +4,7 @@ use super::offset::{l1_norm, offset_bound};
 use super::ray_block::{ClosestHit, ClosestHits, Intersection, RaySlices, keep_closest_rows};
 use super::space::Pose;
 use super::uv_slope::UvSlope;
-use crate::bvh::Stack;
+use crate::bvh::{Stack, TestCounts};
 use crate::scene::SceneError;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
@@ -175,6 +175,19 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
         if closer { ClosestHit { t, shape: number, ..closest } } else { closest }
     }
 
+    /// The same, and counts what the ray is tested against; `above` nodes of a hierarchy are above the shape.
+    fn keep_closest_counted(
+        &self,
+        ray: [DVec3; 2],
+        number: u32,
+        closest: ClosestHit,
+        _above: u32,
+        counts: &mut TestCounts,
+    ) -> ClosestHit {
+        counts.primitives += 1;
+        self.keep_closest_of_ray(ray, number, closest, &mut Stack::default())
+    }
+
     /// Which of its primitives a ray hits at this t; 0 where it does not consist of several.
     fn primitive_at(&self, _origin: DVec3, _direction: DVec3, _t: f64) -> u32 {
         0
@@ -230,7 +243,7 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
         TypeId::of::<Self::Emitter>() != TypeId::of::<NeverSampled>()
     }
 
-    /// The shape as a light that is sampled; none where it cannot be.
+    /// The shape as a light that is sampled; none where it cannot be, or where each of its primitives is one.
     fn emitter(&self, _beside: &Self::Beside) -> Option<Self::Emitter> {
         None
     }

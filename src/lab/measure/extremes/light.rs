@@ -134,7 +134,7 @@ fn check_suns(range: Range<u64>) -> Tally {
             material: 0,
         }));
         let sun = PlacedDirectionalLight { to_light, irradiance: [1.0; 3] };
-        bench.insert(DirectionalLightTable { row: vec![sun], casts_shadows: vec![true] });
+        bench.insert(DirectionalLightTable { row: vec![sun], casts_shadows: vec![true], choice: None });
         bench.run();
         let rays = bench.column::<LightRays>();
         let (pinhole, t_max) =
@@ -215,11 +215,11 @@ fn materials(bench: &mut Bench, exponent: f64, colour: [f64; 3], specular: [f64;
 fn lights(bench: &mut Bench, position: DVec3, to_light: DVec3, strength: [f64; 3]) {
     let casts_shadows = vec![false];
     let point = PlacedPointLight { position, intensity: strength };
-    bench.insert(PointLightTable { row: vec![point], casts_shadows: casts_shadows.clone() });
+    bench.insert(PointLightTable { row: vec![point], casts_shadows: casts_shadows.clone(), choice: None });
     let spot = PlacedSpotLight { position, axis: -to_light, intensity: strength, inner: 0.0, outer: 1.0 };
-    bench.insert(SpotLightTable { row: vec![spot], casts_shadows: casts_shadows.clone() });
+    bench.insert(SpotLightTable { row: vec![spot], casts_shadows: casts_shadows.clone(), choice: None });
     let sun = PlacedDirectionalLight { to_light, irradiance: strength };
-    bench.insert(DirectionalLightTable { row: vec![sun], casts_shadows });
+    bench.insert(DirectionalLightTable { row: vec![sun], casts_shadows, choice: None });
 }
 
 fn surfaces(surface: Surface) -> Surfaces {

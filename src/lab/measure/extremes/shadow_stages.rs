@@ -161,7 +161,7 @@ impl ShadowStages {
         surfaces.set(0, surface);
         self.to_light.put(surfaces);
         let light = PlacedPointLight { position: light, intensity: [1.0; 3] };
-        self.to_light.insert(PointLightTable { row: vec![light], casts_shadows: vec![true] });
+        self.to_light.insert(PointLightTable { row: vec![light], casts_shadows: vec![true], choice: None });
         self.to_light.run();
         let (rays, hits) = (self.to_light.column::<LightRays>(), self.to_light.column::<ShadowHits>());
         (rays.rows() == 1).then(|| Shadow {

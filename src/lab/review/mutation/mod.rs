@@ -5,6 +5,7 @@
 
 mod hits;
 mod light;
+mod meshes;
 mod moving;
 mod rays;
 mod shapes;

@@ -1,12 +1,12 @@
-use super::{Bug, Mutation, hits, light, moving, rays, shapes, textures, triangles};
+use super::{Bug, Mutation, hits, light, meshes, moving, rays, shapes, textures, triangles};
 use bevy_ecs::prelude::*;
 use pinhole::film::film_stage;
 use pinhole::follow::direct_light_stage;
 use pinhole::intersect::{
     classify_stage, cuboid_stage, cuboid_surface_stage, disk_stage, disk_surface_stage, ellipsoid_stage,
-    ellipsoid_surface_stage, moving_stage, moving_surface_stage, plane_stage, plane_surface_stage, rectangle_stage,
-    rectangle_surface_stage, shading_normal_stage, sphere_stage, sphere_surface_stage, triangle_stage,
-    triangle_surface_stage,
+    ellipsoid_surface_stage, mesh_stage, mesh_surface_stage, moving_stage, moving_surface_stage, plane_stage,
+    plane_surface_stage, rectangle_stage, rectangle_surface_stage, shading_normal_stage, sphere_stage,
+    sphere_surface_stage, triangle_stage, triangle_surface_stage,
 };
 use pinhole::look::view_stage;
 use pinhole::material::{BlinnPhongTable, PhongTable};
@@ -21,7 +21,7 @@ use pinhole::shade::{
     plane_shadow_stage, point_light_stage, shape_shadow_stage, sphere_shadow_stage, spot_light_stage,
     start_light_stage, start_shadow_stage, stripes_stage, texture_point_stage, unlit_stage,
 };
-use pinhole::shapes::{Ellipsoid, PlacedDisk, PlacedRectangle, Slabs, TriangleRow};
+use pinhole::shapes::{Ellipsoid, PlacedDisk, PlacedMesh, PlacedRectangle, Slabs, TriangleRow};
 use pinhole::{intersect, shade};
 
 /// A row of the table.
@@ -57,6 +57,8 @@ const SOFT: &str = "21_soft_shadows";
 const BLURRED: &str = "23_depth_of_field";
 /// Things that move while the shutter is open.
 const MOVING: &str = "24_motion_blur";
+/// Models of many triangles.
+const MODELS: &str = "28_meshes";
 /// A gradient behind mirrors.
 const MIRRORED: &str = "19_mirrors";
 /// A column painted for the picture.
@@ -84,6 +86,7 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("far-root", sphere_stage, "where the ray leaves", MOST, Bug::Instead(|| hits::far_root.into_configs())),
     bug("unit-ray", ellipsoid_stage, "unit ray, t kept", SCALED, Bug::Instead(|| hits::ellipsoid_unit_ray.into_configs())),
     bug("two-edges", triangle_stage, "third edge not asked for", MICROFACETS, Bug::Instead(|| triangles::two_edges.into_configs())),
+    bug("own-unit", mesh_stage, "t in the mesh's own unit", MODELS, Bug::After(|| meshes::own_unit.into_configs())),
     bug("plane-sign", plane_stage, "sign of k", MOST, Bug::Instead(|| hits::plane_sign.into_configs())),
     bug("disk-square", disk_stage, "the square about it", SHAPES, Bug::Instead(|| shapes::disk_square.into_configs())),
     bug("one-coordinate", rectangle_stage, "one coordinate asked", SHAPES, Bug::Instead(|| shapes::one_coordinate.into_configs())),
@@ -94,6 +97,7 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("no-epsilon", sphere_surface_stage, "epsilon times 0", MOST, Bug::After(|| hits::no_epsilon.into_configs())),
     bug("normal-as-direction", ellipsoid_surface_stage, "taken for a direction", SCALED, Bug::After(|| hits::normal_as_direction.into_configs())),
     bug("next-corner", triangle_surface_stage, "barycentrics one corner on", MICROFACETS, Bug::After(|| triangles::next_corner.into_configs())),
+    bug("mesh-inward", mesh_surface_stage, "sign of the normal", MODELS, Bug::After(|| meshes::inward.into_configs())),
     bug("shorter-normal", shading_normal_stage, "not brought to length 1", MICROFACETS, Bug::After(|| triangles::shorter.into_configs())),
     bug("constant-epsilon", plane_surface_stage, "one epsilon, 1e-4", MOST, Bug::After(|| hits::constant_epsilon.into_configs())),
     bug("disk-inward", disk_surface_stage, "sign of the normal", SHAPES, Bug::After(|| shapes::disk_inward.into_configs())),
@@ -117,6 +121,7 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("spheres-ignored", sphere_shadow_stage, "not looked for", MOST, Bug::Instead(|| light::spheres_ignored.into_configs())),
     bug("ellipsoids-ignored", shape_shadow_stage::<Ellipsoid>, "not looked for", SCALED, Bug::Instead(|| light::ellipsoids_ignored.into_configs())),
     bug("triangles-ignored", shape_shadow_stage::<TriangleRow>, "not looked for", MICROFACETS, Bug::Instead(|| triangles::ignored.into_configs())),
+    bug("meshes-ignored", shape_shadow_stage::<PlacedMesh>, "not looked for", MODELS, Bug::Instead(|| meshes::ignored.into_configs())),
     bug("behind-counts", plane_shadow_stage, "t below 0 counts", MOST, Bug::Instead(|| light::behind_counts.into_configs())),
     bug("disks-ignored", shape_shadow_stage::<PlacedDisk>, "not looked for", SHAPES, Bug::Instead(|| light::disks_ignored.into_configs())),
     bug("rectangles-ignored", shape_shadow_stage::<PlacedRectangle>, "not looked for", SHAPES, Bug::Instead(|| light::rectangles_ignored.into_configs())),

@@ -25,6 +25,10 @@ impl Emitting for EmittingDisk {
         self.0.faces(point)
     }
 
+    fn plane_normal(&self) -> Option<DVec3> {
+        Some(self.0.normal)
+    }
+
     #[inline(always)]
     fn point(&self, from: DVec3, u: [f64; 2]) -> LightPoint {
         disk_point(&self.0, from, u)

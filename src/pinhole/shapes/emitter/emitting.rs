@@ -12,6 +12,11 @@ pub trait Emitting: Clone + Copy + Debug + PartialEq + Send + Sync + 'static {
     /// Whether a point is on the side of the shape's own normal, which is the outside of a closed shape.
     fn faces(&self, point: DVec3) -> bool;
 
+    /// The unit normal on its own side where all of it is in one plane; none for other shapes.
+    fn plane_normal(&self) -> Option<DVec3> {
+        None
+    }
+
     /// The point of the light for a point of the unit square, as seen from `from`.
     fn point(&self, from: DVec3, u: [f64; 2]) -> LightPoint;
 

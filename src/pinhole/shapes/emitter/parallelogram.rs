@@ -72,6 +72,10 @@ impl Emitting for Parallelogram {
         self.normal.dot(point - self.centre) > 0.0
     }
 
+    fn plane_normal(&self) -> Option<DVec3> {
+        Some(self.normal)
+    }
+
     #[inline(always)]
     fn point(&self, from: DVec3, u: [f64; 2]) -> LightPoint {
         parallelogram_point(self, from, u)

@@ -28,6 +28,10 @@ impl Emitting for EmittingTriangle {
         self.normal.dot(point - self.corners[0]) > 0.0
     }
 
+    fn plane_normal(&self) -> Option<DVec3> {
+        Some(self.normal)
+    }
+
     #[inline(always)]
     fn point(&self, from: DVec3, u: [f64; 2]) -> LightPoint {
         triangle_point(&self.corners, from, u)

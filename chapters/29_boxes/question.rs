@@ -1,0 +1,156 @@
+//! Chapter 29: whether a ray enters a box.
+
+use super::mine::mine;
+use pinhole_lab::exercise::apart::exact;
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::measure::ray_aim::Draws;
+
+/// Origin, 1 over the direction, low, high, t_max; all with few digits, so that no product rounds.
+pub(super) type Input = ([f64; 3], [f64; 3], [f64; 3], [f64; 3], f64);
+
+/// What the reader writes.
+pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], [f64; 3], f64) -> bool;
+
+/// The exercise with the function as the reader has it now.
+pub fn yours() -> Exercise {
+    exercise(super::exercise::enters_box)
+}
+
+/// The exercise with this function in it.
+pub fn exercise(yours: Yours) -> Exercise {
+    let written = move |&(o, inverse, low, high, t_max): &Input| yours(o, inverse, low, high, t_max);
+    Exercise::rendered("enters_box", question, written, mine)
+}
+
+fn question() -> Question<Input, bool> {
+    Question {
+        pinhole_has: ("src/pinhole/bvh/slab_test.rs", "enters"),
+        probes: asked(),
+        tell: |(origin, inverse, low, high, t_max)| {
+            let [origin, inverse, low, high] = [origin, inverse, low, high].map(Shown::shown);
+            format!("origin {origin}, inverse {inverse}, low {low}, high {high}, t_max {t_max:?}")
+        },
+        right: |input| entered(input, Slab::Closed).is_some_and(|[from, until]| from.max(0.0) <= until.min(input.4)),
+        apart: exact,
+        allowed: 0.0,
+        measured: "",
+        mistakes: vec![
+            Mistake::new("min and max pass over NaN and give the infinity beside it, so a ray in a face is lost", |input| {
+                by_min_and_max(input)
+            }),
+            Mistake::new("a ray in a face is taken for one that misses: faces belong to the box", |input| {
+                entered(input, Slab::Open).is_some_and(|[from, until]| from.max(0.0) <= until.min(input.4))
+            }),
+            Mistake::new("a box behind the origin counts: t begins at 0", |input| {
+                entered(input, Slab::Closed).is_some_and(|[from, until]| from <= until.min(input.4))
+            }),
+            Mistake::new("a box beyond t_max counts", |input| {
+                entered(input, Slab::Closed).is_some_and(|[from, until]| from.max(0.0) <= until)
+            }),
+            Mistake::new("from = until is a hit too, or flat boxes and edges are lost", |input| {
+                entered(input, Slab::Closed).is_some_and(|[from, until]| from.max(0.0) < until.min(input.4))
+            }),
+            Mistake::new("a ray that goes towards smaller coordinates enters by the upper plane", |input| {
+                in_order(input)
+            }),
+        ],
+        hints: &[
+            "along each axis the ray is between the two faces from one t to another; in the box it is where all three \
+             are so, from 0 to t_max",
+            "it enters a slab by its lower plane where it goes upward and by its upper plane where it goes downward; the \
+             sign of `inverse` says which, that of an infinity too",
+            "at (plane − origin) · inverse it crosses a plane; a plane through the origin of a ray along it gives \
+             0 · ∞, which is NaN",
+            "write `if enters > from { from = enters }` and `if leaves < until { until = leaves }`: with NaN both are \
+             false, and nothing changes, which is right for a ray in the plane of a face",
+        ],
+    }
+}
+
+/// Whether the faces of a slab belong to it, for rays along them.
+#[derive(Clone, Copy, PartialEq)]
+enum Slab {
+    Closed,
+    Open,
+}
+
+/// From which t to which a ray is in a box, along the whole line.
+fn entered(&(o, inverse, low, high, _): &Input, slab: Slab) -> Option<[f64; 2]> {
+    let (mut from, mut until) = (f64::NEG_INFINITY, f64::INFINITY);
+    for axis in 0..3 {
+        if inverse[axis].is_infinite() {
+            let is_on = o[axis] == low[axis] || o[axis] == high[axis];
+            if o[axis] < low[axis] || o[axis] > high[axis] || (is_on && slab == Slab::Open) {
+                return None;
+            }
+            continue;
+        }
+        let (one, other) = ((low[axis] - o[axis]) * inverse[axis], (high[axis] - o[axis]) * inverse[axis]);
+        (from, until) = (from.max(one.min(other)), until.min(one.max(other)));
+    }
+    (from <= until).then_some([from, until])
+}
+
+fn by_min_and_max(&(o, inverse, low, high, t_max): &Input) -> bool {
+    let (mut from, mut until) = (0.0_f64, t_max);
+    for axis in 0..3 {
+        let (one, other) = ((low[axis] - o[axis]) * inverse[axis], (high[axis] - o[axis]) * inverse[axis]);
+        (from, until) = (from.max(one.min(other)), until.min(one.max(other)));
+    }
+    from <= until
+}
+
+/// Lower planes first, whichever direction the ray has.
+fn in_order(&(o, inverse, low, high, t_max): &Input) -> bool {
+    let (mut from, mut until) = (0.0, t_max);
+    for axis in 0..3 {
+        let (enters, leaves) = ((low[axis] - o[axis]) * inverse[axis], (high[axis] - o[axis]) * inverse[axis]);
+        from = if enters > from { enters } else { from };
+        until = if leaves < until { leaves } else { until };
+    }
+    from <= until
+}
+
+fn asked() -> Vec<Probe<Input>> {
+    const ALWAYS: f64 = f64::INFINITY;
+    let (low, high) = ([-1.0, -2.0, -4.0], [1.0, 2.0, -2.0]);
+    let at = |origin, direction: [f64; 3], t_max| (origin, direction.map(|part| 1.0 / part), low, high, t_max);
+    let mut asked: Vec<_> = probes("obliquely", [at([3.0, 1.0, 0.5], [-1.0, -0.25, -1.0], ALWAYS)]).collect();
+    asked.extend(probes("past the box", [at([3.0, 0.0, 0.0], [0.125, 0.125, -1.0], ALWAYS)]));
+    asked.extend(probes("backwards", [at([-3.0, 0.5, -1.0], [1.0, 0.125, -0.5], ALWAYS)]));
+    asked.extend(probes("a box behind the origin", [at([0.25, 0.5, 0.0], [0.125, 0.125, 1.0], ALWAYS)]));
+    asked.extend(probes("from inside", [at([0.25, 0.5, -3.0], [0.5, 0.25, -0.125], ALWAYS)]));
+    asked.extend(probes("a box beyond t_max", [at([0.25, 0.5, 0.0], [0.125, 0.125, -1.0], 1.5)]));
+    asked.extend(probes("a box at t_max", [at([0.25, 0.5, 0.0], [0.125, 0.125, -1.0], 2.0)]));
+    asked.extend(probes(
+        "along an axis",
+        [at([0.25, 0.5, 0.0], [0.0, -0.0, -1.0], ALWAYS), at([1.5, 0.5, 0.0], [-0.0, 0.0, -1.0], ALWAYS)],
+    ));
+    asked.extend(probes(
+        "in the plane of a face",
+        [at([1.0, 0.5, 0.0], [0.0, 0.0, -1.0], ALWAYS), at([-1.0, 0.5, 0.0], [-0.0, 0.0, -1.0], ALWAYS)],
+    ));
+    asked.extend(probes("along an edge", [at([1.0, 2.0, 0.0], [0.0, -0.0, -1.0], ALWAYS)]));
+    asked.extend(probes("through an edge", [at([3.0, 0.0, 0.0], [-1.0, 0.0, -1.0], ALWAYS)]));
+    let flat = ([0.5, 0.5, 3.0], [4.0, -4.0, -1.0], [0.0, 0.0, -1.0], [1.0, 1.0, -1.0], ALWAYS);
+    asked.extend(probes("a flat box", [flat, (flat.0, [ALWAYS, ALWAYS, -1.0], flat.2, flat.3, ALWAYS)]));
+    asked.extend(probes("anything", (0..400).map(drawn)));
+    asked
+}
+
+/// A box and a ray of numbers with few digits, mostly at it; directions are powers of two or 0, so that no product rounds.
+fn drawn(index: u64) -> Input {
+    let mut draws = Draws::new(2901, index);
+    let mut step = |range: f64| (draws.unit() * range * 2.0 - range).round() / 4.0;
+    let low = [step(8.0), step(8.0), step(8.0)];
+    let size = [step(8.0), step(8.0), step(8.0)].map(f64::abs);
+    let origin = [step(16.0), step(16.0), step(16.0)];
+    let direction = [step(10.0), step(10.0), step(10.0)].map(|part: f64| match part.abs() {
+        small if small < 0.5 => 0.0 * part,
+        middle if middle < 1.5 => part.signum(),
+        _ => 2.0 * part.signum(),
+    });
+    let direction = if direction == [0.0; 3] { [0.0, 0.0, -1.0] } else { direction };
+    let t_max = if index.is_multiple_of(3) { step(16.0).abs() + 0.25 } else { f64::INFINITY };
+    (origin, direction.map(|part| 1.0 / part), low, [0, 1, 2].map(|axis| low[axis] + size[axis]), t_max)
+}

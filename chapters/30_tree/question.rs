@@ -1,0 +1,92 @@
+//! Chapter 30: which children of a node a ray visits, and in which order.
+
+use super::mine::mine;
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, probes};
+use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::naive::tree::to_visit;
+
+/// Where a ray enters the children, and its closest hit so far.
+pub(super) type Input = ([Option<f64>; 2], f64);
+pub(super) type Answer = [Option<u32>; 2];
+
+/// What the reader writes.
+pub type Yours = fn([Option<f64>; 2], f64) -> Answer;
+
+/// The exercise with the function as the reader has it now.
+pub fn yours() -> Exercise {
+    exercise(super::exercise::to_visit)
+}
+
+/// The exercise with this function in it.
+pub fn exercise(yours: Yours) -> Exercise {
+    Exercise::rendered("to_visit", question, move |&(enters, closest)| yours(enters, closest), mine)
+}
+
+fn question() -> Question<Input, Answer> {
+    Question {
+        pinhole_has: ("src/pinhole/bvh/traverse.rs", "step"),
+        probes: asked(),
+        tell: |(enters, closest)| format!("enters {enters:?}, closest {closest:?}"),
+        right: |&(enters, closest)| to_visit(enters, closest),
+        apart: |yours, right| if yours == right { 0.0 } else { 1.0 },
+        allowed: 0.0,
+        measured: "where 1 is a wrong list",
+        mistakes: vec![
+            Mistake::new(
+                "the farther child is left out: its box may overlap the nearer one and hold the closer hit",
+                |&(enters, closest)| [to_visit(enters, closest)[0], None],
+            ),
+            Mistake::new(
+                "a child that begins behind the closest hit is visited: it cannot hold a closer one",
+                |&(enters, _)| to_visit(enters, f64::INFINITY),
+            ),
+            Mistake::new("child 0 first, whichever is nearer: the picture is right, and takes longer", |&input| {
+                in_order(input)
+            }),
+            Mistake::new("the farther child comes first: a hit there seldom spares the nearer one", |&(enters, closest)| {
+                match to_visit(enters, closest) {
+                    [first, Some(second)] => [Some(second), first],
+                    order => order,
+                }
+            }),
+            Mistake::new("nothing may stand before a child: where only one is visited, it is the first", |&(enters, closest)| {
+                [0, 1].map(|child| enters[child as usize].filter(|&t| t < closest).map(|_| child))
+            }),
+        ],
+        hints: &[
+            "there are four cases: neither child is visited, only child 0, only child 1, or both",
+            "a child is visited if the ray enters its box, and does so before `closest`",
+            "of two children the one with the smaller t is first",
+        ],
+    }
+}
+
+fn in_order((enters, closest): Input) -> Answer {
+    match to_visit(enters, closest) {
+        [Some(1), Some(0)] => [Some(0), Some(1)],
+        order => order,
+    }
+}
+
+fn asked() -> Vec<Probe<Input>> {
+    let both = ([Some(1.0), Some(2.0)], f64::INFINITY);
+    let mut asked: Vec<_> = probes("two boxes ahead", [both, ([Some(2.0), Some(1.0)], f64::INFINITY)]).collect();
+    asked.extend(probes("one box missed", [([Some(1.0), None], 9.0), ([None, Some(1.0)], 9.0)]));
+    asked.extend(probes("both missed", [([None, None], 9.0)]));
+    asked.extend(probes("from inside both", [([Some(0.0), Some(0.0)], f64::INFINITY), ([Some(0.0), Some(0.0)], 3.0)]));
+    asked.extend(probes("from inside one", [([Some(0.5), Some(0.0)], 3.0), ([Some(0.0), Some(0.5)], 3.0)]));
+    asked.extend(probes(
+        "a hit before one box",
+        [([Some(1.0), Some(2.0)], 1.5), ([Some(2.0), Some(1.0)], 1.5), ([None, Some(2.0)], 1.5)],
+    ));
+    asked.extend(probes("a hit before both", [([Some(3.0), Some(2.0)], 1.5), ([Some(3.0), None], 1.5)]));
+    asked.extend(probes("any boxes", (0..100).map(drawn)));
+    asked
+}
+
+/// Boxes that are entered at different t, none of them exactly at the closest hit.
+fn drawn(index: u64) -> Input {
+    let mut draws = Draws::new(3003, index);
+    let enters = [(); 2].map(|()| (draws.unit() < 0.75).then(|| draws.between(0.0, 4.0)));
+    (enters, if draws.unit() < 0.25 { f64::INFINITY } else { draws.between(0.0, 6.0) })
+}

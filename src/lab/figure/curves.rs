@@ -1,0 +1,221 @@
+//! What a ray costs over the number of primitives, as it was measured and is kept beside the chapter.
+
+use super::Figure;
+use super::label::Label;
+use super::pen::{INK, Pen};
+use super::svg::{Drawing, Svg};
+use glam::DVec2;
+use pinhole::scene::{FileKind, read_file};
+use pinhole::{Chapter, Error, Result};
+
+/// Where the axes are: left, top, right, bottom.
+const FRAME: [f64; 4] = [66.0, 40.0, 566.0, 340.0];
+const HEIGHT: f64 = 412.0;
+const KEPT: FileKind = FileKind { name: "kept curves", most: 1 << 20 };
+
+/// A table of the kept file: its columns' names, and a row for each count, whose cells may be empty.
+#[derive(Clone, Debug, PartialEq)]
+struct Kept {
+    names: Vec<String>,
+    rows: Vec<(f64, Vec<Option<f64>>)>,
+}
+
+impl Kept {
+    /// The table below the line that starts with this word.
+    ///
+    /// Names are parted by at least two blanks, numbers by any.
+    fn of(text: &str, title: &str) -> Option<Self> {
+        let mut lines = text.lines().skip_while(|line| !line.starts_with(title)).skip(1);
+        let names = lines.next()?.split("  ").map(str::trim).filter(|name| !name.is_empty());
+        let names: Vec<String> = names.skip(1).map(str::to_owned).collect();
+        let row = |line: &str| {
+            let mut cells = line.split_whitespace();
+            let count = cells.next()?.parse().ok()?;
+            Some((count, cells.map(|cell| cell.parse().ok()).collect::<Vec<_>>()))
+        };
+        let rows: Vec<_> = lines.map_while(row).filter(|(_, cells)| cells.len() == names.len()).collect();
+        (!rows.is_empty()).then_some(Self { names, rows })
+    }
+
+    /// The points of a column.
+    fn column(&self, name: &str) -> Vec<(f64, f64)> {
+        let Some(at) = self.names.iter().position(|own| own == name) else { return Vec::new() };
+        self.rows.iter().filter_map(|(count, cells)| Some((*count, cells[at]?))).collect()
+    }
+}
+
+/// A curve: its column, what it is called, its pen.
+type Shown = (&'static str, &'static str, Pen);
+
+const GREY: &str = "#8a8a8a";
+const ORANGE: &str = "#d9822b";
+const BLUE: &str = "#4a90c9";
+const GREEN: &str = "#4f9d5d";
+
+/// Triangles of a mesh.
+pub fn draw_triangles(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let shown = [
+        ("all, random", "all of them", Pen::new(GREY, 1.8)),
+        ("binary, random", "binary, random", Pen::new(GREEN, 1.8)),
+        ("alone, random", "wide, random", Pen::new(ORANGE, 1.8).dashed("5 4")),
+        ("turns, random", "wide, in turns", Pen::new(ORANGE, 2.2)),
+        ("alone, coherent", "wide, coherent", Pen::new(BLUE, 1.8).dashed("5 4")),
+        ("packets, coherent", "in packets", Pen::new(BLUE, 2.2)),
+    ];
+    draw(chapter, figure, "triangles", &shown)
+}
+
+/// Spheres at random.
+pub fn draw_spheres(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let shown = [
+        ("all, random", "all of them", Pen::new(GREY, 1.8)),
+        ("binary, random", "binary, random", Pen::new(GREEN, 1.8)),
+        ("wide, random", "wide, random", Pen::new(ORANGE, 2.2)),
+        ("wide, coherent", "wide, coherent", Pen::new(BLUE, 2.2)),
+    ];
+    draw(chapter, figure, "spheres", &shown)
+}
+
+fn draw(chapter: &Chapter, figure: &Figure, what: &str, shown: &[Shown]) -> Result<Drawing> {
+    let file = crate::repository().join("chapters").join(chapter.name).join("curves.txt");
+    let text = read_file(&file, KEPT).unwrap_or_default();
+    let text = String::from_utf8_lossy(&text);
+    let missing = || {
+        let place = format!("chapters/{}/curves.txt", chapter.name);
+        Error::Usage(format!("{place} has no curve of {what}; `cargo bench --bench curves -- --write` measures it"))
+    };
+    let kept = Kept::of(&text, what).ok_or_else(missing)?;
+    let points = || shown.iter().flat_map(|(column, ..)| kept.column(column));
+    let xs = decades(points().map(|(count, _)| count));
+    let ys = decades(points().map(|(_, ns)| ns));
+    let [left, top, right, bottom] = FRAME;
+    let at = |(count, ns): (f64, f64)| {
+        let part = |value: f64, [low, high]: [f64; 2]| (libm::log10(value) - low) / (high - low);
+        DVec2::new(left + (right - left) * part(count, xs), bottom - (bottom - top) * part(ns, ys))
+    };
+    let mut svg = Svg::new(figure.name, HEIGHT);
+    let grid = Pen::new(INK, 0.8).faint(0.16);
+    for decade in xs[0] as i32..=xs[1] as i32 {
+        let count = libm::exp10(f64::from(decade));
+        let [foot, head] = [ys[0], ys[1]].map(|end| at((count, libm::exp10(end))));
+        svg.quiet_line(foot, head, grid);
+        svg.label(Label::near(foot, &power(decade), DVec2::Y, 5.0).title(0.85));
+    }
+    for decade in ys[0] as i32..=ys[1] as i32 {
+        let ns = libm::exp10(f64::from(decade));
+        let [foot, end] = [xs[0], xs[1]].map(|end| at((libm::exp10(end), ns)));
+        svg.quiet_line(foot, end, grid);
+        svg.label(Label::near(foot, &time(decade), DVec2::NEG_X, 6.0).title(0.85));
+    }
+    let caches = caches(&text);
+    for (place, (name, kib)) in caches.iter().enumerate() {
+        let sizes = kept.column("hierarchy KiB");
+        let Some(count) = crossing(&sizes, *kib) else { continue };
+        let x = at((count, 1.0)).x;
+        svg.quiet_line(DVec2::new(x, top), DVec2::new(x, bottom), Pen::new(INK, 1.0).faint(0.5).dashed("2 4"));
+        let words = if place == 0 { format!("fills {name}") } else { name.clone() };
+        svg.label(Label::near(DVec2::new(x, top), &words, DVec2::NEG_Y, 4.0).title(0.85));
+    }
+    let mut ends = Vec::new();
+    for (column, name, pen) in shown {
+        let points = kept.column(column);
+        for pair in points.windows(2) {
+            svg.quiet_line(at(pair[0]), at(pair[1]), *pen);
+        }
+        points.iter().for_each(|&point| svg.dot(at(point), 2.4, pen.colour));
+        ends.extend(points.last().map(|&point| (at(point), *name, pen.colour)));
+    }
+    // Each name at the end of its curve, none on another.
+    ends.sort_by(|one, other| one.0.y.total_cmp(&other.0.y));
+    let mut last = [f64::NEG_INFINITY; 2];
+    for (end, name, colour) in ends {
+        let is_right = usize::from(end.x > right - 90.0);
+        let y = f64::max(end.y, last[is_right] + 17.0);
+        last[is_right] = y;
+        svg.label(Label::near(DVec2::new(end.x, y), name, DVec2::X, 7.0).coloured(colour).title(0.92));
+    }
+    let middle = DVec2::new(0.5 * (left + right), bottom + 22.0);
+    svg.label(Label::near(middle, what, DVec2::Y, 0.0).title(0.92));
+    svg.label(Label::near(DVec2::new(left, 14.0), "a ray", DVec2::X, 0.0).title(0.92));
+    let note = machine(&text).unwrap_or_default();
+    Ok(svg.finish(figure.about, &figure.kept_stamp(&note)))
+}
+
+/// The whole decades around these numbers.
+fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let logs: Vec<f64> = values.filter(|value| *value > 0.0).map(libm::log10).collect();
+    let low = logs.iter().copied().fold(f64::INFINITY, f64::min).floor();
+    let high = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max).ceil();
+    if logs.is_empty() { [0.0, 1.0] } else { [low, f64::max(high, low + 1.0)] }
+}
+
+/// 10, 100, 1000, 10⁴ …
+fn power(decade: i32) -> String {
+    const RAISED: [&str; 10] = ["⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"];
+    if decade < 4 {
+        format!("{}", libm::exp10(f64::from(decade)))
+    } else {
+        format!("10{}", RAISED[decade as usize % 10])
+    }
+}
+
+/// A power of ten nanoseconds.
+fn time(decade: i32) -> String {
+    let (unit, ns) = if decade < 3 {
+        ("ns", decade)
+    } else if decade < 6 {
+        ("µs", decade - 3)
+    } else {
+        ("ms", decade - 6)
+    };
+    format!("{} {unit}", libm::exp10(f64::from(ns)))
+}
+
+/// The caches that the file names, in KiB.
+fn caches(text: &str) -> Vec<(String, f64)> {
+    let Some((_, list)) = text.split_once("caches: ") else { return Vec::new() };
+    let list = list.lines().next().unwrap_or_default().split(", ");
+    let cache = |words: &str| {
+        let mut words = words.split(' ');
+        Some((words.next()?.to_owned(), words.next()?.parse().ok()?))
+    };
+    list.filter_map(cache).collect()
+}
+
+/// Where a curve first comes to a size, between two of its points on a straight line of logarithms.
+fn crossing(sizes: &[(f64, f64)], size: f64) -> Option<f64> {
+    let pair = sizes.windows(2).find(|pair| pair[0].1 < size && pair[1].1 >= size)?;
+    let [(x, low), (end, high)] = [pair[0], pair[1]].map(|(count, size)| (libm::log10(count), libm::log10(size)));
+    Some(libm::exp10(x + (end - x) * (libm::log10(size) - low) / (high - low)))
+}
+
+fn machine(text: &str) -> Option<String> {
+    let (_, rest) = text.split_once("machine: ")?;
+    rest.split(';').next().map(str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "ns\n\ntriangles of a knot\n    count  all, random  hierarchy KiB\n      100         10.0           8\n\
+                        1000            -          80\n\nspheres\n    count  b\n  1  2\n\nmachine: M; caches: L1 32 KiB, L2 1024 KiB\n";
+
+    #[test]
+    fn a_kept_table_is_read_by_its_names() {
+        let kept = Kept::of(TEXT, "triangles").expect("a table");
+        assert_eq!(kept.names, ["all, random", "hierarchy KiB"]);
+        assert_eq!(kept.column("all, random"), [(100.0, 10.0)]);
+        assert_eq!(kept.column("hierarchy KiB"), [(100.0, 8.0), (1000.0, 80.0)]);
+        assert_eq!(Kept::of(TEXT, "spheres").expect("a table").column("b"), [(1.0, 2.0)]);
+        assert_eq!(Kept::of(TEXT, "cubes"), None);
+        assert_eq!(caches(TEXT), [("L1".to_owned(), 32.0), ("L2".to_owned(), 1024.0)]);
+        assert_eq!(machine(TEXT).as_deref(), Some("M"));
+        let count = crossing(&kept.column("hierarchy KiB"), 80.0).expect("it comes to that");
+        assert!((count - 1000.0).abs() < 1e-9 && crossing(&kept.column("hierarchy KiB"), 90.0).is_none());
+        assert_eq!(
+            [time(0), time(2), time(3), time(7), power(3), power(7)],
+            ["1 ns", "100 ns", "1 µs", "10 ms", "1000", "10⁷"]
+        );
+    }
+}

@@ -1,0 +1,74 @@
+use super::Scattered;
+use crate::extract::{followed_evidence, many_area_lights_evidence, mis_evidence};
+use crate::intersect::Surfaces;
+use crate::plan::{Census, Column, Evidence, Stage, TileSystems, column};
+use crate::rays::WorldRays;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+column! {
+    /// The surface that each ray was scattered from, by which the probability is computed that light sampling chose the
+    /// light which the ray hits; exists where one of many lights is chosen.
+    pub struct Departures("departure", "world, from the eye", "unit vectors", Path, begun in Start) {
+        /// The geometric normal on the side of the ray, x; all 0 for camera rays.
+        nx: f32,
+        /// Normal, y.
+        ny: f32,
+        /// Normal, z.
+        nz: f32,
+    }
+}
+
+impl Departures {
+    /// The normal, each component mapped from [−1, 1] to [0, 1].
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.nx[row], self.ny[row], self.nz[row]].map(|part| 0.5 + 0.5 * part)
+    }
+
+    /// The normal of a row.
+    #[inline(always)]
+    pub fn normal(&self, row: usize) -> DVec3 {
+        DVec3::new(self.nx[row].into(), self.ny[row].into(), self.nz[row].into())
+    }
+}
+
+/// Camera rays leave no surface.
+pub fn start_departures(mut tiles: Query<(&WorldRays, &mut Departures)>) {
+    for (rays, mut departures) in &mut tiles {
+        let (x, y, z) = departures.slices_mut(rays.rows());
+        [x, y, z].into_iter().for_each(|component| component.fill(0.0));
+    }
+}
+
+/// Keeps the normals of the surfaces that the rays of the next bounce leave.
+pub fn keep_departures(mut tiles: Query<(&Surfaces, &Scattered, &mut Departures)>) {
+    for (surfaces, scattered, mut departures) in &mut tiles {
+        let (x, y, z) = departures.slices_mut(scattered.rows());
+        for (ray, &row) in scattered.path.iter().enumerate() {
+            let normal = surfaces.get(row as usize).normal;
+            let along = normal.x * scattered.dx[ray] + normal.y * scattered.dy[ray] + normal.z * scattered.dz[ray];
+            (x[ray], y[ray], z[ray]) = if along < 0.0 { -normal } else { normal }.into();
+        }
+    }
+}
+
+/// The stage that runs [`start_departures`].
+pub fn start_departures_stage() -> Stage {
+    Stage::new("Clear the surfaces that rays left", TileSystems::Start, start_departures)
+        .on_first_bounce()
+        .on_camera_paths()
+        .when(departure_evidence)
+}
+
+/// The stage that runs [`keep_departures`].
+pub fn keep_departures_stage() -> Stage {
+    Stage::new("Keep the surfaces that rays leave", TileSystems::Step, keep_departures)
+        .on_camera_paths()
+        .when(departure_evidence)
+}
+
+/// Evidence that light sampling chooses one of many area lights by the surface, and that what BSDF sampling finds is
+/// weighted against it.
+pub(super) fn departure_evidence(scene: &Census<'_>) -> Evidence {
+    many_area_lights_evidence(scene).and(|| followed_evidence(scene)).and(|| mis_evidence(scene))
+}

@@ -1,0 +1,117 @@
+//! Many lights: what one chosen for each surface brings is what all of them bring.
+
+use super::caustics::agrees;
+use super::*;
+use crate::scenes::Setup;
+use crate::scenes::many::many_lights;
+use glam::DVec3;
+use pinhole::scene::*;
+use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::torus_knot::torus_knot;
+
+/// A ground and a ball under an emitting knot of 200 triangles, one side of which is dark.
+fn under_a_knot(ball: impl Bundle) -> World {
+    let mut world = World::new();
+    let look = LookAt { eye: DVec3::new(0.2, 2.4, 3.2), target: DVec3::new(0.0, 0.3, 0.0), up: DVec3::Y };
+    let fov = PerspectiveCamera { fov: Degrees(50.0), ..Default::default() };
+    let integrator = Integrator::Path { max_depth: 5, lights: LightStrategy::Mis, roulette: 0 };
+    world.spawn((Name::new("camera"), look, fov, Resolution { width: 32, height: 24 }, integrator));
+    let grey = Matte { colour: Rgb::new(0.7, 0.6, 0.5) };
+    world.spawn((Rectangle { width: 5.0, depth: 5.0 }, Placement::at(0.0, 0.0, 0.0), grey));
+    world.spawn((Sphere { radius: 0.4 }, Placement::at(0.1, 0.5, 0.4), ball));
+    let mut knot = torus_knot(20, 5);
+    // Its front is the outside.
+    knot.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+    let knot = MeshInstance { geometry: MeshGeometry::new(knot) };
+    let placed = Placement { scale: DVec3::new(0.4, 0.3, -0.35), ..Placement::at(0.1, 1.4, -0.6) };
+    world.spawn((knot, placed, Emissive { radiance: Rgb::new(6.0, 5.0, 3.0), sides: Sides::Front }));
+    world
+}
+
+#[test]
+fn light_strategies_agree_under_an_emitting_mesh() {
+    let matte = || under_a_knot(Matte { colour: Rgb::new(0.5, 0.7, 0.8) });
+    strategies_agree("matte under a knot", &matte, ALL, 16, 8);
+    let metal = || under_a_knot(Metal { roughness: 0.4, ..Metal::default() });
+    strategies_agree("metal under a knot", &metal, ALL, 16, 8);
+    let glass = || under_a_knot(RoughGlass { roughness: 0.5, ..RoughGlass::default() });
+    strategies_agree("rough glass under a knot", &glass, ALL, 16, 8);
+}
+
+#[test]
+fn light_paths_that_start_on_a_mesh_bring_what_the_camera_s_paths_bring() {
+    agrees("caustics of a knot", &|| under_a_knot(Glass::default()), 16);
+}
+
+#[test]
+fn light_strategies_agree_on_many_lights_of_every_kind() {
+    let make = || many_lights(Setup { size: [32, 24], ..Setup::default() });
+    strategies_agree("many lights", &make, ALL, 24, 8);
+}
+
+/// The light of many lights is the sum of what parts of them bring, each so few that all are summed or that they are
+/// chosen by power alone.
+#[test]
+fn many_lights_bring_what_few_at_a_time_add_up_to() {
+    const SETS: u64 = 12;
+    type Spawn = fn(&mut World, Placement, f64);
+    let point: Spawn = |world, at, power| {
+        world.spawn((PointLight { intensity: Rgb::grey(0.05 * power), casts_shadows: true }, at));
+    };
+    let spot: Spawn = |world, at, power| {
+        let look = LookAt { eye: at.position, target: DVec3::new(0.0, -0.5, 0.0), up: DVec3::X };
+        world.spawn((SpotLight { intensity: Rgb::grey(0.1 * power), ..SpotLight::default() }, look));
+    };
+    let sun: Spawn = |world, at, power| {
+        let look = LookAt { eye: at.position, target: DVec3::new(0.0, -0.5, 0.0), up: DVec3::X };
+        let irradiance = Rgb::grey(0.01 * power);
+        world.spawn((DirectionalLight { irradiance, ..DirectionalLight::default() }, look));
+    };
+    let lamp: Spawn = |world, at, power| {
+        let emissive = Emissive { radiance: Rgb::grey(5.0 * power), ..Emissive::default() };
+        world.spawn((Sphere { radius: 0.05 }, at, emissive));
+    };
+    for (name, spawn, lights, few) in
+        [("points", point, 180, 60), ("spots", spot, 180, 60), ("suns", sun, 180, 60), ("lamps", lamp, 56, 8)]
+    {
+        let make = |some: std::ops::Range<u64>| {
+            let mut world = World::new();
+            let look = LookAt { eye: DVec3::new(0.2, 2.4, 3.2), target: DVec3::new(0.0, 0.3, 0.0), up: DVec3::Y };
+            let fov = PerspectiveCamera { fov: Degrees(50.0), ..Default::default() };
+            let integrator = Integrator::Path { max_depth: 4, lights: LightStrategy::Mis, roulette: 0 };
+            world.spawn((Name::new("camera"), look, fov, Resolution { width: 32, height: 24 }, integrator));
+            let grey = Matte { colour: Rgb::new(0.7, 0.6, 0.5) };
+            world.spawn((Rectangle { width: 5.0, depth: 5.0 }, Placement::at(0.0, 0.0, 0.0), grey));
+            let metal = Metal { roughness: 0.4, ..Metal::default() };
+            world.spawn((Sphere { radius: 0.4 }, Placement::at(0.1, 0.5, 0.4), metal));
+            // Of lamps that are seen, all stand in every picture; those whose turn it is not are black.
+            for number in 0..lights {
+                let mut draws = Draws::new(4300, number);
+                let at = Placement::at(draws.between(-2.0, 2.0), draws.between(0.6, 1.5), draws.between(-2.0, 1.0));
+                let power = draws.power_of_ten(-1.0, 1.0);
+                if some.contains(&number) {
+                    spawn(&mut world, at, power);
+                } else if name == "lamps" {
+                    spawn(&mut world, at, 0.0);
+                }
+            }
+            world
+        };
+        let whole = renders(&|| make(0..lights), LightStrategy::Mis, 48, 0..SETS);
+        let mut sums: Vec<Numbers> = Vec::new();
+        for (number, first) in (0..lights).step_by(few).enumerate() {
+            let seeds = SETS * (number as u64 + 1);
+            let part = renders(&|| make(first..first + few as u64), LightStrategy::Mis, 16, seeds..seeds + SETS);
+            if sums.is_empty() {
+                sums = part;
+                continue;
+            }
+            for (sum, part) in sums.iter_mut().zip(part) {
+                for (sum, part) in sum.pixels.iter_mut().zip(part.pixels) {
+                    *sum = [0, 1, 2].map(|colour| sum[colour] + part[colour]);
+                }
+            }
+        }
+        assert_agree(&format!("{name}, one chosen of {lights} and {few} at a time"), &whole, &sums, 8);
+    }
+}
