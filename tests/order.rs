@@ -54,7 +54,7 @@ const ORDER: &[(&str, &[&str])] = &[
             "written",
         ],
     ),
-    ("lab", &["png_url", "repository", "naive", "figure", "review", "measure", "report", "exercise"]),
+    ("lab", &["png_url", "repository", "naive", "measure", "figure", "review", "report", "exercise"]),
     ("", &["exercises", "figures", "command"]),
 ];
 

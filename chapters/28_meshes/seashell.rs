@@ -65,12 +65,12 @@ pub fn coiled(coil: &Coil, along: u32, around: u32) -> MeshGeometry {
     for (ring, side) in (0..along).flat_map(|ring| (0..around).map(move |side| (ring, side))) {
         let [a, b] = [vertex(ring, side), vertex(ring, side + 1)];
         let [c, d] = [vertex(ring + 1, side), vertex(ring + 1, side + 1)];
-        mesh.triangles.extend([[a, c, b], [b, c, d]]);
+        mesh.triangles.extend([[a, b, c], [b, d, c]]);
     }
     // A fan across the first ring, at the apex, and one across the last, deep inside: the surface is closed.
     for side in 1..around - 1 {
-        mesh.triangles.push([vertex(0, 0), vertex(0, side), vertex(0, side + 1)]);
-        mesh.triangles.push([vertex(along, 0), vertex(along, side + 1), vertex(along, side)]);
+        mesh.triangles.push([vertex(0, 0), vertex(0, side + 1), vertex(0, side)]);
+        mesh.triangles.push([vertex(along, 0), vertex(along, side), vertex(along, side + 1)]);
     }
     MeshGeometry::new(TriangleMesh { normals: Some(normals), uvs: Some(uvs), ..mesh })
 }
@@ -122,6 +122,6 @@ impl Coil {
         let [before, after] = [(place - step).max(0.0), (place + step).min(1.0)];
         let along = self.point(after, turn) - self.point(before, turn);
         let about = self.point(place, turn + step) - self.point(place, turn - step);
-        along.cross(about).normalize_or_zero()
+        about.cross(along).normalize_or_zero()
     }
 }

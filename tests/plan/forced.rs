@@ -110,6 +110,14 @@ fn beside(scene: &World, offer: &[Stage]) -> (Vec<FilmLayers>, Vec<FilmMoments>)
     (film.layers, film.moments)
 }
 
+/// A scene with a view of this column.
+fn viewed(column: &str) -> World {
+    let mut scene = toggled(&[Toggle::Sphere, Toggle::View]);
+    let camera = named(&mut scene, "camera");
+    scene.entity_mut(camera).insert(View { column: column.into() });
+    scene
+}
+
 /// Paths among things in motion, over a pattern that pixels cover several cells of.
 fn paths_in_motion(setup: Setup) -> World {
     let mut scene = followed(INTEGRATORS[6], setup);
@@ -203,6 +211,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("unlit", toggled(&[Toggle::Sphere, Toggle::Plane])),
         ("viewed", toggled(&[Toggle::Sphere, Toggle::View])),
         ("layers", toggled(&[Toggle::Sphere, Toggle::Layers])),
+        ("a view of tests", viewed("tests")),
         ("everything, larger", full(Setup { size: [80, 60], ..Setup::default() })),
         ("samples", toggled(&[Toggle::Sphere, Toggle::Samples])),
         ("a fisheye", scenes::fisheye(Setup { size, ..Setup::default() })),

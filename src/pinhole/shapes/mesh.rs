@@ -40,8 +40,6 @@ pub struct PlacedMesh {
     radius: f64,
 }
 
-/// A mesh of more triangles than this is bounded by the corners of its bounding box.
-const FEW: usize = 64;
 /// A ray that starts farther away than this many times the radius of the sphere around a mesh is moved on to it; from
 /// there f64 still resolves 2⁻⁴² of the radius.
 const FAR_AWAY: f64 = 1024.0;
@@ -172,7 +170,7 @@ impl Shape for PlacedMesh {
             return Err(SceneError::new(who, "triangles", value, "there must be one at least, with finite vertices"));
         }
         let (world_from_object, object_from_world) = (pose.world_from_entity.matrix3, pose.entity_from_world);
-        let (low, high) = placed_extent(&geometry, &hierarchy, world_from_object);
+        let (low, high) = hierarchy.placed_extent(&geometry, world_from_object);
         let bounds = Bounds::about(position + 0.5 * (low + high), 0.5 * (high - low));
         // What rounding in object space amounts to in render space.
         let stretch = norm(world_from_object) * norm(object_from_world);
@@ -278,24 +276,6 @@ impl PlacedMesh {
                 .map(|vertex| DVec2::from(uvs[vertex as usize].map(f64::from))),
         }
     }
-}
-
-/// The least and greatest coordinates of a placed mesh, without its position: those of all vertices, or of its bounding
-/// box's corners where there are many, since each instance asks.
-fn placed_extent(geometry: &MeshGeometry, hierarchy: &MeshHierarchy, world_from_object: DMat3) -> (DVec3, DVec3) {
-    let extent = |points: &mut dyn Iterator<Item = DVec3>| {
-        points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| {
-            let at = world_from_object * at;
-            (low.min(at), high.max(at))
-        })
-    };
-    if geometry.triangles.len() > FEW {
-        let sides = [hierarchy.bvh.around.low, hierarchy.bvh.around.high].map(|side| DVec3::from(side.map(f64::from)));
-        let corner = |at: usize| DVec3::new(sides[at & 1].x, sides[at >> 1 & 1].y, sides[at >> 2].z);
-        return extent(&mut (0..8).map(corner));
-    }
-    let vertices = geometry.triangles.iter().flatten();
-    extent(&mut vertices.map(|&vertex| DVec3::from(geometry.positions[vertex as usize].map(f64::from))))
 }
 
 /// The hierarchy of a mesh, built when the first instance asks for it.

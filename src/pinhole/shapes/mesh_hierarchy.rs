@@ -1,13 +1,15 @@
 use super::ray_block::ClosestHit;
 use super::triangle_block::{BLOCK, MeshRay, TriangleBlock};
 use crate::bvh::{BoundingBox, Bvh};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use pinhole_models::TriangleMesh;
 use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// The fewest triangles that are worth a task of their own.
 const TASK: usize = 4096;
+/// A mesh of more triangles than this is bounded by the corners of its bounding box.
+const FEW: usize = 64;
 
 /// A mesh as rays are intersected with it: its triangles in the leaves of a hierarchy, in object space.
 ///
@@ -52,6 +54,24 @@ impl MeshHierarchy {
     /// Vertices at the same position are the same.
     pub fn is_closed(&self, mesh: &TriangleMesh) -> bool {
         *self.closed.get_or_init(|| edges_cancel(mesh))
+    }
+
+    /// The least and greatest coordinates of the placed mesh, without its position: those of all vertices, or of its
+    /// bounding box's corners where there are many, since each instance asks.
+    pub(super) fn placed_extent(&self, mesh: &TriangleMesh, world_from_object: DMat3) -> (DVec3, DVec3) {
+        let extent = |points: &mut dyn Iterator<Item = DVec3>| {
+            points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| {
+                let at = world_from_object * at;
+                (low.min(at), high.max(at))
+            })
+        };
+        if mesh.triangles.len() > FEW {
+            let sides = [self.bvh.around.low, self.bvh.around.high].map(|side| DVec3::from(side.map(f64::from)));
+            let corner = |at: usize| DVec3::new(sides[at & 1].x, sides[at >> 1 & 1].y, sides[at >> 2].z);
+            return extent(&mut (0..8).map(corner));
+        }
+        let vertices = mesh.triangles.iter().flatten();
+        extent(&mut vertices.map(|&vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from))))
     }
 
     /// The memory of its arrays, in bytes.
