@@ -33,8 +33,6 @@ use std::sync::atomic::AtomicBool;
 const PIXELS: f64 = 96.0 * 54.0;
 /// The first chapter that has a report.
 const FIRST_CHAPTER: u32 = 13;
-/// The first chapter whose scene is made of meshes in memory.
-const FIRST_OF_MESHES: u32 = 28;
 
 /// Measures error against run time, or shows what is kept of an earlier measurement.
 pub fn report(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &mut dyn Write) -> Result {
@@ -73,11 +71,11 @@ struct Measured {
     files: Vec<String>,
 }
 
-/// Whether a chapter's report is kept beside it: from the first on that takes many samples, up to those whose scene is
-/// made of meshes in memory, since a report holds its scene as a scene file and these have no word there.
+/// Whether a chapter's report is kept beside it: from the first of many samples, up to those with meshes in memory, for
+/// which scene files, one of which is in each report, have no word.
 pub fn has_report(chapter: &Chapter) -> bool {
     let number = chapter.name.split_once('_').and_then(|(number, _)| number.parse::<u32>().ok());
-    number.is_some_and(|number| (FIRST_CHAPTER..FIRST_OF_MESHES).contains(&number))
+    number.is_some_and(|number| (FIRST_CHAPTER..28).contains(&number))
 }
 
 fn show_kept(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &mut dyn Write) -> Result {
