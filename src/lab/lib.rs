@@ -11,11 +11,11 @@
 
 pub mod naive;
 
+pub mod measure;
 pub mod figure;
 
 pub mod review;
 
-pub mod measure;
 
 pub mod report;
 
