@@ -3,19 +3,19 @@
 //! Nothing here runs in a render. The modules stand in the order of their imports, each naming only those above it:
 //!
 //! 1. [`naive`]: the methods that break, for the book, its figures and the extremes.
-//! 2. [`figure`]: drawings of a scene and of what the stages wrote for it.
-//! 3. [`review`]: what a picture was made of, as text to compare with.
-//! 4. [`measure`]: exact arithmetic, oracles, extremes.
+//! 2. [`measure`]: exact arithmetic, oracles, extremes.
+//! 3. [`figure`]: drawings of a scene and of what the stages wrote for it.
+//! 4. [`review`]: what a picture was made of, as text to compare with.
 //! 5. [`report`]: error against run time.
 //! 6. [`exercise`]: what a reader writes, beside pinhole's own.
 
 pub mod naive;
 
 pub mod measure;
+
 pub mod figure;
 
 pub mod review;
-
 
 pub mod report;
 
