@@ -2,9 +2,9 @@
 
 use super::question::Input;
 use bevy_ecs::prelude::*;
+use glam::DVec3;
 use pinhole::extract::{AreaLightTable, EmissiveTable, NO_ROW};
 use pinhole::follow;
-use glam::DVec3;
 use pinhole::intersect::{EmissiveRows, Hits, SurfaceSides};
 use pinhole::lights::Receiver;
 use pinhole::plan::Shared;

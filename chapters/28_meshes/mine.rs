@@ -21,7 +21,8 @@ pub fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
                     let ray = [rays.origin_of(row), rays.direction_of(row)];
                     for (mesh, &shape) in meshes.row.iter().zip(&meshes.shape) {
                         let columns = [0, 1, 2].map(|axis| mesh.world_from_object.col(axis));
-                        let (scale, axes) = (columns.map(DVec3::length), columns.map(|column| column.normalize().into()));
+                        let (scale, axes) =
+                            (columns.map(DVec3::length), columns.map(|column| column.normalize().into()));
                         let asked = (ray[0].into(), ray[1].into(), mesh.position.into(), axes, scale);
                         let Some([origin, direction]) = ask.at(place, row, asked) else { continue };
                         let origin = mesh.world_from_object * DVec3::from(origin) + mesh.position;

@@ -47,12 +47,17 @@ fn question() -> Question<Input, Answer> {
                     [origin, DVec3::from(direction).normalize().into()]
                 },
             ),
-            Mistake::new("the direction is moved by the position; it is no place, and only turned and scaled", |input| {
-                let &(_, direction, position, axes, scale) = input;
-                let moved = (DVec3::from(direction) - DVec3::from(position)).into();
-                [right(input)[0], right(&(direction, moved, position, axes, scale))[1]]
+            Mistake::new(
+                "the direction is moved by the position; it is no place, and only turned and scaled",
+                |input| {
+                    let &(_, direction, position, axes, scale) = input;
+                    let moved = (DVec3::from(direction) - DVec3::from(position)).into();
+                    [right(input)[0], right(&(direction, moved, position, axes, scale))[1]]
+                },
+            ),
+            Mistake::new("the scale is left out", |&(o, d, position, axes, _)| {
+                right(&(o, d, position, axes, [1.0; 3]))
             }),
-            Mistake::new("the scale is left out", |&(o, d, position, axes, _)| right(&(o, d, position, axes, [1.0; 3]))),
             Mistake::new(
                 "the scale is multiplied: what is longer in the world has the same numbers in its own space, so there \
                  the ray is divided by it",

@@ -16,7 +16,10 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
         (exercise(|enters, _| to_visit(enters, f64::INFINITY)), "behind the closest hit"),
         (exercise(in_the_order_of_the_list), "child 0 first"),
         (exercise(farther_first), "the farther child comes first"),
-        (exercise(|enters, closest| [0, 1].map(|at| enters[at].filter(|&t| t < closest).map(|_| at as u32))), "nothing"),
+        (
+            exercise(|enters, closest| [0, 1].map(|at| enters[at].filter(|&t| t < closest).map(|_| at as u32))),
+            "nothing",
+        ),
     ]
 }
 

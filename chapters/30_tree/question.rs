@@ -43,15 +43,17 @@ fn question() -> Question<Input, Answer> {
             Mistake::new("child 0 first, whichever is nearer: the picture is right, and takes longer", |&input| {
                 in_order(input)
             }),
-            Mistake::new("the farther child comes first: a hit there seldom spares the nearer one", |&(enters, closest)| {
-                match to_visit(enters, closest) {
+            Mistake::new(
+                "the farther child comes first: a hit there seldom spares the nearer one",
+                |&(enters, closest)| match to_visit(enters, closest) {
                     [first, Some(second)] => [Some(second), first],
                     order => order,
-                }
-            }),
-            Mistake::new("nothing may stand before a child: where only one is visited, it is the first", |&(enters, closest)| {
-                [0, 1].map(|child| enters[child as usize].filter(|&t| t < closest).map(|_| child))
-            }),
+                },
+            ),
+            Mistake::new(
+                "nothing may stand before a child: where only one is visited, it is the first",
+                |&(enters, closest)| [0, 1].map(|child| enters[child as usize].filter(|&t| t < closest).map(|_| child)),
+            ),
         ],
         hints: &[
             "there are four cases: neither child is visited, only child 0, only child 1, or both",

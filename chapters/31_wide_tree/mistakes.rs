@@ -14,7 +14,10 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
     vec![
         (exercise(|enters, leaves, closest| entered(enters, leaves, closest).reverse_bits() >> 24), "bit 0"),
         (exercise(|enters, leaves, _| entered(enters, leaves, f64::INFINITY)), "behind the closest hit"),
-        (exercise(|enters, leaves, closest| those(|i| enters[i] <= leaves[i] && enters[i] <= closest)), "behind the ray"),
+        (
+            exercise(|enters, leaves, closest| those(|i| enters[i] <= leaves[i] && enters[i] <= closest)),
+            "behind the ray",
+        ),
         (
             exercise(|enters, leaves, closest| {
                 those(|i| enters[i] <= leaves[i] && enters[i] >= 0.0 && enters[i] <= closest)

@@ -36,15 +36,19 @@ fn question() -> Question<Input, u32> {
             Mistake::new("bit 0 is the first box: yours are in the opposite order", |&(enters, leaves, closest)| {
                 entered(enters, leaves, closest).reverse_bits() >> 24
             }),
-            Mistake::new("a box that begins behind the closest hit cannot hold a closer one", |&(enters, leaves, _)| {
-                entered(enters, leaves, f64::INFINITY)
-            }),
+            Mistake::new(
+                "a box that begins behind the closest hit cannot hold a closer one",
+                |&(enters, leaves, _)| entered(enters, leaves, f64::INFINITY),
+            ),
             Mistake::new("a box behind the ray is one that it has left before t = 0", |&(enters, leaves, closest)| {
                 those(|i| enters[i] <= leaves[i] && enters[i] <= closest)
             }),
-            Mistake::new("a ray that starts from inside a box has entered it before t = 0", |&(enters, leaves, closest)| {
-                those(|i| enters[i] <= leaves[i] && enters[i] >= 0.0 && enters[i] <= closest)
-            }),
+            Mistake::new(
+                "a ray that starts from inside a box has entered it before t = 0",
+                |&(enters, leaves, closest)| {
+                    those(|i| enters[i] <= leaves[i] && enters[i] >= 0.0 && enters[i] <= closest)
+                },
+            ),
             Mistake::new("a ray misses a box that it leaves before it enters it", |&(enters, leaves, closest)| {
                 those(|i| leaves[i] >= 0.0 && enters[i] <= closest)
             }),
@@ -70,11 +74,14 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("from inside some", [(row(-4.5), row(2.25), far), ([-1.0; 8], row(-3.5), 2.0)]));
     asked.extend(probes("all missed", [(row(2.0), row(1.5), far)]));
     // The box of a child that is not there.
-    asked.extend(probes("a node of three children", [{
-        let (mut enters, mut leaves) = (row(1.0), row(1.5));
-        (3..8).for_each(|child| (enters[child], leaves[child]) = (1e30, -1e30));
-        (enters, leaves, far)
-    }]));
+    asked.extend(probes(
+        "a node of three children",
+        [{
+            let (mut enters, mut leaves) = (row(1.0), row(1.5));
+            (3..8).for_each(|child| (enters[child], leaves[child]) = (1e30, -1e30));
+            (enters, leaves, far)
+        }],
+    ));
     asked.extend(probes("any boxes", (0..200).map(drawn)));
     asked
 }
