@@ -118,16 +118,13 @@ fn a_scene_file_places_meshes_and_gives_them_materials() {
         &format!("(name: \"own\", {mesh}, mirror: ()), (name: \"file's\", {mesh}, placement: (position: (3, 0, 0)))"),
     );
     validate(&Census::of(&scene)).expect("accepted");
-    let [own, of_file] = ["own", "file's"].map(|name| {
-        let entity = named(&mut scene, name);
-        let parts: Vec<Entity> = scene.get::<Children>(entity).expect("parts").iter().collect();
-        assert_eq!(parts.len(), 1);
-        (entity, parts[0])
-    });
-    assert_eq!(scene.get::<UsesMaterial>(own.1), Some(&UsesMaterial(own.0)), "the entity's own material");
-    let used = scene.get::<UsesMaterial>(of_file.1).expect("a material").0;
+    let [own, of_file] = ["own", "file's"].map(|name| named(&mut scene, name));
+    assert!(scene.get::<Children>(own).is_none(), "one mesh of its own material is on the entity itself");
+    let parts: Vec<Entity> = scene.get::<Children>(of_file).expect("parts").iter().collect();
+    assert_eq!(parts.len(), 1);
+    let used = scene.get::<UsesMaterial>(parts[0]).expect("a material").0;
     assert!(scene.get::<Principled>(used).is_some(), "the file's material");
-    let [one, other] = [own.1, of_file.1].map(|part| scene.get::<MeshInstance>(part).expect("a mesh").geometry.clone());
+    let [one, other] = [own, parts[0]].map(|mesh| scene.get::<MeshInstance>(mesh).expect("a mesh").geometry.clone());
     assert!(one.is(&other) && one.triangles.len() == 2, "the file is read once");
     let ModelNotes(notes) = scene.resource::<ModelNotes>();
     assert!(notes.iter().any(|note| note.contains("square.ply") && note.contains("without an area")), "{notes:?}");

@@ -49,8 +49,13 @@ fn scene(world: &mut World) {
     world.spawn((Name::new("sun"), sun, LookAt { eye: [-3.0, 1.7, 1.6].into(), ..LookAt::default() }));
     world.spawn((Name::new("sky"), Gradient { bottom: Rgb::new(0.9, 0.7, 0.5), top: Rgb::new(0.12, 0.26, 0.55) }));
 
-    let colours = [[0.75, 0.58, 0.45], [0.55, 0.42, 0.38], [0.82, 0.78, 0.7], [0.36, 0.38, 0.42]];
-    let materials = colours.map(|[r, g, b]| world.spawn(Matte { colour: Rgb::new(r, g, b) }).id());
+    let colours = [
+        ("ochre", Rgb::new(0.75, 0.58, 0.45)),
+        ("brown", Rgb::new(0.55, 0.42, 0.38)),
+        ("cream", Rgb::new(0.82, 0.78, 0.7)),
+        ("slate", Rgb::new(0.36, 0.38, 0.42)),
+    ];
+    let materials = colours.map(|(name, colour)| world.spawn((Name::new(name), Matte { colour })).id());
     let own = |number: usize| UsesMaterial(materials[number % 4]);
 
     // One large shell of many triangles, and about it pebbles and small shells, each a golden angle further round.

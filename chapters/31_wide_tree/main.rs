@@ -54,7 +54,8 @@ fn scene(world: &mut World) {
 
     // The same form of fewer vertices: each becomes a pearl as wide as it is far to the next one round the tube.
     let (around, strung) = (18, seashell(130, 18));
-    let nacre = world.spawn(Metal { colour: Rgb::new(0.9, 0.82, 0.78), roughness: 0.35, ..Metal::default() }).id();
+    let metal = Metal { colour: Rgb::new(0.9, 0.82, 0.78), roughness: 0.35, ..Metal::default() };
+    let nacre = world.spawn((Name::new("nacre"), metal)).id();
     for (ring, vertices) in strung.positions.chunks_exact(around + 1).enumerate() {
         for (number, pair) in vertices.windows(2).enumerate() {
             let [at, next] = [pair[0], pair[1]].map(|position| DVec3::from(position.map(f64::from)));

@@ -2,11 +2,12 @@ use super::arguments::ExportScene;
 use super::called::{called, quoted};
 use super::error::{Error, Result};
 use super::export_images::{carry_images, name_images_whole};
+use super::export_meshes::{name_models, write_meshes};
 use super::find::is_scene_file;
 use super::format::{Format, print_json, shown};
 use super::subject::Subject;
 use pinhole::film::write_whole;
-use pinhole::scene::{printable_path, scene_text};
+use pinhole::scene::{meshes_in_memory, printable_path, scene_text};
 use pinhole::{Chapter, Overrides};
 use serde_json::json;
 use std::io::Write;
@@ -16,10 +17,11 @@ use std::path::Path;
 ///
 /// A chapter that shows a column exports the `view` that asks for it, so that the file shows the same picture; a column
 /// of its own it leaves out, and says so.
-/// Images that lie elsewhere are copied beside the file, so that its folder can be moved.
+/// Images that lie elsewhere are copied beside the file, and meshes that a chapter makes are written there, so that its
+/// folder can be moved.
 ///
 /// Errors: a file of that name is there already, for it may have been edited; its name cannot stand in a comment; an image
-/// cannot be copied.
+/// cannot be copied, or a mesh not be written.
 pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &mut dyn Write) -> Result {
     let subject = Subject::find(chapters, &asked.chapter)?;
     let mut world = subject.world(&Overrides { sampling: asked.sampling.asked(), ..Overrides::default() });
@@ -30,7 +32,10 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &m
         )
     });
     let Some(file) = &asked.output else {
-        let embedded: String = name_images_whole(&mut world)
+        name_models(&mut world, None);
+        let mut only_here = name_images_whole(&mut world);
+        only_here.extend(meshes_in_memory(&world).into_iter().map(|mesh| mesh.file));
+        let embedded: String = only_here
             .iter()
             .map(|name| format!("// {name} is in the program only: -o FILE puts a copy beside the file.\n"))
             .collect();
@@ -54,16 +59,17 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &m
     }
     // Whatever no file can hold is refused before anything is written.
     scene_text(&world)?;
-    let images = carry_images(&mut world, file)?;
+    let mut beside = carry_images(&mut world, file)?;
+    beside.extend(write_meshes(&mut world, file)?);
     let text = format!("{}{note}{}", head(&shown), scene_text(&world)?);
     write_whole(file, |file| file.write_all(text.as_bytes()))?;
     if format.is_json() {
-        let files: Vec<String> = std::iter::once(file).chain(images.iter()).map(|file| self::shown(file)).collect();
+        let files: Vec<String> = std::iter::once(file).chain(beside.iter()).map(|file| self::shown(file)).collect();
         return print_json(&json!({ "files": files }), out);
     }
     writeln!(out, "wrote {shown}")?;
-    for image in images {
-        writeln!(out, "wrote {}, which it names", printable_path(&image))?;
+    for file in beside {
+        writeln!(out, "wrote {}, which it names", printable_path(&file))?;
     }
     Ok(())
 }

@@ -3,7 +3,9 @@
 use super::error::{Error, Result};
 use bevy_ecs::prelude::World;
 use pinhole::film::write_whole;
-use pinhole::scene::{EmbeddedFiles, Environment, IMAGE_FILE, ImageTexture, NormalMap, SceneFolder, read_file};
+use pinhole::scene::{
+    EmbeddedFiles, Environment, FileKind, IMAGE_FILE, ImageTexture, NormalMap, SceneFolder, read_file,
+};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 use std::io::Write;
@@ -25,8 +27,8 @@ pub fn carry_images(world: &mut World, file: &Path) -> Result<Vec<PathBuf>> {
             None => {
                 let bytes = embedded.map_or_else(|| read_file(&path, IMAGE_FILE), |bytes| Ok(bytes.to_vec()));
                 let bytes = bytes.map_err(|why| refused(file, &name, &why))?;
-                let (free, is_new) = place_beside(folder, &path, &bytes)
-                    .ok_or_else(|| refused(file, &name, &"its folder already holds many other files of this name"))?;
+                let (free, is_new) =
+                    place_beside(folder, &path, &bytes, IMAGE_FILE).ok_or_else(|| refused(file, &name, &OTHERS))?;
                 if is_new {
                     write_whole(&folder.join(&free), |file| file.write_all(&bytes))?;
                     made.push(folder.join(&free));
@@ -74,14 +76,17 @@ fn rename(world: &mut World, new_names: &BTreeMap<String, String>) {
     world.query::<&mut Environment>().iter_mut(world).for_each(|mut image| renamed(&mut image.file));
 }
 
+/// Why none is free.
+pub const OTHERS: &str = "its folder already holds many other files of this name";
+
 /// What a file in this folder or below it is called from there.
-fn name_below(folder: &Path, path: &Path) -> Option<String> {
+pub fn name_below(folder: &Path, path: &Path) -> Option<String> {
     let (folder, path) = (folder.canonicalize().ok()?, path.canonicalize().ok()?);
     path.strip_prefix(folder).ok()?.to_str().map(String::from)
 }
 
 /// The first name in the folder that is free or belongs to a file with these very bytes, and whether it is free.
-fn place_beside(folder: &Path, path: &Path, bytes: &[u8]) -> Option<(String, bool)> {
+pub fn place_beside(folder: &Path, path: &Path, bytes: &[u8], kind: FileKind) -> Option<(String, bool)> {
     let text = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let (stem, ending) = (text(path.file_stem()), text(path.extension()));
     for number in 1..1000 {
@@ -90,7 +95,7 @@ fn place_beside(folder: &Path, path: &Path, bytes: &[u8]) -> Option<(String, boo
         if place.symlink_metadata().is_err() {
             return Some((name, true));
         }
-        if read_file(&place, IMAGE_FILE).is_ok_and(|there| there == bytes) {
+        if read_file(&place, kind).is_ok_and(|there| there == bytes) {
             return Some((name, false));
         }
     }

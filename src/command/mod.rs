@@ -15,6 +15,7 @@ mod draw;
 mod error;
 mod export;
 mod export_images;
+mod export_meshes;
 mod extremes;
 mod figure;
 mod files;

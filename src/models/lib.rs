@@ -30,6 +30,7 @@ mod triangle_mesh;
 #[cfg(test)]
 mod written;
 
+pub use gltf::glb_of;
 pub use model::{Instance, LightKind, Model, ModelCamera, ModelLight, Projection};
 pub use model_error::ModelError;
 pub use model_material::{AlphaMode, ImageSource, ModelImage, ModelMaterial, ModelTexture, TextureWrap};

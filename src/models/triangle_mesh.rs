@@ -48,6 +48,10 @@ impl TriangleMesh {
         });
         for normal in self.normals.iter_mut().flatten() {
             let long = DVec3::from(normal.map(f64::from));
+            // A unit vector that was rounded to f32 stays as it is.
+            if (long.length_squared() - 1.0).abs() <= f64::from(f32::EPSILON) {
+                continue;
+            }
             let unit = long.try_normalize().map_or([0.0; 3], |unit| unit.as_vec3().to_array());
             remarks.zero_normals += u64::from(unit == [0.0; 3]);
             *normal = unit;

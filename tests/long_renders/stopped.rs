@@ -2,6 +2,7 @@
 
 use super::*;
 use glam::DVec3;
+use pinhole::extract::delta_light_rays;
 use pinhole::film::FilmSplats;
 use pinhole::plan::Census;
 use pinhole::render::Worlds;
@@ -240,9 +241,10 @@ fn every_command_ends_soon_after_a_signal() {
     eprintln!("signals: {asked} commands, the slowest answer after {worst:?}");
 }
 
-/// There is no more memory for the rays to ten thousand lights than for those to ten, and the side changes no bit.
+/// There is no more memory for the rays to ten thousand lights than for those to ten, since of more than 64 each pixel
+/// chooses one; and the tiles' side changes no bit.
 #[test]
-fn many_lights_take_smaller_tiles_and_not_more_memory() {
+fn many_lights_take_no_more_memory() {
     let scene = |lights: u32, size: [u32; 2]| {
         let mut world = World::new();
         let size = Resolution { width: size[0], height: size[1] };
@@ -258,17 +260,18 @@ fn many_lights_take_smaller_tiles_and_not_more_memory() {
         RenderInProgress::begin(&Census::of(scene), &offer(), execution).expect("begins")
     };
     let mut sides = Vec::new();
-    for lights in [1, 10, 200, 300, 10_000, 30_000] {
+    for (lights, rays) in [(1, 1), (10, 10), (64, 64), (65, 1), (10_000, 1), (30_000, 1)] {
         let render = begun(&scene(lights, [64, 64]), &Execution::default());
         let of_lights = ["light", "light pdf", "shadow"];
         let columns = render.plan.columns.iter().filter(|column| of_lights.contains(&column.name));
         let row: usize = columns.map(|column| column.bytes_per_row()).sum();
         let side = render.film.tile_side;
-        let bytes = (side * side * lights) as usize * row;
+        let bytes = (side * side * rays) as usize * row;
         assert!(row > 0 && bytes <= 16 << 20, "{lights} lights in tiles of {side}: {bytes} bytes");
+        assert_eq!(delta_light_rays(&Census::of(&scene(lights, [64, 64]))), rays as usize, "{lights} lights");
         sides.push(side);
     }
-    assert_eq!(sides, [32, 32, 32, 16, 4, 2], "by the number of lights");
+    assert_eq!(sides, [32; 6], "by the number of lights");
 
     let scene = scene(300, [21, 10]);
     let expected = FilmBits::of(&render(&scene, &offer(), &Execution::default(), &()).expect("renders").film);

@@ -5,6 +5,7 @@ use crate::scenes::{self, Setup};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::Overrides;
+use pinhole::models::glb_of;
 use pinhole::scene::*;
 use pinhole_lab::review;
 use std::fs;
@@ -17,8 +18,15 @@ fn every_chapter_comes_back_from_its_file_bit_for_bit() {
         let mut before = chapter.world(&asked);
         own_view_left_out(&mut before);
         let text = scene_text(&before).expect("a chapter's scene can be exported");
-        // As if the file stood in the chapter's folder, where its images are.
-        let beside = Path::new("chapters").join(chapter.name).join("scene.ron");
+        // As if the file stood in the chapter's folder, where its images are, or beside the meshes that it makes.
+        let meshes = meshes_in_memory(&before);
+        let folder = tempfile::tempdir().expect("a folder");
+        for mesh in &meshes {
+            let bytes = glb_of(&mesh.geometry).expect("a small file");
+            fs::write(folder.path().join(&mesh.file), bytes).expect("written");
+        }
+        let own = Path::new("chapters").join(chapter.name);
+        let beside = if meshes.is_empty() { &own } else { folder.path() }.join("scene.ron");
         let after = SceneFile::parse(&beside, text.clone());
         let after = after.unwrap_or_else(|problem| panic!("{}: {problem}\n{text}", chapter.name)).world();
         assert_eq!(scene_text(&after).expect("exported again"), text, "{}", chapter.name);
@@ -129,22 +137,26 @@ fn unfolded(text: &str) -> String {
 #[test]
 fn an_exported_file_is_ron_and_its_commands_work_as_typed() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let file = folder.path().join("scene.ron").display().to_string();
+    let mut file = String::new();
     for chapter in chapters::all() {
+        let own = folder.path().join(chapter.name);
+        fs::create_dir(&own).expect("a folder of its own");
+        file = own.join("scene.ron").display().to_string();
         let printed = typed(&["export", chapter.name]).expect("exported");
         ron::from_str::<ron::Value>(&printed).unwrap_or_else(|error| panic!("{}: {error}", chapter.name));
-        let _ = fs::remove_file(&file);
         let wrote = typed(&["export", chapter.name, "-o", &file]).expect("exported");
         assert_eq!(wrote.lines().next(), Some(format!("wrote {file}").as_str()));
         let text = fs::read_to_string(&file).expect("written");
         // Images are named by their whole path where they are printed, and stand beside the file that is written.
         let own_folder = format!("{}/chapters/{}/", env!("CARGO_MANIFEST_DIR"), chapter.name);
         let printed = printed.replace(&own_folder, "");
+        let printed: Vec<&str> = printed.lines().filter(|line| !line.contains(".glb is in the program only")).collect();
+        let printed = printed.join("\n");
         assert_eq!(unfolded(&text.replace(&file, "scene.ron")), unfolded(&printed), "the same but for the file's name");
         let own = |line: &&str| !line.contains(", a column of its own");
         let without = printed.lines().filter(own).collect::<Vec<_>>().join("\n");
         let again = typed(&["export", &file]).expect("exported again");
-        let again = again.replace(&format!("{}/", folder.path().display()), "");
+        let again = again.replace(&format!("{}/", own.display()), "");
         assert_eq!(unfolded(&again), unfolded(&without), "exported from the file");
         let plans = [chapter.name, &file].map(|name| typed(&["plan", name]).expect("planned"));
         let [of_chapter, of_file] = plans.map(|plan| plan.lines().nth(1).map(String::from));

@@ -267,10 +267,12 @@ mod tests {
         (0..count).map(sphere).collect()
     }
 
-    fn ray(index: u64) -> [DVec3; 2] {
+    /// A ray towards the edge of one of the spheres.
+    fn ray(spheres: &[PlacedSphere], index: u64) -> [DVec3; 2] {
         let mut draws = Draws::new(3002, index);
         let origin = DVec3::from([(); 3].map(|()| draws.between(-2.0, 2.0)));
-        let mut direction = draws.unit_vector();
+        let PlacedSphere { centre, radius } = spheres[index as usize % spheres.len()];
+        let mut direction = (centre + radius * draws.unit_vector() - origin).normalize();
         // Some are parallel to a plane of boxes.
         if index.is_multiple_of(5) {
             direction[index as usize % 3] = 0.0;
@@ -284,7 +286,7 @@ mod tests {
         let spheres = spheres(500);
         for divide in [at_median as Divide, by_cost] {
             let tree = Tree::of_shapes(&spheres, divide);
-            for ray in (0..rays).map(ray) {
+            for ray in (0..rays).map(|index| ray(&spheres, index)) {
                 let mut t_of = |number: usize| spheres[number].t(ray[0], ray[1]);
                 let [mut all, mut found] = [Search::new(ray, f64::INFINITY); 2];
                 (0..spheres.len()).for_each(|number| all.test(number, &mut t_of));
@@ -302,7 +304,7 @@ mod tests {
     fn the_mistake_of_the_page_loses_hits() {
         let spheres = spheres(500);
         let tree = Tree::of_shapes(&spheres, by_cost);
-        let wrong = (0..4000).map(ray).filter(|&ray| {
+        let wrong = (0..4000).map(|index| ray(&spheres, index)).filter(|&ray| {
             let mut t_of = |number: usize| spheres[number].t(ray[0], ray[1]);
             let [mut right, mut first] = [Search::new(ray, f64::INFINITY); 2];
             tree.closest(&mut right, &to_visit, &mut t_of);

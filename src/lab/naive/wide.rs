@@ -91,9 +91,10 @@ mod tests {
             .collect();
         let bvh = hierarchy_of(&spheres).expect("bounded");
         let (rays, mut hits) = (20_000, 0);
-        for _ in 0..rays {
+        for index in 0..rays {
             let origin = DVec3::from([(); 3].map(|()| draws.between(-2.0, 2.0)));
-            let ray = [origin, draws.unit_vector()];
+            let PlacedSphere { centre, radius } = spheres[index % spheres.len()];
+            let ray = [origin, (centre + radius * draws.unit_vector() - origin).normalize()];
             let t_of = |number: usize| spheres[number].t(ray[0], ray[1]);
             let all = (0..spheres.len()).map(t_of).fold(f64::INFINITY, f64::min);
             let (t, number) = closest(&bvh, (ray, first_planes(ray[1])), f64::INFINITY, entered, t_of);

@@ -14,5 +14,7 @@ mod object;
 mod primitive;
 mod read;
 mod uri;
+mod write;
 
 pub use read::read_gltf;
+pub use write::glb_of;

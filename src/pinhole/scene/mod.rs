@@ -123,7 +123,9 @@ pub use memory::{TooLittleMemory, check_memory, in_words};
 pub use mesh_instance::MeshGeometry;
 pub use mesh_instance::MeshInstance;
 #[doc(hidden)]
-pub use model::{MODEL_FILE, MeshPart, ModelFiles, ModelNotes, ModelScene, UnreadMesh, is_model_file};
+pub use model::{
+    MODEL_FILE, MeshInMemory, MeshPart, ModelFiles, ModelNotes, ModelScene, UnreadMesh, is_model_file, meshes_in_memory,
+};
 pub use model::{Mesh, load_meshes};
 pub use motion::{Motion, Shutter};
 #[doc(hidden)]

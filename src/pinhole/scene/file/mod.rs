@@ -27,4 +27,4 @@ pub use problem::{FileProblem, PlaceInFile};
 pub use scene_file::SceneFile;
 pub use sentence::in_words_of_files;
 pub use word::{Word, words};
-pub use write::scene_text;
+pub use write::{scene_text, spawned};

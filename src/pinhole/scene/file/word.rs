@@ -132,6 +132,7 @@ fn of_default<C: Serialize + DeserializeOwned>() -> Option<String> {
     text_of(&component).ok()
 }
 
-fn text_of<C: Serialize>(component: &C) -> Result<String, ron::Error> {
+/// A component as the text after its word's colon.
+pub fn text_of<C: Serialize>(component: &C) -> Result<String, ron::Error> {
     ron::ser::to_string_pretty(component, PrettyConfig::new().compact_structs(true).compact_arrays(true))
 }

@@ -1,6 +1,9 @@
 use super::read::LONGEST_NAME;
-use super::word::Word;
-use crate::scene::{ChildOf, Disabled, MeshPart, Name, SceneError, UsedByShapes, UsesMaterial, called, printable};
+use super::word::{Word, text_of};
+use crate::scene::{
+    ChildOf, Disabled, Mesh, MeshInstance, MeshPart, Name, SceneError, UnreadMesh, UsedByShapes, UsesMaterial, called,
+    meshes_in_memory, printable,
+};
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::*;
 use bevy_ecs::resource::IsResource;
@@ -13,20 +16,25 @@ const WIDTH: usize = 120;
 /// A scene as the text of a file, with entities in spawn order; equal scenes give equal text.
 ///
 /// A component that another one on its entity requires is left out if it has its default value.
+/// A mesh that a program made is named as the file that [`meshes_in_memory`] names for it.
 ///
 /// Errors: something that a file cannot express: a component without a word, a name that is not one line of text, or a
 /// parent or material without a unique name.
 pub fn scene_text(scene: &World) -> Result<String, SceneError> {
     // What was made of a model file is in that file.
     let mut entities = spawned(scene);
-    entities.retain(|entity| !entity.contains::<MeshPart>());
+    entities.retain(|entity| entity.get::<MeshPart>().is_none_or(|part| part.0 == entity.id()));
+    let mut files: HashMap<Entity, String> = HashMap::new();
+    for mesh in meshes_in_memory(scene) {
+        files.extend(mesh.instances.into_iter().map(|instance| (instance, mesh.file.clone())));
+    }
     let mut carriers: HashMap<&str, usize> = HashMap::new();
     for name in entities.iter().filter_map(|entity| entity.get::<Name>()) {
         *carriers.entry(name.as_str()).or_default() += 1;
     }
     let mut text = String::from("[\n");
     for entity in &entities {
-        let parts = parts(scene, entity, &carriers)?;
+        let parts = parts(scene, entity, &carriers, files.get(&entity.id()))?;
         let line = format!("    ({}),\n", parts.join(", "));
         if line.chars().count() <= WIDTH + 1 {
             text.push_str(&line);
@@ -39,7 +47,7 @@ pub fn scene_text(scene: &World) -> Result<String, SceneError> {
 }
 
 /// Every entity of a scene but resources, in spawn order.
-pub(super) fn spawned(scene: &World) -> Vec<EntityRef<'_>> {
+pub fn spawned(scene: &World) -> Vec<EntityRef<'_>> {
     let mut entities: Vec<EntityRef<'_>> = scene
         .archetypes()
         .iter()
@@ -52,7 +60,12 @@ pub(super) fn spawned(scene: &World) -> Vec<EntityRef<'_>> {
 }
 
 /// An entity's words with their values.
-fn parts(scene: &World, entity: &EntityRef<'_>, carriers: &HashMap<&str, usize>) -> Result<Vec<String>, SceneError> {
+fn parts(
+    scene: &World,
+    entity: &EntityRef<'_>,
+    carriers: &HashMap<&str, usize>,
+    mesh: Option<&String>,
+) -> Result<Vec<String>, SceneError> {
     let who = called(scene, entity.id());
     let mut parts = Vec::new();
     if let Some(name) = entity.get::<Name>() {
@@ -79,7 +92,9 @@ fn parts(scene: &World, entity: &EntityRef<'_>, carriers: &HashMap<&str, usize>)
     check_components(scene, entity, &who)?;
     let brought = brought_along(scene, entity);
     for word in Word::all() {
-        let Some(text) = (word.write)(entity) else { continue };
+        let mesh = mesh.filter(|_| (word.kind)() == TypeId::of::<Mesh>());
+        let mesh = mesh.map(|file| text_of(&Mesh { file: file.clone() }));
+        let Some(text) = (word.write)(entity).or(mesh) else { continue };
         let text = text.map_err(|error| unwritable(&who, word.word, &error))?;
         let comes_along = scene.components().get_id((word.kind)()).is_some_and(|id| brought.contains(&id));
         if !(comes_along && (word.of_default)().as_ref() == Some(&text)) {
@@ -101,6 +116,9 @@ fn check_components(scene: &World, entity: &EntityRef<'_>, who: &str) -> Result<
         TypeId::of::<UsesMaterial>(),
         TypeId::of::<UsedByShapes>(),
         TypeId::of::<Disabled>(),
+        TypeId::of::<MeshInstance>(),
+        TypeId::of::<MeshPart>(),
+        TypeId::of::<UnreadMesh>(),
     ];
     for &id in entity.archetype().components() {
         let Some(info) = scene.components().get_info(id) else { continue };

@@ -2,7 +2,7 @@ use super::components_of::{placement_of, spawn_material};
 use super::mesh::{Mesh, MeshPart, ModelNotes, UnreadMesh};
 use super::open_model::{OpenModel, open_model};
 use crate::scene::material::is_material;
-use crate::scene::{ChildOf, Disabled, MeshGeometry, MeshInstance, Name, Placement, UsesMaterial, printable};
+use crate::scene::{ChildOf, Disabled, Emissive, MeshGeometry, MeshInstance, Name, Placement, UsesMaterial, printable};
 use bevy_ecs::prelude::*;
 use glam::DAffine3;
 use pinhole_models::{Instance, TriangleMesh};
@@ -59,7 +59,16 @@ fn spawn_parts(
     materials: &mut BTreeMap<(String, usize), Entity>,
 ) {
     let used = scene.get::<UsesMaterial>(entity).map(|used| used.0);
-    let own = used.or_else(|| is_material(scene.entity(entity)).then_some(entity));
+    let has_own = is_material(scene.entity(entity)) || scene.entity(entity).contains::<Emissive>();
+    let own = used.or_else(|| has_own.then_some(entity));
+    // A file of one mesh, placed where it is, needs no entity but the one that names it.
+    if let ([only], Some(_)) = (&model.model.instances[..], own)
+        && only.world_from_object == DAffine3::IDENTITY
+    {
+        let geometry = model.geometry[only.mesh].clone();
+        scene.entity_mut(entity).insert((MeshInstance { geometry }, MeshPart(entity)));
+        return;
+    }
     let name = scene.get::<Name>(entity).map(|name| name.as_str().to_owned());
     for (at, instance) in model.model.instances.iter().enumerate() {
         let number = instance.material.unwrap_or(usize::MAX);
