@@ -114,7 +114,8 @@ fn the_counted_traversal_finds_the_same_hits() {
         let found = keep_closest_counted(shapes, ray, ClosestHit::NONE, &mut tests);
         let t = spheres.iter().map(|sphere| sphere.t(ray[0], ray[1])).fold(f64::INFINITY, f64::min);
         assert_eq!(found.t.to_bits(), t.to_bits(), "{ray:?}");
-        let of_mesh = keep_closest_counted((&[mesh.clone()], &[0], None), ray, ClosestHit::NONE, &mut tests);
+        let of_mesh =
+            keep_closest_counted((std::slice::from_ref(&mesh), &[0], None), ray, ClosestHit::NONE, &mut tests);
         let closest = mesh.closest(ray[0], ray[1]);
         assert_eq!((of_mesh.t.to_bits(), of_mesh.primitive), (closest.t.to_bits(), closest.primitive), "{ray:?}");
         hits += u32::from(t < f64::INFINITY) + u32::from(closest.t < f64::INFINITY);

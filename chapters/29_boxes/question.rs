@@ -37,7 +37,7 @@ fn question() -> Question<Input, bool> {
         mistakes: vec![
             Mistake::new(
                 "min and max pass over NaN and give the infinity beside it, so a ray in a face is lost",
-                |input| by_min_and_max(input),
+                by_min_and_max,
             ),
             Mistake::new("a ray in a face is taken for one that misses: faces belong to the box", |input| {
                 entered(input, Slab::Open).is_some_and(|[from, until]| from.max(0.0) <= until.min(input.4))

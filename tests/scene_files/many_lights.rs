@@ -51,7 +51,7 @@ fn ten_thousand_point_lights_need_no_more_memory_than_one() {
         0.5 / PI * lights.iter().map(brings).sum::<f64>()
     };
     let (mut worst, mut blocks, mut noise) = (0.0_f64, 0, 0.0);
-    for start in (0..SIDE * SIDE).step_by(BLOCK).filter(|start| start / SIDE % BLOCK == 0) {
+    for start in (0..SIDE * SIDE).step_by(BLOCK).filter(|start| (start / SIDE).is_multiple_of(BLOCK)) {
         let (top, left) = (start / SIDE, start % SIDE);
         let pixels = (top..top + BLOCK).flat_map(|row| (left..left + BLOCK).map(move |column| (row, column)));
         let off: Vec<f64> =

@@ -139,9 +139,9 @@ fn an_exported_file_is_ron_and_its_commands_work_as_typed() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut file = String::new();
     for chapter in chapters::all() {
-        let own = folder.path().join(chapter.name);
-        fs::create_dir(&own).expect("a folder of its own");
-        file = own.join("scene.ron").display().to_string();
+        let beside = folder.path().join(chapter.name);
+        fs::create_dir(&beside).expect("a folder of its own");
+        file = beside.join("scene.ron").display().to_string();
         let printed = typed(&["export", chapter.name]).expect("exported");
         ron::from_str::<ron::Value>(&printed).unwrap_or_else(|error| panic!("{}: {error}", chapter.name));
         let wrote = typed(&["export", chapter.name, "-o", &file]).expect("exported");
@@ -156,7 +156,7 @@ fn an_exported_file_is_ron_and_its_commands_work_as_typed() {
         let own = |line: &&str| !line.contains(", a column of its own");
         let without = printed.lines().filter(own).collect::<Vec<_>>().join("\n");
         let again = typed(&["export", &file]).expect("exported again");
-        let again = again.replace(&format!("{}/", own.display()), "");
+        let again = again.replace(&format!("{}/", beside.display()), "");
         assert_eq!(unfolded(&again), unfolded(&without), "exported from the file");
         let plans = [chapter.name, &file].map(|name| typed(&["plan", name]).expect("planned"));
         let [of_chapter, of_file] = plans.map(|plan| plan.lines().nth(1).map(String::from));
