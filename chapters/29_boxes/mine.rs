@@ -10,6 +10,7 @@ use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 use pinhole_lab::naive::boxes::box_of_mesh;
+use pinhole_lab::naive::mesh::keep_closer;
 
 /// The closest mesh of each ray; only those are intersected whose box the ray enters by the reader's function.
 pub fn mine(ask: Ask<Input, bool>, _: &Setting<'_>) -> StandIn {
@@ -31,12 +32,7 @@ pub fn mine(ask: Ask<Input, bool>, _: &Setting<'_>) -> StandIn {
                             continue;
                         }
                         let closest = mesh.closest(origin, direction);
-                        if closest.t < hits.t[row] {
-                            (hits.t[row], hits.shape[row]) = (closest.t, shape);
-                            if let Some(primitives) = &mut primitives {
-                                primitives.primitive[row] = closest.primitive;
-                            }
-                        }
+                        keep_closer((&mut *hits, primitives.as_deref_mut()), row, shape, closest);
                     }
                 }
             }

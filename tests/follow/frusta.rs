@@ -5,10 +5,8 @@ use super::*;
 use glam::{DQuat, DVec3};
 use pinhole::scene::*;
 
-/// A ground under a cylinder that lies on its side, scaled in its axes differently, and under a cone on its tip.
-///
-/// Ground and ball see their sides, and some points a base.
-fn under_a_pipe_and_a_hat(ball: impl Bundle) -> World {
+/// A camera that looks down at a ground and a ball.
+pub(super) fn ground_and_ball(ball: impl Bundle, place: Placement) -> World {
     let mut world = World::new();
     let look = LookAt { eye: DVec3::new(0.2, 2.4, 3.2), target: DVec3::new(0.0, 0.3, 0.0), up: DVec3::Y };
     let fov = PerspectiveCamera { fov: Degrees(50.0), ..Default::default() };
@@ -16,7 +14,15 @@ fn under_a_pipe_and_a_hat(ball: impl Bundle) -> World {
     world.spawn((Name::new("camera"), look, fov, Resolution { width: 32, height: 24 }, integrator));
     let grey = Matte { colour: Rgb::new(0.7, 0.6, 0.5) };
     world.spawn((Rectangle { width: 5.0, depth: 5.0 }, Placement::at(0.0, 0.0, 0.0), grey));
-    world.spawn((Sphere { radius: 0.4 }, Placement::at(0.1, 0.9, 0.0), ball));
+    world.spawn((Sphere { radius: 0.4 }, place, ball));
+    world
+}
+
+/// A ground under a cylinder that lies on its side, scaled in its axes differently, and under a cone on its tip.
+///
+/// Ground and ball see their sides, and some points a base.
+fn under_a_pipe_and_a_hat(ball: impl Bundle) -> World {
+    let mut world = ground_and_ball(ball, Placement::at(0.1, 0.9, 0.0));
     let emissive = |r, g, b| Emissive { radiance: Rgb::new(r, g, b), ..Emissive::default() };
     let orientation = DQuat::from_xyzw(0.1, 0.2, 0.6, 0.7).normalize();
     let scale = DVec3::new(0.7, 1.3, 1.6);

@@ -1,6 +1,7 @@
 //! Many lights: what one chosen for each surface brings is what all of them bring.
 
 use super::caustics::agrees;
+use super::frusta::ground_and_ball;
 use super::*;
 use crate::scenes::Setup;
 use crate::scenes::many::many_lights;
@@ -11,14 +12,7 @@ use pinhole_lab::measure::torus_knot::torus_knot;
 
 /// A ground and a ball under an emitting knot of 200 triangles, one side of which is dark.
 fn under_a_knot(ball: impl Bundle) -> World {
-    let mut world = World::new();
-    let look = LookAt { eye: DVec3::new(0.2, 2.4, 3.2), target: DVec3::new(0.0, 0.3, 0.0), up: DVec3::Y };
-    let fov = PerspectiveCamera { fov: Degrees(50.0), ..Default::default() };
-    let integrator = Integrator::Path { max_depth: 5, lights: LightStrategy::Mis, roulette: 0 };
-    world.spawn((Name::new("camera"), look, fov, Resolution { width: 32, height: 24 }, integrator));
-    let grey = Matte { colour: Rgb::new(0.7, 0.6, 0.5) };
-    world.spawn((Rectangle { width: 5.0, depth: 5.0 }, Placement::at(0.0, 0.0, 0.0), grey));
-    world.spawn((Sphere { radius: 0.4 }, Placement::at(0.1, 0.5, 0.4), ball));
+    let mut world = ground_and_ball(ball, Placement::at(0.1, 0.5, 0.4));
     let mut knot = torus_knot(20, 5);
     // Its front is the outside.
     knot.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));

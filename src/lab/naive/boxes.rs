@@ -1,5 +1,6 @@
 //! Boxes around things: the slab test by the processor's minimum and maximum, and one that survives 0 · ∞.
 
+use super::mesh::keep_closer;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::MeshTable;
@@ -88,12 +89,7 @@ pub fn meshes_in_boxes(enters: SlabTest) -> Stage {
                         continue;
                     }
                     let closest = mesh.closest(origin, direction);
-                    if closest.t < hits.t[row] {
-                        (hits.t[row], hits.shape[row]) = (closest.t, shape);
-                        if let Some(primitives) = &mut primitives {
-                            primitives.primitive[row] = closest.primitive;
-                        }
-                    }
+                    keep_closer((&mut *hits, primitives.as_deref_mut()), row, shape, closest);
                 }
             }
         }

@@ -7,6 +7,7 @@ use pinhole::intersect::{HitPrimitives, Hits, mesh_stage};
 use pinhole::models::TriangleMesh;
 use pinhole::plan::{Column, Shared, Stage};
 use pinhole::rays::WorldRays;
+use pinhole::shapes::ClosestHit;
 use std::sync::Arc;
 
 // ANCHOR: naive_triangle
@@ -86,17 +87,27 @@ pub fn directions_normalised_in_object_space() -> Stage {
                 for (mesh, &shape) in meshes.row.iter().zip(&meshes.shape) {
                     let length = (mesh.object_from_world * direction).length();
                     let closest = mesh.closest(origin, direction / length);
-                    if closest.t < hits.t[row] {
-                        (hits.t[row], hits.shape[row]) = (closest.t, shape);
-                        if let Some(primitives) = &mut primitives {
-                            primitives.primitive[row] = closest.primitive;
-                        }
-                    }
+                    keep_closer((&mut *hits, primitives.as_deref_mut()), row, shape, closest);
                 }
             }
         }
     };
     Stage { system: Arc::new(move || system.into_configs()), ..mesh_stage() }
+}
+
+/// Replaces a row's hit by one with a shape if that is closer.
+pub fn keep_closer(
+    (hits, primitives): (&mut Hits, Option<&mut HitPrimitives>),
+    row: usize,
+    shape: u32,
+    closest: ClosestHit,
+) {
+    if closest.t < hits.t[row] {
+        (hits.t[row], hits.shape[row]) = (closest.t, shape);
+        if let Some(primitives) = primitives {
+            primitives.primitive[row] = closest.primitive;
+        }
+    }
 }
 
 #[cfg(test)]
