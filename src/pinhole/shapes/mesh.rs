@@ -217,6 +217,11 @@ impl Shape for PlacedMesh {
         self.hierarchy.keep_closest_counted(self.own_ray(ray), number, closest, above, counts)
     }
 
+    #[inline(always)]
+    fn read_ahead(&self, primitive: u32) -> f32 {
+        self.geometry.corners(primitive as usize).map(|[x, ..]| x).iter().sum()
+    }
+
     fn surface(&self, _: &(), hit: &RayHit) -> SurfacePoint {
         let triangle = self.triangle(hit.primitive);
         let ([origin, direction], _) = self.own_ray([hit.origin, hit.direction]);
@@ -325,16 +330,17 @@ impl PlacedMesh {
         (packet, stacks): (&mut MeshPacket, &mut MeshStacks),
     ) {
         let (hierarchy, own_ray) = (&*self.hierarchy, |row| self.own_ray(rays.ray(row)));
-        let mut waiting = 0;
+        let (mut waiting, mut in_packets) = (0, true);
         for start in (0..hits.t.len() / PACKET).map(|packet| packet * PACKET) {
             let [origin, direction] =
                 [rays.origin, rays.direction].map(|of| of.map(|part| &part[start..start + PACKET]));
             let some = RaySlices { origin, direction };
             let near_ray = |place| self.near_ray(some.ray(place));
-            if may_be_coherent(some) && packet.set(hierarchy, near_ray) {
+            if in_packets && may_be_coherent(some) && packet.set(hierarchy, near_ray) {
                 keep_closest_apart::<ANY>(hierarchy, number, waiting..start, own_ray, hits, stacks);
-                packet.keep_closest::<ANY>(hierarchy, number, start, hits, &mut stacks[0]);
-                waiting = start + PACKET;
+                // What one packet is too wide for, its neighbours are too.
+                in_packets = packet.keep_closest::<ANY>(hierarchy, number, start, hits, &mut stacks[0]);
+                waiting = if in_packets { start + PACKET } else { start };
             }
         }
         keep_closest_apart::<ANY>(hierarchy, number, waiting..hits.t.len(), own_ray, hits, stacks);

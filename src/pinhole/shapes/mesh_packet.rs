@@ -18,6 +18,10 @@ const SPREAD: f64 = 1.0 / 8.0;
 /// space.
 const LEAST_COS2: f32 = 0.9;
 
+/// The leaves after which a packet is given up: where triangles are smaller than what lies between rays, each leaf is
+/// entered by a ray or two, which get on faster apart.
+const MOST_LEAVES: usize = 2 * PACKET;
+
 /// The nodes of which a number of 32 bits can hold one and a child of it.
 const MOST_NODES: usize = 1 << 29;
 
@@ -143,7 +147,8 @@ impl MeshPacket {
         coherent
     }
 
-    /// Intersects the packet with the mesh and keeps the closest hits of the rows from `start` on.
+    /// Intersects the packet with the mesh and keeps the closest hits of the rows from `start` on; says whether it came
+    /// to the end, and otherwise the rays are still to be intersected apart.
     #[inline(always)]
     pub fn keep_closest<const ANY: bool>(
         &mut self,
@@ -152,28 +157,30 @@ impl MeshPacket {
         start: usize,
         hits: &mut ClosestHits<'_>,
         stack: &mut Stack,
-    ) {
+    ) -> bool {
         for place in 0..PACKET {
             let (row, i, closest) = (place / ROW, place % ROW, hits.get(start + place));
             (self.t[row][i], self.shape[row][i]) = (closest.t, closest.shape);
             self.primitive[row][i] = closest.primitive;
             self.limit[row][i] = if closest.is_enough() { -1.0 } else { self.boxes.limit(closest.t) };
         }
-        self.traverse::<ANY>(hierarchy, number, stack);
+        let is_done = self.traverse::<ANY>(hierarchy, number, stack);
         for place in 0..PACKET {
             let (row, i, closest) = (place / ROW, place % ROW, hits.get(start + place));
             let (t, shape, primitive) = (self.t[row][i], self.shape[row][i], self.primitive[row][i]);
             hits.set(start + place, ClosestHit { t, shape, primitive, ..closest });
         }
+        is_done
     }
 
-    /// Visits the leaves that any of the rays enters, the nearest first.
+    /// Visits the leaves that any of the rays enters, the nearest first; says whether it came to the end.
     ///
     /// An entry of the stack is a node and a child of it, whose box a row of rays is tested against before they are
     /// tested against the triangles of a leaf.
     #[inline(always)]
-    fn traverse<const ANY: bool>(&mut self, hierarchy: &MeshHierarchy, number: u32, stack: &mut Stack) {
+    fn traverse<const ANY: bool>(&mut self, hierarchy: &MeshHierarchy, number: u32, stack: &mut Stack) -> bool {
         let nodes = &hierarchy.bvh.nodes;
+        let mut leaves = 0;
         let (mut limit, mut height, mut at, mut from) = (self.farthest(), 0, 0, [0.0; WIDTH]);
         while at < nodes.len() {
             let mut mask = self.boxes.enters(&nodes[at], limit, &mut from);
@@ -194,6 +201,10 @@ impl MeshPacket {
                 match node.child[child].kind() {
                     ChildKind::Node(number) => at = number,
                     ChildKind::Leaf(leaf) => {
+                        leaves += 1;
+                        if leaves > MOST_LEAVES {
+                            return false;
+                        }
                         let mut tested = false;
                         for row in 0..ROWS {
                             if self.boxes.row_enters(node, child, row, &self.limit[row]) {
@@ -203,12 +214,13 @@ impl MeshPacket {
                         }
                         limit = if tested { self.farthest() } else { limit };
                         if ANY && limit < 0.0 {
-                            return;
+                            return true;
                         }
                     }
                 }
             }
         }
+        true
     }
 
     /// The largest limit of any ray.

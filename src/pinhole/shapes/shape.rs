@@ -193,6 +193,12 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
         0
     }
 
+    /// Some number of what [`surface`](Self::surface) reads of a primitive: asked for many rows one after another, it
+    /// brings them into the caches together, where each row alone would wait for its own.
+    fn read_ahead(&self, _primitive: u32) -> f32 {
+        0.0
+    }
+
     /// The surface where a ray hits it.
     fn surface(&self, beside: &Self::Beside, hit: &RayHit) -> SurfacePoint;
 
