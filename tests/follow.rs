@@ -24,6 +24,8 @@ mod light_paths;
 mod long_paths;
 #[path = "follow/many_lights.rs"]
 mod many_lights;
+#[path = "follow/material_maps.rs"]
+mod material_maps;
 #[path = "follow/materials.rs"]
 mod materials;
 #[path = "follow/nested.rs"]

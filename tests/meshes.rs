@@ -12,9 +12,12 @@ use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
 use pinhole::extract::{MeshTable, validate};
 use pinhole::film::Film;
+use pinhole::intersect::Hits;
 use pinhole::plan::{Census, Table};
-use pinhole::render::render;
+use pinhole::rays::WorldRays;
+use pinhole::render::{inspect, render};
 use pinhole::scene::*;
+use pinhole::shade::{EmissionFactors, MetallicRoughness};
 use pinhole::shapes::{PlacedMesh, Shape};
 use pinhole_lab::measure::extremes::{Group, try_group};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -222,4 +225,54 @@ fn brute_force_finds_the_same_hits_on_a_shell() {
     eprintln!("{RAYS} rays at a shell of {} triangles: {hits} hit, {wrong} differ", geometry.triangles.len());
     assert_eq!(wrong, 0);
     assert!(hits > RAYS / 5, "{hits}");
+}
+
+/// A tile whose numbers change from square to square, as its exporter was told; the points are those of the world.
+#[test]
+fn a_file_s_maps_give_points_what_its_exporter_was_told() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/models/trimesh_worn_tile.glb");
+    let (mut scene, eye) = (lit(), DVec3::new(0.3, 5.0, 3.0));
+    let camera = named(&mut scene, "camera");
+    // Pixels are much smaller than texels.
+    let near = PerspectiveCamera { fov: Degrees(25.0), ..PerspectiveCamera::default() };
+    let look = LookAt { eye, target: DVec3::ZERO, ..LookAt::default() };
+    let size = Resolution { width: 128, height: 128 };
+    scene.entity_mut(camera).insert((near, look, size, Integrator::RayCasting));
+    scene.spawn(Mesh { file: file.to_string_lossy().into_owned() });
+    load_meshes(&mut scene);
+    let ModelNotes(notes) = scene.resource::<ModelNotes>();
+    assert!(!notes.iter().any(|note| note.contains("left out")), "{notes:?}");
+    let linear = |byte: u8| {
+        let c = f64::from(byte) / 255.0;
+        if c <= 0.04045 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) }
+    };
+    let inspection = inspect(&scene, &offer(), 128).expect("inspects");
+    let tile = inspection.world.entity(inspection.tiles[0]);
+    let (rays, hits) = (tile.get::<WorldRays>().expect("rays"), tile.get::<Hits>().expect("hits"));
+    let found = tile.get::<MetallicRoughness>().expect("metallic and roughness");
+    let (factors, radiance) = (tile.get::<EmissionFactors>().expect("factors"), [1.0, 0.5, 0.25]);
+    let used = scene.query::<&Emissive>().iter(&scene).next().expect("the material emits").radiance.to_array();
+    assert_eq!(used, radiance);
+    let mut tried = [0; 2];
+    for row in (0..hits.t.len()).filter(|&row| hits.t[row].is_finite()) {
+        let at = eye + rays.point_at(row, hits.t[row]);
+        // In squares, of which there are four along each side; the far left one is the image's first.
+        let [across, down] = [at.x, at.z].map(|part| 2.0 * (part + 1.0));
+        let inside = |place: f64| (0.35..0.65).contains(&(place - place.floor()));
+        if !(inside(across) && inside(down)) {
+            continue;
+        }
+        let odd = (across as u32 + down as u32) % 2 == 1;
+        // The image's first square is of the second colours that the exporter was told.
+        let (green, blue, light) = if odd { (51, 255, [0; 3]) } else { (204, 0, [188, 90, 20]) };
+        let [metallic, roughness] = found.get(row).expect("a map gives them");
+        assert!((metallic - 0.8 * f64::from(blue) / 255.0).abs() < 1e-6, "{at}: {metallic}");
+        assert!((roughness - 0.9 * f64::from(green) / 255.0).abs() < 1e-6, "{at}: {roughness}");
+        let factor = factors.times(row, [1.0; 3]);
+        let off = (0..3).map(|part| (f64::from(factor[part]) - linear(light[part])).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-6, "{at}: {factor:?}");
+        tried[usize::from(odd)] += 1;
+    }
+    eprintln!("a tile of an exporter: {tried:?} points on its squares have their numbers");
+    assert!(tried.iter().all(|tried| *tried > 100), "{tried:?}");
 }

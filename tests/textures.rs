@@ -2,6 +2,8 @@
 
 #[path = "textures/aspect.rs"]
 mod aspect;
+#[path = "textures/maps.rs"]
+mod maps;
 #[path = "textures/poles.rs"]
 mod poles;
 

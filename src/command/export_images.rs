@@ -4,7 +4,8 @@ use super::error::{Error, Result};
 use bevy_ecs::prelude::World;
 use pinhole::film::write_whole;
 use pinhole::scene::{
-    EmbeddedFiles, Environment, FileKind, IMAGE_FILE, ImageTexture, NormalMap, SceneFolder, read_file,
+    EmbeddedFiles, EmissionMap, Environment, FileKind, IMAGE_FILE, ImageTexture, MetallicRoughnessMap, NormalMap,
+    SceneFolder, read_file,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
@@ -64,6 +65,8 @@ fn named_images(world: &mut World) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     names.extend(world.query::<&ImageTexture>().iter(world).map(|image| image.file.clone()));
     names.extend(world.query::<&NormalMap>().iter(world).map(|map| map.file.clone()));
+    names.extend(world.query::<&MetallicRoughnessMap>().iter(world).map(|map| map.file.clone()));
+    names.extend(world.query::<&EmissionMap>().iter(world).map(|map| map.file.clone()));
     names.extend(world.query::<&Environment>().iter(world).map(|environment| environment.file.clone()));
     names
 }
@@ -73,6 +76,8 @@ fn rename(world: &mut World, new_names: &BTreeMap<String, String>) {
     let renamed = |file: &mut String| new_names.get(file).into_iter().for_each(|new| file.clone_from(new));
     world.query::<&mut ImageTexture>().iter_mut(world).for_each(|mut image| renamed(&mut image.file));
     world.query::<&mut NormalMap>().iter_mut(world).for_each(|mut map| renamed(&mut map.file));
+    world.query::<&mut MetallicRoughnessMap>().iter_mut(world).for_each(|mut map| renamed(&mut map.file));
+    world.query::<&mut EmissionMap>().iter_mut(world).for_each(|mut map| renamed(&mut map.file));
     world.query::<&mut Environment>().iter_mut(world).for_each(|mut image| renamed(&mut image.file));
 }
 

@@ -115,6 +115,8 @@ const LIST: &[Part] = &[Part(&[
     (Textures, shade::stripes_stage),
     (Textures, shade::image_stage),
     (Textures, shade::normal_map_stage),
+    (Textures, shade::metallic_roughness_stage),
+    (Textures, shade::emission_map_stage),
 
     // The radiance of rays that hit nothing.
     (Radiance, shade::background_stage),

@@ -24,6 +24,12 @@ fn environment(file: &str) -> Environment {
     Environment { file: file.into(), ..Environment::default() }
 }
 
+/// Makes the ball of a principled material with a map.
+fn worn(world: &mut World, map: MetallicRoughnessMap) {
+    let ball = named(world, "ball");
+    world.entity_mut(ball).remove::<Matte>().insert((Principled::default(), map));
+}
+
 const EVENING: &str = "chapters/16_textures/evening.hdr";
 
 pub const TEXTURES: &[Case] = &[
@@ -112,6 +118,41 @@ pub const TEXTURES: &[Case] = &[
     ("a normal map of size 0", &["normal map \"ball\"", "size"], |w| {
         put(w, "ball", NormalMap { size: 0.0, ..NormalMap::default() });
     }),
+    ("a map of roughness without a material", &["metallic–roughness map \"cloth\"", "missing", "Principled"], |w| {
+        w.spawn((Name::new("cloth"), MetallicRoughnessMap::default()));
+    }),
+    ("a map of roughness on matte", &["metallic–roughness map \"floor\"", "is matte", "only a Principled"], |w| {
+        put(w, "floor", MetallicRoughnessMap::default());
+    }),
+    ("a map of roughness without a file", &["metallic–roughness map \"ball\"", "file is \"\"", ".png, .jpg"], |w| {
+        worn(w, MetallicRoughnessMap::default());
+    }),
+    ("a map of roughness that is not there", &["\"ball\"", "there is no file nowhere.png"], |w| {
+        worn(w, MetallicRoughnessMap { file: "nowhere.png".into(), ..MetallicRoughnessMap::default() });
+    }),
+    (
+        "a map of roughness beyond 1",
+        &["metallic–roughness map \"ball\"", EVENING, "other texels", "from 0 to 1"],
+        |w| {
+            worn(w, MetallicRoughnessMap { file: EVENING.into(), ..MetallicRoughnessMap::default() });
+        },
+    ),
+    ("a map of roughness of size 0", &["metallic–roughness map \"ball\"", "size is 0"], |w| {
+        worn(w, MetallicRoughnessMap { size: 0.0, ..MetallicRoughnessMap::default() });
+    }),
+    ("an emission map beside no emission", &["emission map \"ball\"", "emission is missing", "an Emissive"], |w| {
+        put(w, "ball", EmissionMap::default());
+    }),
+    ("an emission map that is not there", &["emission map \"glow\"", "there is no file nowhere.png"], |w| {
+        put(w, "glow", EmissionMap { file: "nowhere.png".into(), ..EmissionMap::default() });
+    }),
+    ("an emission map of size −1", &["emission map \"glow\"", "size is -1"], |w| {
+        put(w, "glow", EmissionMap { size: -1.0, ..EmissionMap::default() });
+    }),
+    ("an emission map too bright for f32", &["emission map \"glow\"", "brightest texel", "3.4e38"], |w| {
+        edit::<Emissive>(w, "glow", |e| e.radiance = Rgb::grey(3e38));
+        put(w, "glow", EmissionMap { file: EVENING.into(), ..EmissionMap::default() });
+    }),
     ("a gradient and a background", &["the scene", "a Background by \"sky\" and a Gradient by \"dusk\""], |w| {
         w.spawn((Name::new("dusk"), Gradient::default()));
     }),
@@ -153,6 +194,8 @@ pub const TEXTURE_FIELDS: &[Field] = &[
     ("size", "ball", |w, v| edit::<ImageTexture>(w, "ball", |i| i.size = v)),
     ("size", "ball", |w, v| put(w, "ball", NormalMap { size: v, ..NormalMap::default() })),
     ("scale", "ball", |w, v| put(w, "ball", NormalMap { scale: v, ..NormalMap::default() })),
+    ("size", "ball", |w, v| worn(w, MetallicRoughnessMap { size: v, ..MetallicRoughnessMap::default() })),
+    ("size", "glow", |w, v| put(w, "glow", EmissionMap { size: v, ..EmissionMap::default() })),
     ("bottom", "sky", |w, v| behind(w, Gradient { bottom: Rgb::grey(v), ..Gradient::default() })),
     ("top", "sky", |w, v| behind(w, Gradient { top: Rgb::grey(v), ..Gradient::default() })),
     ("scale", "sky", |w, v| behind(w, Environment { scale: v, ..environment(EVENING) })),

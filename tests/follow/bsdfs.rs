@@ -10,7 +10,7 @@ use pinhole::material::{
     Site, Transport,
 };
 use pinhole::plan::Census;
-use pinhole::scene::{Metal, Principled, RoughGlass};
+use pinhole::scene::{Metal, MetallicRoughnessMap, Principled, Rgb, RoughGlass};
 use pinhole_lab::measure::chi_squared::{Bins, p_value};
 use pinhole_lab::measure::hemisphere::Quadrature;
 use pinhole_lab::measure::ray_aim::Draws;
@@ -50,9 +50,34 @@ fn examples_of(own: &Registration) -> Vec<Example> {
     (own.examples)().into_iter().enumerate().map(example).collect()
 }
 
+/// The metallic and roughness that an image gives points of a principled surface: at the ends of the tables of all
+/// roughnesses, and between their steps.
+const MAPPED: [[f64; 2]; 8] =
+    [[0.0, 0.0], [1.0, 0.07], [0.3, 0.12], [0.0, 0.26], [1.0, 0.41], [0.5, 0.63], [0.0, 0.88], [1.0, 1.0]];
+
+/// A principled surface of a grey where an image gives it this metallic and roughness.
+fn mapped(grey: f64, of_image: [f64; 2]) -> Example {
+    let mut world = World::new();
+    let own = Principled { base_colour: Rgb::grey(grey), metallic: 0.5, roughness: 0.5 };
+    world.spawn((own, MetallicRoughnessMap::default()));
+    let bsdf = Census::of(&world).table::<PrincipledTable>().expect("a table");
+    let [metallic, roughness] = of_image;
+    Example {
+        name: format!("Principled, {grey}, by an image {metallic} metallic and {roughness} rough"),
+        bsdf: Box::new(bsdf),
+        sites: vec![Site { mapped: Some(of_image), ..Site::opaque(0, [grey; 3]) }],
+        // Of smoother ones, samples find too little of what leaves at grazing incidence after several scatterings;
+        // principled.rs integrates that over the cosine.
+        lossless_to: (grey == 1.0 && roughness >= 0.1).then_some(3e-3),
+        transmits: false,
+    }
+}
+
 fn examples() -> Vec<Example> {
     let spread = REGISTERED.iter().filter(|own| own.class != BsdfClass::Specular);
-    let found: Vec<Example> = spread.flat_map(examples_of).collect();
+    let mut found: Vec<Example> = spread.flat_map(examples_of).collect();
+    found.extend(MAPPED.map(|of_image| mapped(1.0, of_image)));
+    found.push(mapped(0.2, [0.4, 0.57]));
     assert!(found.len() > 10, "{} examples", found.len());
     found
 }

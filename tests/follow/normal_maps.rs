@@ -85,13 +85,16 @@ fn in_a_white_furnace_no_block_is_brighter_than_the_sky() {
     let white = Rgb::grey(1.0);
     let metal = |roughness| Metal { colour: white, roughness, multiple_scattering: true };
     let principled = |metallic, roughness| Principled { base_colour: white, metallic, roughness };
-    let furnaces: [(&str, World); 8] = [
+    // The same image of numbers from 0 to 1, as metallic and roughness.
+    let by_image = MetallicRoughnessMap { file: file.to_string_lossy().into_owned(), size: 0.3, ..Default::default() };
+    let furnaces: [(&str, World); 9] = [
         ("matte", furnace(Matte { colour: white }, &file)),
         ("mirror", furnace(Mirror { colour: white }, &file)),
         ("metal", furnace(metal(0.2), &file)),
         ("rough metal", furnace(metal(1.0), &file)),
         ("plastic", furnace(principled(0.0, 0.3), &file)),
         ("principled metal", furnace(principled(1.0, 0.8), &file)),
+        ("principled, by an image", furnace((principled(1.0, 1.0), by_image), &file)),
         ("glass", furnace(Glass::default(), &file)),
         ("rough glass", furnace(RoughGlass { roughness: 0.4, ..RoughGlass::default() }, &file)),
     ];

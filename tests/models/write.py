@@ -101,6 +101,28 @@ def by_trimesh():
     with open(path("trimesh_box.obj"), "w") as file:
         file.write(text)
     measured("trimesh_box.obj", 1, box.triangles, 1)
+    worn_tile()
+
+
+def worn_tile():
+    """A square whose metallic, roughness and emission are in images of 4 × 4 squares, as are its colours."""
+    corners = np.array([(-1.0, 0.0, 1.0), (1.0, 0.0, 1.0), (1.0, 0.0, -1.0), (-1.0, 0.0, -1.0)])
+    # v is up here, from the square's nearer edge on.
+    uv = np.stack([0.5 + 0.5 * corners[:, 0], 0.5 - 0.5 * corners[:, 2]], axis=1)
+    pbr = trimesh.visual.material.PBRMaterial(
+        name="worn",
+        baseColorTexture=checker(16, (250, 200, 120), (120, 160, 220)),
+        metallicRoughnessTexture=checker(16, (0, 51, 255), (0, 204, 0)),
+        metallicFactor=0.8,
+        roughnessFactor=0.9,
+        emissiveTexture=checker(16, (0, 0, 0), (188, 90, 20)),
+        emissiveFactor=[1.0, 0.5, 0.25],
+        doubleSided=True,
+    )
+    tile = trimesh.Trimesh(vertices=corners, faces=[(0, 1, 2), (0, 2, 3)], process=False)
+    tile.visual = trimesh.visual.TextureVisuals(uv=uv, material=pbr)
+    trimesh.Scene(tile).export(path("trimesh_worn_tile.glb"))
+    measured("trimesh_worn_tile.glb", 1, tile.triangles, 1)
 
 
 # ---------------------------------------------------------------- open3d

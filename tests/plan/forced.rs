@@ -176,6 +176,18 @@ fn bumps() -> World {
     world
 }
 
+/// A lit ball that shines, with maps of one texel.
+fn maps() -> World {
+    const MAP: &[u8] = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x40\x80\xc0\x80";
+    let mut world = toggled(&[Toggle::Sphere, Toggle::Light]);
+    let ball = named(&mut world, "ball");
+    let map = MetallicRoughnessMap { file: "map.hdr".into(), ..MetallicRoughnessMap::default() };
+    let emission = EmissionMap { file: "map.hdr".into(), ..EmissionMap::default() };
+    world.entity_mut(ball).remove::<Matte>().insert((Principled::default(), map, Emissive::default(), emission));
+    world.insert_resource(EmbeddedFiles(&[("map.hdr", MAP)]));
+    world
+}
+
 /// An octahedron whose vertices have normals, and its shadow.
 fn a_mesh() -> World {
     let mut world = World::new();
@@ -227,6 +239,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("light from an environment", under_an_evening()),
         ("light from lamps on frosted glass", on_frosted_glass()),
         ("bumps", bumps()),
+        ("maps", maps()),
         ("a mesh", a_mesh()),
         ("many lights", scenes::many::many_lights(Setup { size, ..Setup::default() })),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),

@@ -13,7 +13,8 @@ use pinhole::rays::{
     ScreenPoints, WorldRays,
 };
 use pinhole::shade::{
-    Footprints, JoinPoints, LightPdfs, LightRays, Radiance, ShadowHits, SurfaceColours, TexturePoints, TransmissiveRows,
+    EmissionFactors, Footprints, JoinPoints, LightPdfs, LightRays, MetallicRoughness, Radiance, ShadowHits,
+    SurfaceColours, TexturePoints, TransmissiveRows,
 };
 
 const SIZE: [u32; 2] = [400, 200];
@@ -90,6 +91,8 @@ fn each_column_is_painted_as_its_page_says() {
         shown(JoinPoints { x: vec![0.25], y: vec![0.75] }, &[[0.25, 0.75, 0.0]]),
         shown(ShadowHits { t: vec![1.0; 2], shape: vec![NO_SHAPE, 0], ..Default::default() }, &[WHITE, BLACK]),
         shown(SurfaceColours { r, g, b }, &[COLOUR]),
+        shown(MetallicRoughness { metallic: vec![0.25, -1.0], roughness: vec![0.5, -1.0] }, &[[0.0, 0.5, 0.25], BLACK]),
+        shown(EmissionFactors { r: vec![0.25], g: vec![0.5], b: vec![0.75] }, &[[0.25, 0.5, 0.75]]),
         shown(
             TexturePoints { x: vec![1.25], y: vec![-0.25], z: vec![0.5], ..Default::default() },
             &[[0.25, 0.75, 0.5]],

@@ -4,6 +4,7 @@ use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
 use pinhole::scene::*;
 use pinhole_lab::measure::torus_knot::torus_knot;
+use std::sync::OnceLock;
 
 /// Their names.
 pub const PUBLIC: [&str; 6] = ["cornell", "cornell-glass", "veach-mis", "spheres", "spheres-lens", "spheres-sky"];

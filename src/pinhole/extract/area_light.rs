@@ -1,4 +1,4 @@
-use super::emissive::emissive_of;
+use super::emissive::{emissive_of, is_emission_mapped};
 use super::light_choice::{hierarchy_of_lights, light_distribution};
 use super::shape_kind::{is_shape, listed_kind, one_shape};
 use super::{EmissiveTable, MeshTable, NO_ROW, ShapeTable, moves_while_open, shape_entities};
@@ -18,7 +18,7 @@ const FEW: usize = 8;
 /// of which is a light of its own.
 ///
 /// Planes are infinite, the area of a non-uniformly scaled sphere has no known uniform sampling, and moving shapes are
-/// elsewhere for every ray; the emission of these is found by BSDF sampling only.
+/// elsewhere for every ray; the emission of these, and what an image gives, is found by BSDF sampling only.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AreaLightTable {
     /// The shape of each light.
@@ -197,7 +197,7 @@ impl Table for AreaLightTable {
         let (mut boxes, mut meshes) = (Vec::new(), Vec::new());
         for (shape, &emits) in shapes.emissive.iter().enumerate().filter(|(_, emits)| **emits != NO_ROW) {
             let radiance = emissive.radiance[emits as usize].map(f64::from);
-            if radiance == [0.0; 3] {
+            if radiance == [0.0; 3] || emissive.mapped.get(emits as usize) == Some(&true) {
                 continue;
             }
             let (row, one_sided) = (shapes.row[shape] as usize, emissive.one_sided[emits as usize]);
@@ -259,8 +259,11 @@ pub fn many_area_lights_evidence(scene: &Census<'_>) -> Evidence {
 /// The evidence of area lights, and how many there are, each triangle of a mesh by itself.
 fn found_emitters(scene: &Census<'_>) -> (Evidence, usize) {
     let moves = moves_while_open(scene);
-    let endless =
-        |shape: Entity| moves(shape) || !one_shape(scene, shape).is_ok_and(|listed| (listed.is_sampled)(scene, shape));
+    let endless = |shape: Entity| {
+        moves(shape)
+            || is_emission_mapped(scene, shape)
+            || !one_shape(scene, shape).is_ok_and(|listed| (listed.is_sampled)(scene, shape))
+    };
     let shines = |shape: Entity| {
         let emissive = emissive_of(scene, shape).and_then(|entity| scene.get::<Emissive>(entity));
         emissive.is_some_and(|emissive| emissive.radiance != Rgb::BLACK)

@@ -1,7 +1,7 @@
 use super::check::{kind_and_name, light_colour};
 use super::material::material_kind_evidence;
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{Disabled, Emissive, SceneError, Sides, UsesMaterial};
+use crate::scene::{Disabled, EmissionMap, Emissive, SceneError, Sides, UsesMaterial};
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
 
@@ -12,6 +12,8 @@ pub struct EmissiveTable {
     pub radiance: Vec<[f32; 3]>,
     /// Whether it is emitted only on the side of the shape's own normal.
     pub one_sided: Vec<bool>,
+    /// Whether an image gives it, so that light sampling leaves it to BSDF sampling; empty where none does for any.
+    pub mapped: Vec<bool>,
 }
 
 /// The enabled entities that carry an [`Emissive`], in spawn order, one for each row of the table.
@@ -26,6 +28,11 @@ pub(super) fn emissive_of(scene: &Census<'_>, shape: Entity) -> Option<Entity> {
     [Some(shape), used].into_iter().flatten().find(emits)
 }
 
+/// Whether an image gives a shape's emission.
+pub(super) fn is_emission_mapped(scene: &Census<'_>, shape: Entity) -> bool {
+    emissive_of(scene, shape).is_some_and(|emissive| scene.get::<EmissionMap>(emissive).is_some())
+}
+
 impl Table for EmissiveTable {
     const NAME: &'static str = "emissive surfaces";
 
@@ -37,12 +44,16 @@ impl Table for EmissiveTable {
             let radiance = light_colour(&who, "radiance", emissive.radiance)?.to_array();
             table.radiance.push(radiance.map(|part| part as f32));
             table.one_sided.push(emissive.sides == Sides::Front);
+            table.mapped.push(scene.get::<EmissionMap>(entity).is_some());
+        }
+        if !table.mapped.contains(&true) {
+            table.mapped.clear();
         }
         Ok(table)
     }
 
     fn bytes(&self) -> usize {
-        self.radiance.len() * (size_of::<[f32; 3]>() + size_of::<bool>())
+        self.radiance.len() * (size_of::<[f32; 3]>() + size_of::<bool>()) + self.mapped.len()
     }
 }
 

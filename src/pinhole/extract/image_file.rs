@@ -51,12 +51,16 @@ enum Numbers {
     Radiance,
     /// Normals: from 0 to 1, blue more than a half.
     Normals,
+    /// Numbers that are no light, such as roughness: from 0 to 1.
+    Factors,
+    /// Emission: finite, at least 0.
+    Emission,
 }
 
 impl Numbers {
     fn endings(self) -> (&'static [&'static str], &'static str) {
         match self {
-            Self::Reflectances | Self::Normals => {
+            Self::Reflectances | Self::Normals | Self::Factors | Self::Emission => {
                 (&["png", "jpg", "jpeg", "hdr", "exr"], "it must be the name of a .png, .jpg, .hdr or .exr file")
             }
             Self::Radiance => (&["hdr", "exr"], "it must be the name of a .hdr or .exr file"),
@@ -65,8 +69,8 @@ impl Numbers {
 
     fn accepts(self, texel: [f32; 3]) -> bool {
         let within = |part: &f32| match self {
-            Self::Reflectances | Self::Normals => (0.0..=1.0).contains(part),
-            Self::Radiance => (0.0..f32::INFINITY).contains(part),
+            Self::Reflectances | Self::Normals | Self::Factors => (0.0..=1.0).contains(part),
+            Self::Radiance | Self::Emission => (0.0..f32::INFINITY).contains(part),
         };
         texel.iter().all(within) && (self != Self::Normals || texel[2] > 0.5)
     }
@@ -74,27 +78,39 @@ impl Numbers {
     fn range(self) -> &'static str {
         match self {
             Self::Reflectances => "from 0 to 1, for a surface gives back no more than it gets",
-            Self::Radiance => "finite and at least 0",
+            Self::Radiance | Self::Emission => "finite and at least 0",
+            Self::Factors => "from 0 to 1",
             Self::Normals => "from 0 to 1, and blue more than a half, for a normal points out of the surface",
         }
     }
 }
 
-/// The images of textures, which are reflectances, those of environments, which are radiance, and normal maps.
+/// The images of textures, which are reflectances, those of environments, which are radiance, and maps.
 static TEXTURES: FileStore<Pyramid> = FileStore::new();
 static BACKGROUNDS: FileStore<Texels> = FileStore::new();
 static NORMAL_MAPS: FileStore<Texels> = FileStore::new();
+static FACTORS: FileStore<Pyramid> = FileStore::new();
+static EMISSIONS: FileStore<Pyramid> = FileStore::new();
 
 /// The image of a texture, with its pyramid.
 ///
 /// Errors: another file name extension, a file that is missing, unreadable or too large, a texel out of range.
 pub(super) fn texture_image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError> {
-    let decode = |texels: Texels| {
-        let pyramid = Pyramid::on(texels);
-        let bytes = pyramid.bytes();
-        (pyramid, bytes)
-    };
-    decoded(&TEXTURES, scene, who, file, Numbers::Reflectances, decode)
+    decoded(&TEXTURES, scene, who, file, Numbers::Reflectances, with_pyramid)
+}
+
+/// The image of metallic and roughness, its numbers as they are in the file, with its pyramid.
+///
+/// Errors: the same.
+pub(super) fn factor_image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError> {
+    decoded(&FACTORS, scene, who, file, Numbers::Factors, with_pyramid)
+}
+
+/// The image of an emission in linear light, with its pyramid.
+///
+/// Errors: the same.
+pub(super) fn emission_image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError> {
+    decoded(&EMISSIONS, scene, who, file, Numbers::Emission, with_pyramid)
 }
 
 /// The image of an environment.
@@ -109,6 +125,13 @@ pub(super) fn background_image(scene: &World, who: &str, file: &str) -> Result<A
 /// Errors: the same, and a texel whose normal does not point out of the surface.
 pub(super) fn normal_map_image(scene: &World, who: &str, file: &str) -> Result<Arc<Texels>, SceneError> {
     decoded(&NORMAL_MAPS, scene, who, file, Numbers::Normals, alone)
+}
+
+/// An image with its pyramid, and the memory of both in bytes.
+fn with_pyramid(texels: Texels) -> (Pyramid, usize) {
+    let pyramid = Pyramid::on(texels);
+    let bytes = pyramid.bytes();
+    (pyramid, bytes)
 }
 
 /// An image without a pyramid, and its memory in bytes.
@@ -219,10 +242,11 @@ fn texels(bytes: &[u8], format: ImageFormat, numbers: Numbers) -> Result<Texels,
     }
 }
 
-/// Converts pixels to linear light, or to the parts of normals: integers of colours are sRGB, all else is linear; alpha
-/// is ignored.
+/// Converts pixels to linear light, or to numbers that are no light: integers of colours are sRGB, all else is linear;
+/// alpha is ignored.
 fn linear(image: DynamicImage, numbers: Numbers) -> Vec<[f32; 3]> {
-    let decoded = |part: f64| if numbers == Numbers::Normals { part } else { linear_from_srgb(part) };
+    let as_it_is = matches!(numbers, Numbers::Normals | Numbers::Factors);
+    let decoded = |part: f64| if as_it_is { part } else { linear_from_srgb(part) };
     let bytes_a_part = image.color().bytes_per_pixel() / image.color().channel_count();
     match bytes_a_part {
         1 => {

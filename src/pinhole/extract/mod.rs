@@ -47,6 +47,7 @@ mod light_path;
 mod light_tracing;
 mod lights_of;
 mod material;
+mod material_maps;
 mod mesh_file;
 mod motion;
 mod moving;
@@ -113,6 +114,10 @@ pub use material::{
     bsdf_evidence, glass_evidence, glossy_evidence, lit_from_behind_evidence, material_evidence,
     material_kind_evidence, matte_evidence, specular_evidence,
 };
+pub use material_maps::{
+    EmissionMapTable, MetallicRoughnessTable, UvImages, emission_map_evidence, filtered_emission_evidence,
+    filtered_evidence, filtered_roughness_evidence, metallic_roughness_evidence,
+};
 pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_evidence};
 pub use moving::{MovingTable, shape_bodies};
 pub use normal_map::{NormalMapTable, normal_map_evidence};
@@ -134,7 +139,7 @@ pub use sky::sky_evidence;
 pub use srgb::linear_from_srgb;
 pub use texture::{
     NO_TEXTURE, ShapeSpaces, Texture, TextureMap, TextureMapping, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,
-    filtered_evidence, texture_evidence, texture_of_kind,
+    texture_evidence, texture_of_kind,
 };
 pub use two_colours::{CheckerTable, StripesTable, TwoColours};
 pub use uv_slope::UvSlopes;
@@ -175,6 +180,8 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<StripesTable>,
     answer::<ImageTable>,
     answer::<NormalMapTable>,
+    answer::<MetallicRoughnessTable>,
+    answer::<EmissionMapTable>,
     answer::<BackgroundTable>,
     answer::<GradientTable>,
     answer::<EnvironmentTable>,

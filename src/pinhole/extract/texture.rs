@@ -75,13 +75,11 @@ pub fn texture_evidence(scene: &Census<'_>) -> Evidence {
     })
 }
 
-/// Evidence that a texture is filtered.
-pub fn filtered_evidence(scene: &Census<'_>) -> Evidence {
-    scene.once(|scene| {
-        texture_of_kind(scene, "filtered checker", Checker::filter)
-            .or(texture_of_kind(scene, "filtered stripe pattern", Stripes::filter))
-            .or(texture_of_kind(scene, "filtered image", ImageTexture::filter))
-    })
+/// Evidence that a texture of colours is filtered.
+pub(super) fn filtered_texture_evidence(scene: &Census<'_>) -> Evidence {
+    texture_of_kind(scene, "filtered checker", Checker::filter)
+        .or(texture_of_kind(scene, "filtered stripe pattern", Stripes::filter))
+        .or(texture_of_kind(scene, "filtered image", ImageTexture::filter))
 }
 
 /// Evidence that a texture is mapped by uv.

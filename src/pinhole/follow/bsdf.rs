@@ -14,7 +14,9 @@ use crate::material::{Bsdf, BsdfClass, Site, Transport};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, WorldRays, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
-use crate::shade::{LightPdfs, LightRays, ReflectionView, ReflectionViewItem, SurfaceColours, lit_evidence};
+use crate::shade::{
+    LightPdfs, LightRays, MetallicRoughness, ReflectionView, ReflectionViewItem, SurfaceColours, lit_evidence,
+};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 
@@ -36,6 +38,7 @@ pub(super) fn site<B: Bsdf>(
         colour: colours.map_or_else(|| materials.colour[material], |colours| colours.get(row)),
         eta: if B::TRANSMITS { interface.eta(materials.interior[material], row) } else { 1.0 },
         transport,
+        mapped: if B::MAPPED { interface.mapped(row) } else { None },
     }
 }
 
@@ -120,28 +123,44 @@ pub fn add_direct_light<B: Bsdf, const FROM_LIGHT: bool>(
     (materials, bsdf, glass): (Res<Shared<MaterialTable>>, Res<Shared<B>>, Option<Res<Shared<GlassTable>>>),
     mut tiles: Query<(ReflectionView, Option<&SurfaceColours>, InterfaceView)>,
 ) {
-    for (ReflectionViewItem { eye, surfaces, shading, light, shadow: hits, mut radiance }, colours, interface) in
-        &mut tiles
-    {
+    let tables = (&**materials, &**bsdf);
+    for (view, colours, interface) in &mut tiles {
         let interface = Interface::new(interface, glass.as_deref());
-        for ray in 0..light.rows() {
-            let row = light.path[ray] as usize;
-            let surface = surfaces.get(row);
-            let material = surface.material as usize;
-            if materials.kind[material] != B::KIND || hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) {
-                continue;
-            }
-            let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |normals| normals.get(row));
-            let local_from_world = B::frame(normal).transpose();
-            let [to_light, to_eye] =
-                [light.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
-            let site = site::<B>(&materials, &interface, (colours, row, material), transport(FROM_LIGHT));
-            let (bsdf, irradiance) = (bsdf.lobes(&site, to_light, to_eye), light.irradiance(ray));
-            let [r, g, b] = [0, 1, 2].map(|part| (bsdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
-            radiance.r[row] += r;
-            radiance.g[row] += g;
-            radiance.b[row] += b;
+        // Where no image gives anything, the loop has no branch for it.
+        if B::MAPPED && interface.is_mapped() {
+            reflect_rows(tables, view, colours, &interface, transport(FROM_LIGHT));
+        } else {
+            reflect_rows(tables, view, colours, &interface.unmapped(), transport(FROM_LIGHT));
         }
+    }
+}
+
+/// Adds what the surfaces of one tile reflect or transmit.
+#[inline(always)]
+fn reflect_rows<B: Bsdf>(
+    (materials, bsdf): (&MaterialTable, &B),
+    ReflectionViewItem { eye, surfaces, shading, light, shadow: hits, mut radiance }: ReflectionViewItem<'_, '_>,
+    colours: Option<&SurfaceColours>,
+    interface: &Interface<'_>,
+    transport: Transport,
+) {
+    for ray in 0..light.rows() {
+        let row = light.path[ray] as usize;
+        let surface = surfaces.get(row);
+        let material = surface.material as usize;
+        if materials.kind[material] != B::KIND || hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) {
+            continue;
+        }
+        let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |normals| normals.get(row));
+        let local_from_world = B::frame(normal).transpose();
+        let [to_light, to_eye] =
+            [light.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
+        let site = site::<B>(materials, interface, (colours, row, material), transport);
+        let (bsdf, irradiance) = (bsdf.lobes(&site, to_light, to_eye), light.irradiance(ray));
+        let [r, g, b] = [0, 1, 2].map(|part| (bsdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
+        radiance.r[row] += r;
+        radiance.g[row] += g;
+        radiance.b[row] += b;
     }
 }
 
@@ -186,15 +205,17 @@ pub fn connections_stage<B: Bsdf>() -> Stage {
     at_interfaces::<B>(stage).on_light_paths().when(|scene| traced_evidence(scene).and(|| bsdf_evidence::<B>(scene)))
 }
 
-/// Requests what is known of the media at surfaces that transmit light, and of nothing of the kind elsewhere.
+/// Requests what is known of the media at surfaces that transmit light, and of nothing of the kind elsewhere; and maps
+/// where the BSDF can have any.
 pub(super) fn at_interfaces<B: Bsdf>(stage: Stage) -> Stage {
+    let never = |_: &Census<'_>| Evidence::default();
+    let stage = if B::MAPPED { stage } else { stage.reads_where::<MetallicRoughness>(never) };
     if B::TRANSMITS {
         stage
             .reads_where::<SurfaceSides>(bsdf_evidence::<B>)
             .reads_where::<Media>(media_evidence)
             .reads_where::<DeeperMedia>(deeper_media_evidence)
     } else {
-        let never = |_: &Census<'_>| Evidence::default();
         stage
             .table_where::<GlassTable>(never)
             .reads_where::<SurfaceSides>(never)

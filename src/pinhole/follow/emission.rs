@@ -9,7 +9,7 @@ use crate::intersect::{EmissiveRows, HitPrimitives, Hits, NO_SHAPE, SurfaceSides
 use crate::lights::Receiver;
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{Depth, Paths, WorldRays};
-use crate::shade::{Radiance, area_light_pdf, environment_pdf, environment_radiance};
+use crate::shade::{EmissionFactors, Radiance, area_light_pdf, environment_pdf, environment_radiance};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::DVec3;
@@ -42,6 +42,7 @@ pub struct MisEmissionView {
     primitives: Option<&'static HitPrimitives>,
     list: &'static EmissiveRows,
     sides: Option<&'static SurfaceSides>,
+    factors: Option<&'static EmissionFactors>,
     radiance: &'static mut Radiance,
 }
 
@@ -58,9 +59,9 @@ pub fn add_mis_emission(
     integrator: Res<Shared<IntegratorTable>>,
     mut tiles: Query<MisEmissionView>,
 ) {
-    for MisEmissionViewItem { depth, paths, rays, caustic, departures, hits, primitives, list, sides, mut radiance } in
-        &mut tiles
-    {
+    for view in &mut tiles {
+        let MisEmissionViewItem { depth, paths, rays, caustic, departures, hits, primitives, .. } = view;
+        let MisEmissionViewItem { list, sides, factors, mut radiance, .. } = view;
         for (&row, &of) in list.row.iter().zip(&list.emissive) {
             let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
             if sides.is_some_and(|sides| sides.outside[row] == 0 && emissive.one_sided[of as usize]) {
@@ -85,6 +86,7 @@ pub fn add_mis_emission(
             } else {
                 1.0
             } as f32;
+            let [r, g, b] = factors.map_or([r, g, b], |factors| factors.times(row, [r, g, b]));
             radiance.r[row] += weight * r;
             radiance.g[row] += weight * g;
             radiance.b[row] += weight * b;

@@ -37,12 +37,14 @@ pub struct Site {
     pub eta: f64,
     /// What the path carries.
     pub transport: Transport,
+    /// The metallic and the perceived roughness, each from 0 to 1, where an image gives them in place of the table.
+    pub mapped: Option<[f64; 2]>,
 }
 
 impl Site {
     /// A row of a table of opaque materials, on a surface of this colour.
     pub const fn opaque(row: usize, colour: [f64; 3]) -> Self {
-        Self { row, colour, eta: 1.0, transport: Transport::Radiance }
+        Self { row, colour, eta: 1.0, transport: Transport::Radiance, mapped: None }
     }
 }
 
@@ -141,6 +143,8 @@ pub trait Bsdf: Table + Named {
     const TRANSMITS: bool = false;
     /// Whether a texture may give the surface its colour.
     const TEXTURED: bool = false;
+    /// Whether an image may give its metallic and roughness.
+    const MAPPED: bool = false;
     /// Whether its lobes can be so narrow that the length of a normal rounded to f32 shows in them.
     const NARROW: bool = false;
 

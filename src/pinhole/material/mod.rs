@@ -33,6 +33,7 @@ mod mirror;
 mod multiple_scattering;
 mod phong;
 mod principled;
+mod principled_energy;
 mod registered;
 mod rough_glass;
 mod table;

@@ -70,6 +70,18 @@ impl ByCosine {
         self.steps[step] + (place - step as f64) * (self.steps[step + 1] - self.steps[step])
     }
 
+    /// The value at a cosine between those of two tables, a fraction `t` from the first to the second at each of their
+    /// steps, where `alpha` is that in between.
+    #[inline(always)]
+    pub fn between([low, high]: [&Self; 2], t: f64, alpha: f64, cosine: f64) -> f64 {
+        let cosine = cosine.clamp(0.0, 1.0);
+        let place = cosine * (1.0 + alpha) / (cosine + alpha) * STEPS as f64;
+        let step = (place as usize).min(STEPS - 1);
+        // The ends are exact, so that a table's own α gives its own values.
+        let at = |step: usize| (1.0 - t) * low.steps[step] + t * high.steps[step];
+        at(step) + (place - step as f64) * (at(step + 1) - at(step))
+    }
+
     /// The hemispherical average 2 ∫ value(μ) μ dμ, exactly for the interpolation of [`Self::at`].
     ///
     /// By parts it is the sum of [value μ²] − slope · ∫ μ² dx over the steps of x, with μ = α x / (1 + α − x).

@@ -1,18 +1,13 @@
+use super::principled_energy::{Between, DIELECTRIC, Energy, EnergyTable, alpha_of, grazing};
 use super::registered::entities_of_kind;
 use super::{
-    Bsdf, BsdfClass, BsdfSample, ByCosine, Example, Named, SMOOTHEST_METAL, Site, cosine_direction, cosine_pdf,
-    ggx_brdf, ggx_sample, multiple_scattering_albedo, single_scattering, visible_pdf,
+    Bsdf, BsdfClass, BsdfSample, Example, Named, Site, cosine_direction, cosine_pdf, ggx_brdf, ggx_sample, visible_pdf,
 };
 use crate::check::{kind_and_name, number, reflectance};
 use crate::plan::{Census, Table};
-use crate::scene::{Principled, Rgb, SceneError};
+use crate::scene::{MetallicRoughnessMap, Principled, Rgb, SceneError};
 use glam::DVec3;
 use std::f64::consts::FRAC_1_PI;
-
-/// The reflectance of a dielectric of index 1.5 at normal incidence.
-const DIELECTRIC: f64 = 0.04;
-/// Steps of the hemispherical average of Schlick's part.
-const STEPS: u32 = 512;
 
 /// Principled materials, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,83 +16,79 @@ pub struct PrincipledTable {
     pub metallic: Vec<f64>,
     /// GGX's α, from 0.001 to 1.
     pub alpha: Vec<f64>,
-    energy: Vec<Energy>,
+    energy: Vec<EnergyTable>,
+    /// The energies of all roughnesses, if an image gives any material its own.
+    by_roughness: &'static [EnergyTable],
 }
 
-/// The directional albedos of single scattering at one α, for Schlick's reflectance F₀ + (1 − F₀)(1 − cos θ)⁵, which is
-/// linear in F₀.
-#[derive(Clone, Debug, PartialEq)]
-struct Energy {
-    /// What is lost where F₀ = 1.
-    lost: ByCosine,
-    /// What the factor (1 − cos θ)⁵ leaves, less what it would leave of smooth microfacets.
-    grazing: ByCosine,
-    /// The hemispherical averages of what is lost, and of what the factor leaves.
-    average: [f64; 2],
-}
-
-/// (1 − cos θ)⁵.
-#[inline(always)]
-fn grazing(cosine: f64) -> f64 {
-    let rest = (1.0 - cosine).clamp(0.0, 1.0);
-    let squared = rest * rest;
-    squared * squared * rest
-}
-
-impl Energy {
-    fn new(alpha: f64) -> Self {
-        let more = |cosine: f64| single_scattering(cosine, alpha, |facing| grazing(facing) - grazing(cosine));
-        let (lost, more) = (ByCosine::lost(alpha), ByCosine::new(alpha, more));
-        let mut energy = Self { average: [lost.average(), 0.0], lost, grazing: more };
-        let term = |at: u32| {
-            let root = (f64::from(at) + 0.5) / f64::from(STEPS);
-            4.0 * root * root * root * energy.left_at_grazing(root * root) / f64::from(STEPS)
-        };
-        energy.average[1] = (0..STEPS).map(term).sum();
-        energy
-    }
-
-    /// What the factor (1 − cos θ)⁵ leaves at this cosine.
-    #[inline(always)]
-    fn left_at_grazing(&self, cosine: f64) -> f64 {
-        grazing(cosine) * (1.0 - self.lost.at(cosine)) + self.grazing.at(cosine)
-    }
-
-    /// The part of what is lost that leaves after further scatterings (Fdez-Agüera 2019).
-    #[inline(always)]
-    fn again(&self, normal: f64) -> f64 {
-        // The hemispherical average of Schlick's reflectance.
-        multiple_scattering_albedo(normal + (1.0 - normal) / 21.0, self.average[0])
-    }
-
-    /// The albedo of the dielectric's specular reflection where single scattering loses `lost` and leaves `left` at
-    /// grazing.
-    #[inline(always)]
-    fn of_dielectric(&self, lost: f64, left: f64) -> f64 {
-        DIELECTRIC * (1.0 - lost) + (1.0 - DIELECTRIC) * left + self.again(DIELECTRIC) * lost
-    }
+/// A principled surface at one point.
+#[derive(Clone, Copy)]
+struct Surface<E> {
+    colour: [f64; 3],
+    metallic: f64,
+    alpha: f64,
+    energy: E,
 }
 
 impl PrincipledTable {
     fn push(&mut self, metallic: f64, roughness: f64) {
-        let alpha = (roughness * roughness).max(SMOOTHEST_METAL);
+        let alpha = alpha_of(roughness);
         self.metallic.push(metallic);
         self.alpha.push(alpha);
-        self.energy.push(Energy::new(alpha));
+        self.energy.push(EnergyTable::new(alpha));
     }
 
+    /// The surface of a row without an image of metallic and roughness.
+    #[inline(always)]
+    fn own(&self, site: &Site) -> Surface<&EnergyTable> {
+        let (metallic, alpha) = (self.metallic[site.row], self.alpha[site.row]);
+        Surface { colour: site.colour, metallic, alpha, energy: &self.energy[site.row] }
+    }
+
+    /// The surface where an image gives metallic and roughness.
+    #[inline(always)]
+    fn mapped(&self, site: &Site, [metallic, roughness]: [f64; 2]) -> Surface<Between<'_>> {
+        let energy = Between::of(self.by_roughness, roughness);
+        Surface { colour: site.colour, metallic, alpha: alpha_of(roughness), energy }
+    }
+
+    // What follows stays out of the code of scenes without such an image.
+
+    #[inline(never)]
+    fn eval_mapped(&self, site: &Site, of_image: [f64; 2], to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
+        self.mapped(site, of_image).eval(to_light, to_eye)
+    }
+
+    #[inline(never)]
+    fn pdf_mapped(&self, site: &Site, of_image: [f64; 2], to_light: DVec3, to_eye: DVec3) -> f64 {
+        self.mapped(site, of_image).pdf(to_light, to_eye)
+    }
+
+    #[inline(never)]
+    fn sample_mapped(
+        &self,
+        site: &Site,
+        of_image: [f64; 2],
+        to_eye: DVec3,
+        (numbers, choice): ([f64; 2], f64),
+    ) -> Option<BsdfSample> {
+        self.mapped(site, of_image).sample(to_eye, numbers, choice)
+    }
+}
+
+impl<E: Energy> Surface<E> {
     /// The reflectance at normal incidence, of the dielectric and the metal together.
     #[inline(always)]
-    fn at_normal_incidence(&self, site: &Site) -> [f64; 3] {
-        site.colour.map(|colour| DIELECTRIC + self.metallic[site.row] * (colour - DIELECTRIC))
+    fn at_normal_incidence(&self) -> [f64; 3] {
+        self.colour.map(|colour| DIELECTRIC + self.metallic * (colour - DIELECTRIC))
     }
 
     /// Specular reflection of one scattering, in 1/sr.
     #[inline(always)]
-    fn once(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
+    fn once(&self, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
         let facing = grazing(to_eye.dot((to_light + to_eye).normalize_or_zero()));
-        let once = ggx_brdf(to_light, to_eye, self.alpha[site.row]);
-        self.at_normal_incidence(site).map(|normal| once * (normal + (1.0 - normal) * facing))
+        let once = ggx_brdf(to_light, to_eye, self.alpha);
+        self.at_normal_incidence().map(|normal| once * (normal + (1.0 - normal) * facing))
     }
 
     // ANCHOR: principled
@@ -106,17 +97,17 @@ impl PrincipledTable {
     /// Diffuse reflection gets what specular reflection leaves of the light that enters and again of the light that
     /// leaves; its scale makes the two add up to 1 where nothing is absorbed (Kelemen and Szirmay-Kalos 2001).
     #[inline(always)]
-    fn broad(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        let (energy, metallic) = (&self.energy[site.row], self.metallic[site.row]);
-        let [lost_in, lost_out] = [to_light.z, to_eye.z].map(|cosine| energy.lost.at(cosine));
+    fn broad(&self, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
+        let (energy, metallic) = (self.energy, self.metallic);
+        let [lost_in, lost_out] = [to_light.z, to_eye.z].map(|cosine| energy.lost(cosine));
         let [left_in, left_out] = [to_light.z, to_eye.z].map(|cosine| energy.left_at_grazing(cosine));
-        let [lost, left] = energy.average;
+        let [lost, left] = energy.average();
         let several = if lost > 0.0 { lost_in * lost_out / lost } else { 0.0 };
         let [below_in, below_out, below] = [[lost_in, left_in], [lost_out, left_out], [lost, left]]
             .map(|[lost, left]| 1.0 - energy.of_dielectric(lost, left));
         let diffuse = below_in * below_out / below;
         let again = energy.again(DIELECTRIC) * several;
-        site.colour.map(|colour| {
+        self.colour.map(|colour| {
             let dielectric = again + colour * diffuse;
             FRAC_1_PI * (dielectric + metallic * (energy.again(colour) * several - dielectric))
         })
@@ -125,18 +116,47 @@ impl PrincipledTable {
 
     /// The probability of sampling specular reflection of one scattering: its part of the albedo.
     #[inline(always)]
-    fn specular_probability(&self, site: &Site, to_eye: DVec3) -> f64 {
-        let (energy, metallic) = (&self.energy[site.row], self.metallic[site.row]);
-        let (lost, left) = (energy.lost.at(to_eye.z), energy.left_at_grazing(to_eye.z));
+    fn specular_probability(&self, to_eye: DVec3) -> f64 {
+        let (energy, metallic) = (self.energy, self.metallic);
+        let (lost, left) = (energy.lost(to_eye.z), energy.left_at_grazing(to_eye.z));
         let below = 1.0 - energy.of_dielectric(lost, left);
         let once: f64 =
-            self.at_normal_incidence(site).iter().map(|normal| normal * (1.0 - lost) + (1.0 - normal) * left).sum();
+            self.at_normal_incidence().iter().map(|normal| normal * (1.0 - lost) + (1.0 - normal) * left).sum();
         let broad = |colour: &f64| {
             let dielectric = energy.again(DIELECTRIC) * lost + colour * below;
             dielectric + metallic * (energy.again(*colour) * lost - dielectric)
         };
-        let whole = once + site.colour.iter().map(broad).sum::<f64>();
+        let whole = once + self.colour.iter().map(broad).sum::<f64>();
         if whole > 0.0 { (once / whole).clamp(0.0, 1.0) } else { 1.0 }
+    }
+
+    #[inline(always)]
+    fn eval(&self, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
+        if to_light.z <= 0.0 || to_eye.z <= 0.0 {
+            return [0.0; 3];
+        }
+        let (once, broad) = (self.once(to_light, to_eye), self.broad(to_light, to_eye));
+        [0, 1, 2].map(|part| once[part] + broad[part])
+    }
+
+    #[inline(always)]
+    fn pdf(&self, to_light: DVec3, to_eye: DVec3) -> f64 {
+        let once = self.specular_probability(to_eye);
+        let visible = visible_pdf(to_light, to_eye, self.alpha);
+        once * visible + (1.0 - once) * cosine_pdf(to_light.z)
+    }
+
+    /// By visible microfacet normals or by the cosine; `choice` selects which.
+    #[inline(always)]
+    fn sample(&self, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
+        let to_light = if choice < self.specular_probability(to_eye) {
+            ggx_sample(to_eye, self.alpha, numbers)?.to_light
+        } else {
+            cosine_direction(numbers)
+        };
+        let pdf = self.pdf(to_light, to_eye);
+        let weight = self.eval(to_light, to_eye).map(|brdf| brdf * to_light.z / pdf);
+        (pdf > 0.0).then_some(BsdfSample { to_light, pdf, weight })
     }
 }
 
@@ -149,12 +169,15 @@ impl Table for PrincipledTable {
             let own = scene.get::<Principled>(entity).copied().unwrap_or_default();
             Self::colour(&own, &kind_and_name(scene, Self::WORD, entity))?;
             table.push(own.metallic, own.roughness);
+            if scene.get::<MetallicRoughnessMap>(entity).is_some() {
+                table.by_roughness = EnergyTable::of_all_roughnesses();
+            }
         }
         Ok(table)
     }
 
     fn bytes(&self) -> usize {
-        self.alpha.len() * (2 * size_of::<f64>() + size_of::<Energy>())
+        self.alpha.len() * (2 * size_of::<f64>() + size_of::<EnergyTable>()) + size_of_val(self.by_roughness)
     }
 }
 
@@ -165,6 +188,7 @@ impl Bsdf for PrincipledTable {
     const NOUN: &'static str = "principled surface";
     const CLASS: BsdfClass = BsdfClass::Glossy;
     const TEXTURED: bool = true;
+    const MAPPED: bool = true;
 
     fn colour(own: &Principled, who: &str) -> Result<[f64; 3], SceneError> {
         for (field, value) in [("metallic", own.metallic), ("roughness", own.roughness)] {
@@ -177,31 +201,26 @@ impl Bsdf for PrincipledTable {
 
     #[inline(always)]
     fn eval(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        if to_light.z <= 0.0 || to_eye.z <= 0.0 {
-            return [0.0; 3];
+        match site.mapped {
+            None => self.own(site).eval(to_light, to_eye),
+            Some(of_image) => self.eval_mapped(site, of_image, to_light, to_eye),
         }
-        let (once, broad) = (self.once(site, to_light, to_eye), self.broad(site, to_light, to_eye));
-        [0, 1, 2].map(|part| once[part] + broad[part])
     }
 
     #[inline(always)]
     fn pdf(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> f64 {
-        let once = self.specular_probability(site, to_eye);
-        let visible = visible_pdf(to_light, to_eye, self.alpha[site.row]);
-        once * visible + (1.0 - once) * cosine_pdf(to_light.z)
+        match site.mapped {
+            None => self.own(site).pdf(to_light, to_eye),
+            Some(of_image) => self.pdf_mapped(site, of_image, to_light, to_eye),
+        }
     }
 
-    /// By visible microfacet normals or by the cosine; `choice` selects which.
     #[inline(always)]
     fn sample(&self, site: &Site, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
-        let to_light = if choice < self.specular_probability(site, to_eye) {
-            ggx_sample(to_eye, self.alpha[site.row], numbers)?.to_light
-        } else {
-            cosine_direction(numbers)
-        };
-        let pdf = self.pdf(site, to_light, to_eye);
-        let weight = self.eval(site, to_light, to_eye).map(|brdf| brdf * to_light.z / pdf);
-        (pdf > 0.0).then_some(BsdfSample { to_light, pdf, weight })
+        match site.mapped {
+            None => self.own(site).sample(to_eye, numbers, choice),
+            Some(of_image) => self.sample_mapped(site, of_image, to_eye, (numbers, choice)),
+        }
     }
 
     fn chooses(&self) -> bool {

@@ -29,6 +29,7 @@ mod cuboid;
 mod cylinder;
 mod directional_light;
 mod disk;
+mod emission_map;
 mod emissive;
 mod environment;
 mod equirectangular;
@@ -46,6 +47,7 @@ mod light_tracing;
 mod material;
 mod memory;
 mod mesh_instance;
+mod metallic_roughness_map;
 mod model;
 mod motion;
 mod name;
@@ -88,6 +90,8 @@ pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use directional_light::DirectionalLight;
 pub use disk::Disk;
+#[doc(hidden)]
+pub use emission_map::EmissionMap;
 pub use emissive::{Emissive, Sides};
 pub use environment::Environment;
 pub use equirectangular::EquirectangularCamera;
@@ -122,6 +126,7 @@ pub use memory::{TooLittleMemory, check_memory, in_words};
 #[doc(hidden)]
 pub use mesh_instance::MeshGeometry;
 pub use mesh_instance::MeshInstance;
+pub use metallic_roughness_map::MetallicRoughnessMap;
 #[doc(hidden)]
 pub use model::{
     MODEL_FILE, MeshInMemory, MeshPart, ModelFiles, ModelNotes, ModelScene, UnreadMesh, is_model_file, meshes_in_memory,

@@ -1,4 +1,4 @@
-use super::Radiance;
+use super::{EmissionFactors, Radiance};
 use crate::extract::{
     EmissiveTable, emissive_evidence, followed_evidence, light_sampling_evidence, one_sided_evidence, traced_evidence,
     unless_occlusion,
@@ -11,14 +11,15 @@ use bevy_ecs::prelude::*;
 /// Adds the emission of the surface that a ray hit, on the side where it was hit; radiance does not depend on distance.
 pub fn add_emission(
     emissive: Res<Shared<EmissiveTable>>,
-    mut tiles: Query<(&EmissiveRows, Option<&SurfaceSides>, &mut Radiance)>,
+    mut tiles: Query<(&EmissiveRows, Option<&SurfaceSides>, Option<&EmissionFactors>, &mut Radiance)>,
 ) {
-    for (list, sides, mut radiance) in &mut tiles {
+    for (list, sides, factors, mut radiance) in &mut tiles {
         for (&row, &of) in list.row.iter().zip(&list.emissive) {
             let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
             if sides.is_some_and(|sides| sides.outside[row] == 0 && emissive.one_sided[of as usize]) {
                 continue;
             }
+            let [r, g, b] = factors.map_or([r, g, b], |factors| factors.times(row, [r, g, b]));
             radiance.r[row] += r;
             radiance.g[row] += g;
             radiance.b[row] += b;

@@ -1,8 +1,9 @@
-use crate::extract::{PixelSteps, filtered_evidence};
-use crate::intersect::{Hits, MaterialRows, Surfaces};
+use crate::extract::{EmissionMapTable, PixelSteps, filtered_emission_evidence, filtered_evidence};
+use crate::intersect::{EmissiveRows, Hits, MaterialRows, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use crate::rays::WorldRays;
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
 use glam::DVec3;
 
 column! {
@@ -58,15 +59,29 @@ pub fn step_on_surface(moved: DVec3, direction: DVec3, normal: DVec3) -> DVec3 {
 }
 // ANCHOR_END: step_on_surface
 
+/// The hits on surfaces, and the pixel's footprints on them.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct FootprintView {
+    rays: &'static WorldRays,
+    hits: &'static Hits,
+    surfaces: &'static Surfaces,
+    list: &'static MaterialRows,
+    emissive: Option<&'static EmissiveRows>,
+    footprints: &'static mut Footprints,
+}
+
 /// Computes the footprint of each pixel on the surface that it sees.
 pub fn compute_footprints(
-    steps: Res<Shared<PixelSteps>>,
-    mut tiles: Query<(&WorldRays, &Hits, &Surfaces, &MaterialRows, &mut Footprints)>,
+    (steps, emission): (Res<Shared<PixelSteps>>, Option<Res<Shared<EmissionMapTable>>>),
+    mut tiles: Query<FootprintView>,
 ) {
-    for (rays, hits, surfaces, list, mut footprints) in &mut tiles {
+    for FootprintViewItem { rays, hits, surfaces, list, emissive, mut footprints } in &mut tiles {
+        // A shape that only emits has no material.
+        let emissive = emissive.filter(|_| emission.is_some()).map_or(&[][..], |emissive| &emissive.row);
         let (rx, ry, rz, dx, dy, dz) = footprints.slices_mut(surfaces.rows());
         [&mut *rx, ry, rz, dx, dy, dz].into_iter().for_each(|component| component.fill(0.0));
-        for &row in &list.row {
+        for &row in list.row.iter().chain(emissive) {
             let row = row as usize;
             let direction = rays.direction_of(row);
             let normal = surfaces.get(row).normal.as_dvec3();
@@ -89,7 +104,10 @@ pub fn compute_footprints(
 
 /// The stage that runs [`compute_footprints`].
 pub fn footprint_stage() -> Stage {
-    Stage::new("Compute footprints", TileSystems::Footprint, compute_footprints).when(filtered_evidence)
+    Stage::new("Compute footprints", TileSystems::Footprint, compute_footprints)
+        .reads_where::<EmissiveRows>(filtered_emission_evidence)
+        .table_where::<EmissionMapTable>(filtered_emission_evidence)
+        .when(filtered_evidence)
 }
 
 #[cfg(test)]

@@ -29,6 +29,7 @@ mod image_mask;
 mod image_texture;
 mod light;
 mod lookup;
+mod material_maps;
 mod normal_map;
 mod radiance;
 mod receivers;
@@ -84,6 +85,11 @@ pub use light::{
 };
 #[doc(hidden)]
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
+#[doc(hidden)]
+pub use material_maps::{
+    EmissionFactors, MetallicRoughness, emission_map_stage, evaluate_emission, evaluate_metallic_roughness,
+    metallic_roughness_stage,
+};
 #[doc(hidden)]
 pub use normal_map::{copy_normals, copy_normals_stage, map_normals, mapped_normal, normal_map_stage, uv_directions};
 #[doc(hidden)]

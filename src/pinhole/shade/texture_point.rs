@@ -100,18 +100,37 @@ pub fn face_from_space(normal: DVec3) -> DMat3 {
     DMat3::from_cols(right, down, DVec3::ZERO).transpose()
 }
 
-/// The hits on textured surfaces, and the points on their textures.
+/// What is known of hits on textured surfaces.
 #[derive(QueryData)]
-#[query_data(mutable)]
-pub struct TexturePointView {
+pub struct UvPointView {
     rays: &'static WorldRays,
     hits: &'static Hits,
     surfaces: &'static Surfaces,
-    list: &'static MaterialRows,
     uvs: Option<&'static SurfaceUvs>,
     primitives: Option<&'static HitPrimitives>,
     footprints: Option<&'static Footprints>,
-    points: &'static mut TexturePoints,
+}
+
+impl UvPointViewItem<'_, '_> {
+    /// The pixel's offsets on a row's surface; 0 where nothing is filtered.
+    #[inline(always)]
+    fn steps(&self, row: usize) -> [DVec3; 2] {
+        self.footprints.map_or([DVec3::ZERO; 2], |footprints| footprints.get(row))
+    }
+
+    /// A row's u and v, and the pixel's offsets in them; these are 0 where nothing is filtered.
+    #[inline(always)]
+    pub fn uv_point(&self, spaces: &ShapeSpaces, slopes: &RowSlopes<'_>, row: usize) -> TexturePoint {
+        let (shape, steps) = (self.hits.shape[row] as usize, self.steps(row));
+        let uv = self.uvs.map_or(DVec3::ZERO, |uvs| DVec3::new(uvs.u[row], uvs.v[row], 0.0));
+        let steps = slopes.get(shape, self.primitives, row).map_or([DVec3::ZERO; 2], |slope| {
+            let at = in_space(spaces, shape, self.rays.point_at(row, self.hits.t[row]), steps);
+            let normal = self.surfaces.get(row).normal.as_dvec3();
+            let step = |axis: usize| ended(slope.step(at.point, normal, steps[axis], at.steps[axis]));
+            [step(0), step(1)]
+        });
+        TexturePoint { point: uv, steps }
+    }
 }
 
 /// Computes each row's texture coordinates.
@@ -119,31 +138,23 @@ pub fn compute_texture_points(
     maps: Res<Shared<TextureMaps>>,
     spaces: Res<Shared<ShapeSpaces>>,
     slopes: RowSlopes<'_>,
-    mut tiles: Query<TexturePointView>,
+    mut tiles: Query<(UvPointView, &MaterialRows, &mut TexturePoints)>,
 ) {
-    for TexturePointViewItem { rays, hits, surfaces, list, uvs, primitives, footprints, mut points } in &mut tiles {
+    for (hit, list, mut points) in &mut tiles {
+        let hit: UvPointViewItem<'_, '_> = hit;
+        let (rays, hits, surfaces) = (hit.rays, hit.hits, hit.surfaces);
         let (x, y, z, rx, ry, rz, dx, dy, dz) = points.slices_mut(surfaces.rows());
         [&mut *x, y, z, rx, ry, rz, dx, dy, dz].into_iter().for_each(|component| component.fill(0.0));
         for &row in &list.row {
             let row = row as usize;
             let map = &maps.map[surfaces.material[row] as usize];
             let shape = hits.shape[row] as usize;
-            let steps = footprints.map_or([DVec3::ZERO; 2], |footprints| footprints.get(row));
             let at = match map.mapping {
                 TextureMapping::Nowhere => continue,
-                TextureMapping::AlongUv => {
-                    let uv = uvs.map_or(DVec3::ZERO, |uvs| DVec3::new(uvs.u[row], uvs.v[row], 0.0));
-                    let steps = slopes.get(shape, primitives, row).map_or([DVec3::ZERO; 2], |slope| {
-                        let at = in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps);
-                        let normal = surfaces.get(row).normal.as_dvec3();
-                        let step = |axis: usize| ended(slope.step(at.point, normal, steps[axis], at.steps[axis]));
-                        [step(0), step(1)]
-                    });
-                    TexturePoint { point: uv, steps }
-                }
-                TextureMapping::InSpace => in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps),
+                TextureMapping::AlongUv => hit.uv_point(&spaces, &slopes, row),
+                TextureMapping::InSpace => in_space(&spaces, shape, rays.point_at(row, hits.t[row]), hit.steps(row)),
                 TextureMapping::OnFaces => {
-                    let at = in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps);
+                    let at = in_space(&spaces, shape, rays.point_at(row, hits.t[row]), hit.steps(row));
                     let normal = surfaces.get(row).normal.as_dvec3();
                     on_face(face_from_space(spaces.world_from_shape[shape].transpose() * normal), at)
                 }

@@ -1,8 +1,8 @@
 use super::word::Word;
 use super::write::spawned;
 use crate::scene::{
-    ChildOf, Disabled, EmbeddedFiles, Environment, IMAGE_FILE, ImageTexture, MeshGeometry, MeshInstance, Name,
-    NormalMap, Sampler, Sampling, SceneFolder, Statistics, UsesMaterial, read_file,
+    ChildOf, Disabled, EmbeddedFiles, EmissionMap, Environment, IMAGE_FILE, ImageTexture, MeshGeometry, MeshInstance,
+    MetallicRoughnessMap, Name, NormalMap, Sampler, Sampling, SceneFolder, Statistics, UsesMaterial, read_file,
 };
 use bevy_ecs::prelude::*;
 use std::any::TypeId;
@@ -36,7 +36,10 @@ pub fn fingerprint(scene: &World) -> String {
         let texture = entity.get::<ImageTexture>().map(|texture| &texture.file);
         let environment = entity.get::<Environment>().map(|environment| &environment.file);
         let normals = entity.get::<NormalMap>().map(|map| &map.file);
-        for file in [texture, normals, environment].into_iter().flatten().filter(|_| !entity.contains::<Disabled>()) {
+        let roughness = entity.get::<MetallicRoughnessMap>().map(|map| &map.file);
+        let emission = entity.get::<EmissionMap>().map(|map| &map.file);
+        let named = [texture, normals, environment, roughness, emission].into_iter().flatten();
+        for file in named.filter(|_| !entity.contains::<Disabled>()) {
             let hash = |bytes: &[u8]| fnv(FNV_BASIS, bytes);
             let read = |path: &PathBuf| read_file(path, IMAGE_FILE).ok().map(|bytes| hash(&bytes));
             let held = EmbeddedFiles::find(scene, file)

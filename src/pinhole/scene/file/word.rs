@@ -1,9 +1,9 @@
 use crate::scene::material::MATERIALS;
 use crate::scene::{
-    Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, Emissive, Environment,
+    Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, EmissionMap, Emissive, Environment,
     EquirectangularCamera, FisheyeCamera, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing, LookAt, Mesh,
-    Motion, NormalMap, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Rectangle, Resolution,
-    Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Torus, Triangle, View,
+    MetallicRoughnessMap, Motion, NormalMap, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight,
+    Rectangle, Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Torus, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -49,6 +49,8 @@ const WORDS: &[Word] = &[
     Word::of::<Stripes>("stripes"),
     Word::of::<ImageTexture>("image_texture"),
     Word::of::<NormalMap>("normal_map"),
+    Word::of::<MetallicRoughnessMap>("metallic_roughness_map"),
+    Word::of::<EmissionMap>("emission_map"),
     Word::of::<Background>("background"),
     Word::of::<Gradient>("gradient"),
     Word::of::<Environment>("environment"),

@@ -2,12 +2,13 @@
 
 use super::open_model::OpenModel;
 use crate::scene::{
-    Degrees, DirectionalLight, Emissive, FovAxis, Glass, ImageTexture, Name, NormalMap, OrthographicCamera,
-    PerspectiveCamera, Placement, PointLight, Principled, Rgb, RoughGlass, SpotLight, TextureBy, Wrap,
+    Degrees, DirectionalLight, EmissionMap, Emissive, FovAxis, Glass, ImageTexture, MetallicRoughnessMap, Name,
+    NormalMap, OrthographicCamera, PerspectiveCamera, Placement, PointLight, Principled, Rgb, RoughGlass, SpotLight,
+    TextureBy, Wrap,
 };
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
-use pinhole_models::{LightKind, ModelCamera, ModelLight, ModelTexture, Projection, TextureWrap};
+use pinhole_models::{LightKind, ModelCamera, ModelLight, ModelMaterial, ModelTexture, Projection, TextureWrap};
 
 /// The factor of roughness squared below which glass is smooth.
 const SMOOTH: f64 = 1e-3;
@@ -22,6 +23,11 @@ fn name(scene: &mut World, entity: Entity, name: &str) {
     }
 }
 
+/// Whether a material becomes glass, which has no colour, no metallic and no roughness that an image could give.
+pub fn is_glass(material: &ModelMaterial) -> bool {
+    material.transmission > 0.5
+}
+
 /// Spawns a material of a model.
 pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize) -> Entity {
     let Some(own) = model.model.materials.get(material).cloned() else {
@@ -29,7 +35,7 @@ pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize) -> 
         return scene.spawn((grey, Name::new("default material"))).id();
     };
     let [r, g, b] = own.base_colour;
-    let entity = if own.transmission > 0.5 {
+    let entity = if is_glass(&own) {
         let alpha = own.roughness * own.roughness;
         if alpha < SMOOTH {
             scene.spawn(Glass { ior: own.ior, ..Glass::default() }).id()
@@ -38,23 +44,32 @@ pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize) -> 
         }
     } else {
         let base_colour = Rgb::new(r, g, b);
-        // The factor is 1 where a texture says which parts are metal; few are.
-        let metallic = if own.metallic_roughness_texture.is_some() { 0.0 } else { own.metallic };
-        scene.spawn(Principled { base_colour, metallic, roughness: own.roughness }).id()
+        scene.spawn(Principled { base_colour, metallic: own.metallic, roughness: own.roughness }).id()
     };
     name(scene, entity, &own.name);
-    if own.emission != [0.0; 3] && own.emission_texture.is_none() {
+    let named = |scene: &mut World, texture: Option<ModelTexture>| {
+        let texture = texture?;
+        let file = model.name_of_image(scene, texture.image)?;
+        Some((file, wrap_of(texture.wrap), !texture.nearest))
+    };
+    if own.emission != [0.0; 3] {
         let [r, g, b] = own.emission;
         scene.entity_mut(entity).insert(Emissive { radiance: Rgb::new(r, g, b), ..Emissive::default() });
+        if let Some((file, wrap, filter)) = named(scene, own.emission_texture) {
+            scene.entity_mut(entity).insert(EmissionMap { file, size: 1.0, wrap, filter });
+        }
     }
-    if let Some(file) = own.base_colour_texture.and_then(|texture| model.name_of_image(scene, texture.image)) {
-        let ModelTexture { wrap, nearest, .. } = own.base_colour_texture.unwrap_or_default();
-        let texture = ImageTexture { file, size: 1.0, by: TextureBy::Uv, wrap: wrap_of(wrap), filter: !nearest };
-        scene.entity_mut(entity).insert(texture);
-    }
-    if let Some(file) = own.normal_texture.and_then(|texture| model.name_of_image(scene, texture.image)) {
-        let wrap = wrap_of(own.normal_texture.unwrap_or_default().wrap);
+    if let Some((file, wrap, _)) = named(scene, own.normal_texture) {
         scene.entity_mut(entity).insert(NormalMap { file, scale: own.normal_scale, size: 1.0, wrap });
+    }
+    if is_glass(&own) {
+        return entity;
+    }
+    if let Some((file, wrap, filter)) = named(scene, own.base_colour_texture) {
+        scene.entity_mut(entity).insert(ImageTexture { file, size: 1.0, by: TextureBy::Uv, wrap, filter });
+    }
+    if let Some((file, wrap, filter)) = named(scene, own.metallic_roughness_texture) {
+        scene.entity_mut(entity).insert(MetallicRoughnessMap { file, size: 1.0, wrap, filter });
     }
     entity
 }

@@ -1,4 +1,4 @@
-use super::components_of::{placement_of, spawn_material};
+use super::components_of::{is_glass, placement_of, spawn_material};
 use super::mesh::{Mesh, MeshPart, ModelNotes, UnreadMesh};
 use super::open_model::{OpenModel, open_model};
 use crate::scene::material::is_material;
@@ -39,12 +39,13 @@ pub fn load_meshes(scene: &mut World) {
 fn notes_on(file: &str, model: &OpenModel) -> Vec<String> {
     let mut sentences = model.model.remarks.sentences();
     let materials = &model.model.materials;
+    let glass = || materials.iter().filter(|own| is_glass(own));
     let counts = [
-        (materials.iter().filter(|own| own.metallic_roughness_texture.is_some()).count(), "metallic and roughness"),
-        (materials.iter().filter(|own| own.emission_texture.is_some()).count(), "emission"),
+        (glass().filter(|own| own.base_colour_texture.is_some()).count(), "colour"),
+        (glass().filter(|own| own.metallic_roughness_texture.is_some()).count(), "metallic and roughness"),
     ];
     for (count, of) in counts.into_iter().filter(|(count, _)| *count > 0) {
-        let materials = if count == 1 { "material has" } else { "materials have" };
+        let materials = if count == 1 { "material of glass has" } else { "materials of glass have" };
         sentences.push(format!("{count} {materials} a texture of {of}, which is left out"));
     }
     let name = Path::new(file).file_name().map_or(file.into(), |name| name.to_string_lossy());

@@ -101,6 +101,7 @@ impl ModelScene {
 }
 
 fn has_lights(model: &Model) -> bool {
+    // Textures of emission are mostly black, and what they light is little.
     let emits = |material: usize| {
         let own = model.materials.get(material);
         own.is_some_and(|own| own.emission != [0.0; 3] && own.emission_texture.is_none())

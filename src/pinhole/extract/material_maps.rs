@@ -1,0 +1,207 @@
+//! Images over uv that are no colours: metallic and roughness, and emission.
+
+use super::Pyramid;
+use super::check::{kind_and_name, positive_length};
+use super::emissive::emissive_entities;
+use super::image_file::{emission_image, factor_image};
+use super::texture::{NO_TEXTURE, Texture, filtered_texture_evidence, rows_of_kind, texture_of_kind};
+use crate::material::{MaterialKind, is_material, one_material};
+use crate::plan::{Census, Evidence, Table};
+use crate::scene::{EmissionMap, Emissive, MetallicRoughnessMap, Principled, SceneError, TextureBy, Wrap};
+use bevy_ecs::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A map: an image over uv, beside a material or its emission.
+trait UvMap: Texture {
+    fn file(&self) -> &str;
+    fn size(&self) -> f64;
+    fn wrap(&self) -> Wrap;
+    /// Reads the image that a file holds.
+    fn image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError>;
+}
+
+macro_rules! uv_map {
+    ($map:ty, $word:literal, $image:path) => {
+        impl Texture for $map {
+            const WORD: &'static str = $word;
+            const NOUN: &'static str = $word;
+            fn by(&self) -> TextureBy {
+                TextureBy::Uv
+            }
+            fn filter(&self) -> bool {
+                self.filter
+            }
+        }
+
+        impl UvMap for $map {
+            fn file(&self) -> &str {
+                &self.file
+            }
+            fn size(&self) -> f64 {
+                self.size
+            }
+            fn wrap(&self) -> Wrap {
+                self.wrap
+            }
+            fn image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError> {
+                $image(scene, who, file)
+            }
+        }
+    };
+}
+
+uv_map!(MetallicRoughnessMap, "metallic–roughness map", factor_image);
+uv_map!(EmissionMap, "emission map", emission_image);
+
+/// Images over uv, in the order of the rows that they belong to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct UvImages {
+    /// The images; one that several rows use is in memory once.
+    pub pyramid: Vec<Arc<Pyramid>>,
+    /// The side of the image in units of uv.
+    pub size: Vec<f64>,
+    /// How each continues beyond its edges.
+    pub wrap: Vec<Wrap>,
+    /// Whether each is filtered over a pixel's footprint.
+    pub filter: Vec<bool>,
+}
+
+impl UvImages {
+    fn push<M: UvMap>(&mut self, scene: &Census<'_>, owner: Entity, map: &M) -> Result<(), SceneError> {
+        let who = kind_and_name(scene, M::WORD, owner);
+        self.size.push(positive_length(&who, "size", map.size())?);
+        self.wrap.push(map.wrap());
+        self.filter.push(map.filter());
+        self.pyramid.push(M::image(scene, &who, map.file())?);
+        Ok(())
+    }
+
+    fn bytes(&self) -> usize {
+        let images: BTreeMap<_, usize> = self.pyramid.iter().map(|image| (Arc::as_ptr(image), image.bytes())).collect();
+        images.into_values().sum()
+    }
+}
+
+/// The images of metallic and roughness, in spawn order of their materials.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MetallicRoughnessTable {
+    /// The row of each material's image; [`NO_TEXTURE`] where it has none.
+    pub of_material: Vec<u32>,
+    /// The material's own metallic and roughness, by which the image's are multiplied.
+    pub factors: Vec<[f64; 2]>,
+    /// The images, roughness in green and metallic in blue.
+    pub images: UvImages,
+}
+
+impl Table for MetallicRoughnessTable {
+    const NAME: &'static str = "metallic–roughness maps";
+
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        for &owner in scene.entities::<With<MetallicRoughnessMap>>().iter() {
+            let word = if is_material(scene, owner) { one_material(scene, owner)?.word } else { "missing" };
+            if word == "missing" || one_material(scene, owner)?.kind != MaterialKind::Principled {
+                let accepted = "only a Principled material has a metallic and a roughness that an image can give";
+                return Err(SceneError::new(
+                    kind_and_name(scene, MetallicRoughnessMap::WORD, owner),
+                    "material",
+                    word,
+                    accepted,
+                ));
+            }
+        }
+        let (of_material, rows) = rows_of_kind::<MetallicRoughnessMap>(scene);
+        let mut table = Self { of_material, ..Self::default() };
+        for material in rows {
+            let Some(map) = scene.get::<MetallicRoughnessMap>(material) else { continue };
+            let own = scene.get::<Principled>(material).copied().unwrap_or_default();
+            table.factors.push([own.metallic, own.roughness]);
+            table.images.push(scene, material, map)?;
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.of_material.len() * 4 + self.factors.len() * size_of::<[f64; 2]>() + self.images.bytes()
+    }
+}
+
+/// Checks that the brightest texel of the last image times the radiance is a number that f32 holds.
+fn check_brightest(scene: &Census<'_>, emissive: Entity, images: &UvImages) -> Result<(), SceneError> {
+    let radiance = scene.get::<Emissive>(emissive).map_or([0.0; 3], |own| own.radiance.to_array());
+    let brightest = images.pyramid.last().map_or([0.0; 3], |image| image.brightest.map(f64::from));
+    let most = [0, 1, 2].map(|part| radiance[part] * brightest[part]).into_iter().fold(0.0, f64::max);
+    if most <= f64::from(f32::MAX) {
+        return Ok(());
+    }
+    let value = format!("an image whose brightest texel makes the radiance {most:.2e}");
+    let who = kind_and_name(scene, EmissionMap::WORD, emissive);
+    Err(SceneError::new(who, "file", value, "the product of the two must be at most 3.4e38"))
+}
+
+/// The images of emission, in spawn order of the emissive surfaces.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EmissionMapTable {
+    /// The row of each emissive surface's image; [`NO_TEXTURE`] where it has none.
+    pub of_emissive: Vec<u32>,
+    /// The images in linear light.
+    pub images: UvImages,
+}
+
+impl Table for EmissionMapTable {
+    const NAME: &'static str = "emission maps";
+
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        for &owner in scene.entities::<With<EmissionMap>>().iter() {
+            if scene.get::<Emissive>(owner).is_none() {
+                let accepted =
+                    "an emission map belongs on an entity with an Emissive, whose radiance it is a factor of";
+                let who = kind_and_name(scene, EmissionMap::WORD, owner);
+                return Err(SceneError::new(who, "emission", "missing", accepted));
+            }
+        }
+        let mut table = Self::default();
+        for &emissive in emissive_entities(scene).iter() {
+            let Some(map) = scene.get::<EmissionMap>(emissive) else {
+                table.of_emissive.push(NO_TEXTURE);
+                continue;
+            };
+            table.of_emissive.push(table.images.size.len() as u32);
+            table.images.push(scene, emissive, map)?;
+            check_brightest(scene, emissive, &table.images)?;
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.of_emissive.len() * 4 + self.images.bytes()
+    }
+}
+
+/// Evidence that a shape is made of a material with a map of metallic and roughness.
+pub fn metallic_roughness_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| texture_of_kind::<MetallicRoughnessMap>(scene, MetallicRoughnessMap::NOUN, |_| true))
+}
+
+/// Evidence that a map of metallic and roughness is filtered.
+pub fn filtered_roughness_evidence(scene: &Census<'_>) -> Evidence {
+    texture_of_kind(scene, "filtered metallic–roughness map", MetallicRoughnessMap::filter)
+}
+
+/// Evidence that a shape's emission has a map.
+pub fn emission_map_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| texture_of_kind::<EmissionMap>(scene, EmissionMap::NOUN, |_| true))
+}
+
+/// Evidence that a map of emission is filtered.
+pub fn filtered_emission_evidence(scene: &Census<'_>) -> Evidence {
+    texture_of_kind(scene, "filtered emission map", EmissionMap::filter)
+}
+
+/// Evidence that a texture or a map is filtered; maps are not mentioned where none is.
+pub fn filtered_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        let maps = [filtered_roughness_evidence(scene), filtered_emission_evidence(scene)];
+        maps.into_iter().filter(|map| map.needed).fold(filtered_texture_evidence(scene), Evidence::or)
+    })
+}
