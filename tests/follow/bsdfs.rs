@@ -66,9 +66,9 @@ fn mapped(grey: f64, of_image: [f64; 2]) -> Example {
         name: format!("Principled, {grey}, by an image {metallic} metallic and {roughness} rough"),
         bsdf: Box::new(bsdf),
         sites: vec![Site { mapped: Some(of_image), ..Site::opaque(0, [grey; 3]) }],
-        // Of smoother ones, samples find too little of what leaves at grazing incidence after several scatterings;
+        // Of smoother metals, samples find too little of what leaves at grazing incidence after several scatterings;
         // principled.rs integrates that over the cosine.
-        lossless_to: (grey == 1.0 && roughness >= 0.1).then_some(3e-3),
+        lossless_to: (grey == 1.0 && (metallic < 1.0 || roughness >= 0.1)).then_some(3e-3),
         transmits: false,
     }
 }
