@@ -1,7 +1,7 @@
 use crate::triangle_mesh::TriangleMesh;
 use serde_json::{Value, json};
 
-/// A mesh as a binary glTF file without materials, of which [`read_model`](crate::read_model) makes the same mesh.
+/// A mesh as a binary glTF file without materials, of which `read_model` makes the same mesh.
 ///
 /// Its one node places it where it is.
 /// The layout is that of the glTF 2.0 specification, "GLB File Format".
