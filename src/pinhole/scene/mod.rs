@@ -126,6 +126,7 @@ pub use memory::{TooLittleMemory, check_memory, in_words};
 #[doc(hidden)]
 pub use mesh_instance::MeshGeometry;
 pub use mesh_instance::MeshInstance;
+#[doc(hidden)]
 pub use metallic_roughness_map::MetallicRoughnessMap;
 #[doc(hidden)]
 pub use model::{
