@@ -136,6 +136,27 @@ fn a_scene_file_places_meshes_and_gives_them_materials() {
     film(&scene);
 }
 
+/// A mesh that only emits has no other material: not the file's either.
+#[test]
+fn a_mesh_of_a_file_shines_by_its_own_emission() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("square.ply"), SQUARE).expect("written");
+    let scene = |emits: &str| {
+        let placed = "mesh: (file: \"square.ply\"), placement: (position: (0, 1, 0))";
+        opened(
+            folder.path(),
+            &format!("(name: \"lamp\", {placed}, emissive: (radiance: ({emits}))), (plane: (), matte: ())"),
+        )
+    };
+    let mut shining = scene("4, 3, 2");
+    let lamp = named(&mut shining, "lamp");
+    assert!(shining.get::<MeshInstance>(lamp).is_some() && shining.get::<Children>(lamp).is_none());
+    let [bright, dark] = [film(&shining), film(&scene("0, 0, 0"))];
+    let light =
+        |film: &Film| (0..8).flat_map(|x| (0..6).map(move |y| [x, y])).map(|[x, y]| film.mean(x, y)[0]).sum::<f32>();
+    assert!(light(&bright) > 1.0 && light(&dark) == 0.0, "{} and {}", light(&bright), light(&dark));
+}
+
 #[test]
 fn what_a_mesh_cannot_be_is_one_sentence() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -176,6 +176,31 @@ fn rendered(scene: &str, folder: &Path) -> Vec<u8> {
     fs::read(&picture).expect("written")
 }
 
+/// Meshes that a chapter makes are written once beside its scene file; from there the scene may be exported anywhere,
+/// and still finds them.
+#[test]
+fn an_exported_scene_finds_its_meshes_from_everywhere() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let picture = rendered("28", folder.path());
+    let wrote = typed(&["export", "28", "-o", &path("first/s.ron")]).expect("exported");
+    assert_eq!(wrote.lines().count(), 4, "{wrote}");
+    let wrote = typed(&["export", "28", "-o", &path("first/again.ron")]).expect("exported");
+    assert_eq!(wrote.lines().count(), 1, "the meshes are there: {wrote}");
+    // Other meshes of the same names stay what they are.
+    let wrote = typed(&["export", "30", "-o", &path("first/beach.ron")]).expect("exported");
+    assert!(wrote.contains("mesh-1-2.glb, which it names"), "{wrote}");
+    let elsewhere = [("above.ron", "file: \"first/mesh-1.glb\""), ("other/s.ron", "/first/mesh-1.glb\"")];
+    for (file, named) in elsewhere {
+        let wrote = typed(&["export", &path("first/s.ron"), "-o", &path(file)]).expect("exported");
+        assert_eq!(wrote.lines().count(), 1, "{wrote}");
+        let text = fs::read_to_string(path(file)).expect("read");
+        assert!(text.contains(named), "{file}: {text}");
+        assert!(rendered(&path(file), folder.path()) == picture, "{file}: another picture");
+    }
+    assert!(rendered(&path("first/s.ron"), folder.path()) == picture);
+}
+
 #[test]
 fn an_exported_scene_takes_its_images_along() {
     let folder = tempfile::tempdir().expect("a temporary folder");

@@ -4,7 +4,7 @@ use super::mesh::{Mesh, ModelNotes};
 use super::open_model::open_model;
 use crate::scene::{
     Degrees, DirectionalLight, FileProblem, FovAxis, Gradient, Integrator, LookAt, Name, PerspectiveCamera, Resolution,
-    Rgb, Sampling, SceneFolder,
+    Rgb, Sampling, SceneFolder, printable_path,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -44,7 +44,11 @@ impl ModelScene {
             return Err(FileProblem::of(path, "there is no such file"));
         }
         let named = path.to_string_lossy();
-        let model = open_model(&World::new(), &named).map_err(|what| FileProblem::of(path, what))?;
+        let model = open_model(&World::new(), &named).map_err(|what| {
+            // The problem names the path itself.
+            let own = format!("{} ", printable_path(path));
+            FileProblem::of(path, what.strip_prefix(&own).unwrap_or(&what))
+        })?;
         let mut said = Vec::new();
         if model.model.instances.is_empty() {
             return Err(FileProblem::of(path, "it has no triangles, and there is nothing to render"));
