@@ -5,8 +5,11 @@
 //! `--variant scalar_rgb`, `--scenes cornell,veach-mis`, `--samples 4,16,64`, `--rounds 5` and `--sampler sobol` ask for
 //! less or other, `--light-tracing 0.0625` for so many rays from the lights a sample; without `--python` only pinhole runs and its images are held against the references.
 //!
-//! `cargo bench --bench peers -- --agree cylinder,cone,torus,rough_glass,principled --python PROGRAM` compares block by
-//! block the pictures of scenes in tests/bench/peers, which stand there as scene files and again as a Python script;
+//! The references of mesh100k and mesh100k-ao are `mesh.exr` and `mesh-ao.exr` in a folder of their own, which
+//! `--references` names; `mitsuba_bench.py ref --scenes mesh,mesh-ao --mesh mesh100k --refdir FOLDER` makes them.
+//!
+//! `cargo bench --bench peers -- --agree cylinder,cone,torus,rough_glass,principled,ply_file,obj_file --python PROGRAM`
+//! compares block by block the pictures of scenes in tests/bench/peers, which stand there as scene files and again as a Python script;
 //! `--runs 16` and `--samples 256` say how many renders of how many samples, `--variant llvm_ad_rgb` by what Mitsuba.
 //! It fails where they are apart.
 //!
@@ -41,13 +44,14 @@ fn of_reference(scene: &str) -> f64 {
     match scene {
         "veach-mis" => 2.9e-4,
         "cornell-glass" => 4.9e-4,
-        "mesh-ao" => 1.3e-4,
+        "mesh-ao" | "mesh100k-ao" => 1.3e-4,
         _ => 4.5e-5,
     }
 }
 
 struct Options {
     peers: PathBuf,
+    references: PathBuf,
     python: Option<String>,
     variants: Vec<String>,
     scenes: Vec<String>,
@@ -77,11 +81,13 @@ fn count<N: FromStr>(flag: &str, default: N) -> N {
 impl Options {
     fn read() -> Option<Self> {
         let sampler = after("--sampler").unwrap_or("independent".into());
+        let peers = PathBuf::from(after("--peers")?);
         Some(Self {
-            peers: after("--peers")?.into(),
+            references: after("--references").map_or_else(|| peers.join("ref"), PathBuf::from),
+            peers,
             python: after("--python"),
             variants: list("--variant", "scalar_rgb,llvm_ad_rgb"),
-            scenes: list("--scenes", &[&PUBLIC[..], &MESHES].concat().join(",")),
+            scenes: list("--scenes", &[&PUBLIC[..], &MESHES[..2]].concat().join(",")),
             samples: list("--samples", "4,16,64").iter().filter_map(|word| word.parse().ok()).collect(),
             rounds: count("--rounds", 5),
             sampler: Sampler::ALL.iter().find(|(word, _)| *word == sampler).map(|(_, own)| *own).expect("a sampler"),
@@ -108,13 +114,34 @@ fn render_pinhole(scene: &str, options: &Options, samples: u32, seed: u64, sampl
     (seconds, numbers(&render.finish().film))
 }
 
+/// What the peers call a scene, and the mesh that they take for it.
+fn of_peers(scene: &str) -> (String, &'static str) {
+    match scene.strip_prefix("mesh100k") {
+        Some(rest) => (format!("mesh{rest}"), "mesh100k"),
+        None => (scene.into(), "mesh1m"),
+    }
+}
+
 /// Seconds and relMSE of Mitsuba's renders, one for each sample count.
 fn theirs(options: &Options, python: &str, variant: &str, scene: &str) -> Vec<(f64, f64)> {
     let counts: Vec<String> = options.samples.iter().map(u32::to_string).collect();
+    let (scene, mesh) = of_peers(scene);
     let output = Command::new(python)
         .arg(options.peers.join("mitsuba_bench.py"))
-        .args(["run", "--variant", variant, "--scenes", scene, "--reps", "1", "--spp", &counts.join(",")])
-        .env("PEERS_REF", options.peers.join("ref"))
+        .args([
+            "run",
+            "--variant",
+            variant,
+            "--scenes",
+            &scene,
+            "--mesh",
+            mesh,
+            "--reps",
+            "1",
+            "--spp",
+            &counts.join(","),
+        ])
+        .env("PEERS_REF", &options.references)
         .output()
         .expect("Python starts");
     let text = String::from_utf8_lossy(&output.stdout);
@@ -144,7 +171,7 @@ fn main() {
         return;
     };
     for scene in &options.scenes {
-        let file = options.peers.join(format!("ref/{scene}.exr"));
+        let file = options.references.join(format!("{}.exr", of_peers(scene).0));
         let reference = read_numbers(&file).expect("a reference");
         converged(scene, &reference, &options);
         compare(scene, &reference, &options);

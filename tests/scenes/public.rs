@@ -48,8 +48,8 @@ const fn plate([low, near]: [f64; 2], [high, far]: [f64; 2]) -> Quad {
     [[-4.0, low, near], [4.0, low, near], [4.0, high, far], [-4.0, high, far]]
 }
 
-/// The scenes of a mesh of 1,024,000 triangles.
-pub const MESHES: [&str; 2] = ["mesh", "mesh-ao"];
+/// The scenes of a mesh: of 1,024,000 triangles, and of 102,400.
+pub const MESHES: [&str; 4] = ["mesh", "mesh-ao", "mesh100k", "mesh100k-ao"];
 
 /// A scene by its name, with the max_depth that it asks for.
 pub fn public(name: &str, lights: LightStrategy) -> World {
@@ -72,17 +72,19 @@ pub fn public(name: &str, lights: LightStrategy) -> World {
             world.spawn(camera([0.0, 2.0, 15.0], [0.0, -2.0, 2.5], 28.0, FovAxis::Horizontal, [384, 256], 2));
             veach(&mut world);
         }
-        "mesh" | "mesh-ao" => {
+        "mesh" | "mesh-ao" | "mesh100k" | "mesh100k-ao" => {
             let mut eye =
                 world.spawn(camera([0.0, 5.0, 8.0], [0.0, -0.3, 0.0], 40.0, FovAxis::Vertical, [256, 256], 6));
-            let occlusion = name == "mesh-ao";
+            let occlusion = name.ends_with("-ao");
             if occlusion {
                 eye.insert(Integrator::AmbientOcclusion { distance: f64::INFINITY });
             }
             let [knot, ground] = if occlusion { [[1.0; 3]; 2] } else { [[0.6, 0.5, 0.4], [0.5; 3]] };
             // One for all renders, so that its hierarchy is built once: what peers time does not hold that either.
-            static KNOT: OnceLock<MeshGeometry> = OnceLock::new();
-            let geometry = KNOT.get_or_init(|| MeshGeometry::new(torus_knot(2560, 200))).clone();
+            static KNOTS: [OnceLock<MeshGeometry>; 2] = [const { OnceLock::new() }; 2];
+            let (knot_of, [along, around]) =
+                if name.starts_with("mesh100k") { (&KNOTS[0], [800, 64]) } else { (&KNOTS[1], [2560, 200]) };
+            let geometry = knot_of.get_or_init(|| MeshGeometry::new(torus_knot(along, around))).clone();
             world.spawn((Name::new("knot"), MeshInstance { geometry }, matte(knot)));
             let [x, y, z] = [20.0, -1.6, 20.0];
             quad(&mut world, [[-x, y, -z], [-x, y, z], [x, y, z], [x, y, -z]], matte(ground));

@@ -6,6 +6,7 @@
 The llvm variants need LLVM 17 or later: DRJIT_LIBLLVM_PATH=/usr/lib/x86_64-linux-gnu/libLLVM.so.19.1 (apt: libllvm19).
 
 cylinder: Mitsuba's own, with disks for caps. cone, torus: meshes, 4096 sides and 2 million triangles.
+ply_file, obj_file: files of planar triangles and polygons from tests/models, read by Mitsuba's own readers.
 rough_glass: roughdielectric, which takes GGX's alpha as pinhole does.
 principled: Mitsuba's is Disney's and not glTF's. The two share the specular lobe of a metal (GGX, Schlick's Fresnel with
 the base colour at normal incidence), and by way of F0 that of a dielectric; so that lobe is Mitsuba's for all spheres.
@@ -19,7 +20,8 @@ import os
 import sys
 
 parser = argparse.ArgumentParser()
-parser.add_argument('scene', choices=['cylinder', 'cone', 'torus', 'rough_glass', 'principled'])
+parser.add_argument('scene', choices=['cylinder', 'cone', 'torus', 'rough_glass', 'principled', 'ply_file',
+                                      'obj_file'])
 parser.add_argument('--samples', type=int, default=256)
 parser.add_argument('--runs', type=int, default=16)
 parser.add_argument('--side', type=int, default=16)
@@ -85,6 +87,12 @@ def mesh(to_world, vertices, faces, bsdf, radiance=None):
     params['faces'] = np.ascontiguousarray(faces.astype(np.uint32).ravel())
     params.update()
     return made
+
+
+def model(file, to_world, bsdf):
+    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../models', file)
+    # Otherwise it makes vertex normals where the file has none.
+    return {'type': file[-3:], 'filename': path, 'face_normals': True, 'to_world': to_world, 'bsdf': bsdf}
 
 
 def cone(radius, height, capped, sides=4096):
@@ -263,6 +271,13 @@ def scene(name):
         whole['standing'] = mesh(placed((-1.2, 0.95, 0), (1, 0, 0), 75), *torus(0.6, 0.22), red)
         whole['thin'] = mesh(placed((1.2, 0.6, 0.2), (0, 0, 1), 25), *torus(0.8, 0.05), blue)
         whole['glow'] = mesh(placed((0, 0.15, 1.2)), *torus(0.3, 0.08), matte(0, 0, 0), glow)
+    elif name == 'ply_file':
+        whole['capsule'] = model('plyfile_capsule_big.ply', placed((-1.3, 0.9, 0), (1, 0, 0), 55), red)
+        there = placed((1.3, 0.5, 0.4), (0, 1, 0), 100) @ T().scale(0.6)
+        whole['glow'] = emitting(model('plyfile_capsule_big.ply', there, None), *glow)
+    elif name == 'obj_file':
+        whole['prism'] = model('blender_polygons.obj', placed((-2.2, -1.9, 1.6)), red)
+        whole['tube'] = model('meshio_quads.obj', placed((1.3, 0.9, -0.5), (1, 0, 0), 40), blue)
     elif name == 'rough_glass':
         whole['wall'] = {**rectangle((0, 3, -1.5), 90, 12, 6), 'bsdf': matte(0.2, 0.5, 0.3)}
         for x, alpha in ((-1.5, 0.1), (0, 0.3), (1.5, 0.7)):
