@@ -24,6 +24,7 @@ const ORDER: &[(&str, &[&str])] = &[
             "sample",
             "rays",
             "intersect",
+            "rasterise",
             "shade",
             "follow",
             "film",

@@ -15,6 +15,7 @@ mod meshes;
 mod motion;
 mod order;
 mod plan;
+mod rasterisation;
 mod sampling;
 mod scenes;
 mod shapes;

@@ -57,13 +57,14 @@
 //! 10. [`sample`]: samplers and random numbers.
 //! 11. [`rays`]: raster → NDC → screen → camera → world.
 //! 12. [`intersect`]: rays → the closest hit and its surface.
-//! 13. [`shade`]: surfaces → textures, lights and shadow rays.
-//! 14. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
-//! 15. [`film`]: radiance → pixels → files.
-//! 16. [`render`]: the loop over tiles.
-//! 17. [`look`]: traces, views and statistics.
-//! 18. [`stages`]: all stages, in the order of the data.
-//! 19. [`prelude`]: what a scene or a stage of one's own begins with.
+//! 13. [`rasterise`]: triangles → the same hits, in the other order.
+//! 14. [`shade`]: surfaces → textures, lights and shadow rays.
+//! 15. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
+//! 16. [`film`]: radiance → pixels → files.
+//! 17. [`render`]: the loop over tiles.
+//! 18. [`look`]: traces, views and statistics.
+//! 19. [`stages`]: all stages, in the order of the data.
+//! 20. [`prelude`]: what a scene or a stage of one's own begins with.
 
 #[doc(hidden)]
 pub use pinhole_models as models;
@@ -99,6 +100,9 @@ pub mod sample;
 pub mod rays;
 
 pub mod intersect;
+
+#[doc(hidden)]
+pub mod rasterise;
 
 #[doc(hidden)]
 pub mod shade;

@@ -15,7 +15,7 @@
 mod registered;
 
 use crate::plan::Stage;
-use crate::{film, follow, intersect, rays, shade};
+use crate::{film, follow, intersect, rasterise, rays, shade};
 use registered::{
     bsdf_rows, bsdf_samples, direct_light_of_bsdfs, image_masks, image_plane_rays, intersections, light_samples,
     shadow_rays, surface_points, wide_rays,
@@ -33,6 +33,7 @@ enum Group {
     Lens,
     Motion,
     Intersection,
+    Rasterisation,
     Surfaces,
     Transforms,
     Shadows,
@@ -91,6 +92,9 @@ const LIST: &[Part] = &[Part(&[
     // Rays are intersected with each kind of shape, and the closest hit is kept.
 ], intersections), Part(&[
     (Motion, intersect::moving_stage),
+
+    // Or triangles are projected onto the image, where a camera asks for it.
+    (Rasterisation, rasterise::rasterise_stage),
 
     // What rays were tested against is counted, where a view asks for it.
     (Intersection, intersect::count_stage),
@@ -230,6 +234,11 @@ pub fn motion() -> Vec<Stage> {
 /// The closest hit of each ray with spheres, planes, disks, rectangles, cuboids and triangles.
 pub fn intersection() -> Vec<Stage> {
     of(Intersection)
+}
+
+/// Triangles and meshes projected onto the image, in place of camera rays.
+pub fn rasterisation() -> Vec<Stage> {
+    of(Rasterisation)
 }
 
 /// Positions and normals of hits.

@@ -188,6 +188,13 @@ fn maps() -> World {
     world
 }
 
+fn rasterised() -> World {
+    let mut world = a_mesh();
+    let camera = pinhole::extract::camera_entity(&world).expect("a camera");
+    world.entity_mut(camera).insert(Rasterisation);
+    world
+}
+
 /// An octahedron whose vertices have normals, and its shadow.
 fn a_mesh() -> World {
     let mut world = World::new();
@@ -241,6 +248,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("bumps", bumps()),
         ("maps", maps()),
         ("a mesh", a_mesh()),
+        ("a rasterised mesh", rasterised()),
         ("many lights", scenes::many::many_lights(Setup { size, ..Setup::default() })),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];

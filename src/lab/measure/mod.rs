@@ -35,3 +35,4 @@ pub mod ray_aim;
 pub mod specimen;
 pub mod sweep;
 pub mod torus_knot;
+pub mod visibility;

@@ -56,6 +56,7 @@ mod on_camera;
 mod pixel_steps;
 mod pose;
 mod pyramid;
+mod rasterisation;
 mod ray_origins;
 mod sampling;
 mod shape;
@@ -124,6 +125,7 @@ pub use normal_map::{NormalMapTable, normal_map_evidence};
 pub use pixel_steps::PixelSteps;
 pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, world_from_entity};
 pub use pyramid::{Pyramid, halved};
+pub use rasterisation::{no_plane_to_rasterise, rasterisation_evidence, rasterising_camera};
 pub use ray_origins::{RayOrigins, ray_origins_evidence};
 pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::ShapeTable;
@@ -162,6 +164,7 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<CameraAxes>,
     |scene| camera_spread(scene).map(drop),
     answer::<LensTable>,
+    rasterisation::check_rasterisation,
     answer::<SamplingTable>,
     answer::<FilterTable>,
     answer::<IntegratorTable>,

@@ -2,14 +2,15 @@
 
 use super::camera_entity::camera_of;
 use crate::plan::Census;
-use crate::scene::{Adaptive, Resolution, Sampling, SceneError, called};
+use crate::scene::{Adaptive, Rasterisation, Resolution, Sampling, SceneError, called};
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
 
 /// Such components, each with its word in messages, unless a table of their own asks where they are.
-const ON_CAMERA: [(&str, fn(&Census<'_>) -> Arc<[Entity]>); 3] = [
+const ON_CAMERA: [(&str, fn(&Census<'_>) -> Arc<[Entity]>); 4] = [
     ("resolution", |scene| scene.entities::<With<Resolution>>()),
     ("sampling", |scene| scene.entities::<With<Sampling>>()),
+    ("rasterisation", |scene| scene.entities::<With<Rasterisation>>()),
     ("adaptive", |scene| scene.entities::<With<Adaptive>>()),
 ];
 

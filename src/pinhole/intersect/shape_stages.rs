@@ -6,6 +6,7 @@ use super::view::{SurfaceView, SurfaceViewItem};
 use super::{HitColumn, HitPrimitives, Hits, RayColumn};
 use crate::extract::{
     HierarchyOf, ShapeTable, ShapesOf, UvSpaceTable, hierarchy_evidence, kind_evidence, primitive_evidence,
+    rasterising_camera,
 };
 use crate::plan::{Column, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -101,6 +102,7 @@ pub fn intersect_stage<S: Listed>() -> Stage {
     } else {
         Stage::new(name, set, intersect_shapes::<S, WorldRays, Hits>)
     };
+    let stage = if S::IS_TRIANGULAR { stage.spared_first_where(rasterising_camera) } else { stage };
     stage.table_where::<HierarchyOf<S>>(hierarchy_evidence::<S>).when(kind_evidence::<S>)
 }
 

@@ -1,4 +1,4 @@
-use super::{Census, Column, ColumnKind, Lifetime, RowKind, Stage, TableKind, TileSystems};
+use super::{Census, Column, ColumnKind, Evidence, Lifetime, RowKind, Stage, TableKind, TileSystems};
 use crate::scene::{Statistics, View, printable};
 use bevy_ecs::prelude::*;
 use serde::Serialize;
@@ -114,7 +114,8 @@ pub fn plan(scene: &Census<'_>, offer: &[Stage]) -> Result<Plan, PlanError> {
     let mut wanted: BTreeSet<TypeId> = BTreeSet::new();
     let mut decided: Vec<Decided<'_>> = Vec::new();
     for stage in offer.iter().rev() {
-        let decision = decide(scene, stage, painted, &wanted);
+        let later = decided.iter().any(|other| other.row.kept && other.stage.traces_further());
+        let decision = decide(scene, stage, (painted, later), &wanted);
         if decision.row.kept {
             wanted.extend(stage.reads.iter().chain(&stage.reads_if).map(|column| column.id));
             let needed = stage.reads_where.iter().filter(|(_, predicate)| predicate(scene).needed);
@@ -136,6 +137,8 @@ struct Decided<'s> {
     columns: Vec<ColumnKind>,
     /// The tables that it will read.
     tables: Vec<TableKind>,
+    /// Whether another stage does its work at the first bounce.
+    from_second_bounce: bool,
 }
 
 /// The columns of these stages that a view may show, in order.
@@ -165,10 +168,11 @@ struct Painted<'p> {
 fn decide<'s>(
     scene: &Census<'_>,
     stage: &'s Stage,
-    view: Option<Painted<'_>>,
+    (view, traced_further): (Option<Painted<'_>>, bool),
     wanted: &BTreeSet<TypeId>,
 ) -> Decided<'s> {
     let evidence = (stage.when)(scene);
+    let spared = if evidence.needed { (stage.spared_first)(scene) } else { Evidence::default() };
     let of_film = |column: &ColumnKind| column.lifetime == Lifetime::Film;
     let read = stage.writes.iter().filter(|column| wanted.contains(&column.id) || of_film(column));
     let read: Vec<ColumnKind> = read.copied().collect();
@@ -181,8 +185,12 @@ fn decide<'s>(
     };
     let (kept, reason) = if !evidence.needed {
         (false, evidence.reason)
+    } else if spared.needed && !traced_further {
+        (false, spared.reason)
     } else if let Some(view) = view.filter(is_painted_over) {
         (false, format!("the view paints `{}` instead", view.column.name))
+    } else if !read.is_empty() && spared.needed {
+        (true, format!("{}; from the second bounce on: {}", evidence.reason, spared.reason))
     } else if !read.is_empty() {
         (true, evidence.reason)
     } else {
@@ -199,7 +207,7 @@ fn decide<'s>(
         columns: columns.iter().map(|column| column.name).collect(),
         tables: tables.iter().map(|table| table.name).collect(),
     };
-    Decided { stage, row, columns, tables }
+    Decided { stage, row, columns, tables, from_second_bounce: spared.needed }
 }
 
 fn check_producers(decided: &[Decided<'_>], view: Option<ColumnKind>) -> Result<(), PlanError> {
@@ -277,7 +285,8 @@ fn collect(scene: &Census<'_>, decided: Vec<Decided<'_>>, view: Option<ColumnKin
                     tables_left_out.push(left_out);
                 }
             }
-            stages.push(decision.stage.clone());
+            let from_second_bounce = decision.from_second_bounce;
+            stages.push(Stage { from_second_bounce, ..decision.stage.clone() });
         }
         rows.push(decision.row);
     }

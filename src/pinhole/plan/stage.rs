@@ -78,6 +78,10 @@ pub struct Stage {
     pub writes: Vec<ColumnKind>,
     /// Whether it runs at every bounce, or at the first one only.
     pub on_every_bounce: bool,
+    /// Whether something else does its work at the first bounce of camera paths, and why.
+    pub spared_first: fn(&Census<'_>) -> Evidence,
+    /// Whether it is spared the first bounce, which the plan decides.
+    pub from_second_bounce: bool,
     /// The passes that it runs in.
     pub passes: &'static [RowKind],
     /// Whether it appends rows to what it writes, after those of other stages.
@@ -127,6 +131,8 @@ impl Stage {
             reads_where: Vec::new(),
             writes: access.writes.clone(),
             on_every_bounce: set.on_every_bounce(),
+            spared_first: |_| Evidence::default(),
+            from_second_bounce: false,
             passes: set.passes(),
             appends: false,
             tables: access.tables.clone(),
@@ -141,6 +147,12 @@ impl Stage {
     /// Restricts it to the first bounce.
     pub fn on_first_bounce(mut self) -> Self {
         self.on_every_bounce = false;
+        self
+    }
+
+    /// Leaves the first bounce of camera paths to another stage, where the scene gives a reason.
+    pub fn spared_first_where(mut self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
+        self.spared_first = predicate;
         self
     }
 
@@ -164,6 +176,16 @@ impl Stage {
     /// Whether it runs in the pass whose rows are of this kind.
     pub fn runs_in(&self, row: RowKind) -> bool {
         self.passes.contains(&row)
+    }
+
+    /// Whether it traces further bounces, or paths that start elsewhere than on the camera.
+    pub fn traces_further(&self) -> bool {
+        self.set == TileSystems::RemainingBounces || !self.runs_in(RowKind::Pixel)
+    }
+
+    /// Whether it runs at the first bounce of the pass whose rows are of this kind.
+    pub fn runs_first_in(&self, row: RowKind) -> bool {
+        self.runs_in(row) && !(self.from_second_bounce && row == RowKind::Pixel)
     }
 
     /// Adds a column that it cannot run without; needed for exclusive systems only.

@@ -83,6 +83,33 @@ impl RenderInProgress {
         })
     }
 
+    /// Begins another picture, of a scene that may have changed.
+    ///
+    /// Where the plan stays the same, as it does when the camera moves, workers keep their worlds, with the schedules and
+    /// the memory of the columns.
+    ///
+    /// Errors: an invalid scene, or a plan that cannot be made; the render then stays as it was.
+    pub fn begin_frame(&mut self, scene: &Census<'_>, offer: &[Stage]) -> Result {
+        let (plan, tables) = prepare(scene, offer)?;
+        if self.light.is_some() || plan.rows != self.plan.rows || plan.columns != self.plan.columns {
+            *self = Self::begin(scene, offer, &self.execution)?;
+            return Ok(());
+        }
+        let image = *scene.table::<ImageFrame>()?;
+        check_film_fits(scene, &plan)?;
+        self.film = film_for(scene, &plan, Film::new(image.width, image.height, self.execution.tile_side));
+        self.sampling = *scene.table::<SamplingTable>()?;
+        for world in &mut self.worlds {
+            let Some(world) = world.get_mut().unwrap_or_else(PoisonError::into_inner) else { continue };
+            tables.iter().for_each(|table| (table.insert)(&mut world.world));
+            if plan.statistics {
+                world.world.insert_resource(StageClock::new(&plan));
+            }
+        }
+        (self.plan, self.tables, self.time) = (plan, tables, Duration::ZERO);
+        Ok(())
+    }
+
     /// The number of workers.
     pub fn threads(&self) -> usize {
         self.worlds.len()

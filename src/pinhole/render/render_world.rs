@@ -81,7 +81,7 @@ impl RenderWorld {
                 stage.runs_in(row) && stage.on_every_bounce
             })));
         }
-        let mut schedule = schedule_of(Sample, plan, &hooks, |stage| stage.runs_in(row));
+        let mut schedule = schedule_of(Sample, plan, &hooks, |stage| stage.runs_first_in(row));
         if follows {
             schedule.configure_sets((TileSystems::Moments.run_if(is_whole), TileSystems::Film.run_if(is_whole)));
         }

@@ -58,6 +58,7 @@ mod placement;
 mod plane;
 mod point_light;
 mod printable;
+mod rasterisation;
 mod rectangle;
 mod request;
 mod resolution;
@@ -146,8 +147,9 @@ pub use plane::Plane;
 pub use point_light::PointLight;
 #[doc(hidden)]
 pub use printable::{is_invisible, printable, printable_message, printable_path};
-pub use rectangle::Rectangle;
 #[doc(hidden)]
+pub use rasterisation::Rasterisation;
+pub use rectangle::Rectangle;
 pub use request::Statistics;
 #[doc(hidden)]
 pub use request::TracePixel;

@@ -8,7 +8,7 @@ use super::mesh_traversal::{MeshStacks, keep_closest_apart};
 use super::offset::l1_norm;
 use super::ray_block::{ClosestHit, ClosestHits, Intersection, RaySlices};
 use super::shape::{Placed, RayHit, SceneShape, Shape, SurfacePoint};
-use super::space::normal_world_from_object;
+use super::space::{norm, normal_world_from_object};
 use super::triangle_hit::TriangleHit;
 use super::triangle_row::TriangleRow;
 use super::uv_slope::{UvSlope, planar_slope};
@@ -142,6 +142,12 @@ impl PlacedMesh {
         self.keep_closest_of_ray([origin, direction], 0, ClosestHit::NONE, &mut Stack::default())
     }
 
+    /// The t at which a ray hits one of the triangles, as the hierarchy finds it; infinity for a miss.
+    #[inline(always)]
+    pub fn triangle_t(&self, ray: [DVec3; 2], triangle: u32) -> f64 {
+        self.hierarchy.triangle_t(self.own_ray(ray), &self.triangle(triangle))
+    }
+
     /// The same found by testing all triangles.
     pub fn closest_of_all(&self, origin: DVec3, direction: DVec3) -> ClosestHit {
         let (ray, start) = self.own_ray([origin, direction]);
@@ -155,6 +161,7 @@ impl Shape for PlacedMesh {
     type Emitter = EmittingTriangle;
 
     const HAS_PRIMITIVES: bool = true;
+    const IS_TRIANGULAR: bool = true;
     const MANY: usize = 6;
 
     fn has_inside(mesh: &MeshInstance) -> bool {
@@ -291,11 +298,6 @@ fn hierarchy_in(geometry: &MeshGeometry) -> Arc<MeshHierarchy> {
 /// Whether a mesh encloses an interior; found out when something first asks for it.
 fn is_closed(geometry: &MeshGeometry) -> bool {
     hierarchy_in(geometry).is_closed(geometry)
-}
-
-/// The largest factor by which a linear map lengthens a vector, or a little more.
-fn norm(map: DMat3) -> f64 {
-    map.to_cols_array().iter().map(|part| part * part).sum::<f64>().sqrt()
 }
 
 /// Intersects rays with one mesh after another: coherent ones in packets, others one by one, or several in turns where

@@ -125,6 +125,8 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     const IS_BOUNDED: bool = true;
     /// Whether it consists of several primitives, so that a hit has to say which.
     const HAS_PRIMITIVES: bool = false;
+    /// Whether it consists of triangles, which can be rasterised.
+    const IS_TRIANGULAR: bool = false;
     /// Whether several usually make up one surface, such as the triangles of a mesh.
     const IS_PART: bool = false;
     /// Whether its u and v are those of a point in its uv space.

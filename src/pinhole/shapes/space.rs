@@ -42,3 +42,7 @@ pub fn normal_world_from_object(object_from_world: DMat3, normal: DVec3) -> DVec
     object_from_world.transpose() * normal
 }
 // ANCHOR_END: normal_world_from_object
+/// The largest factor by which a linear map lengthens a vector, or a little more.
+pub(super) fn norm(map: DMat3) -> f64 {
+    map.to_cols_array().iter().map(|part| part * part).sum::<f64>().sqrt()
+}

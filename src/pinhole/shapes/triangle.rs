@@ -66,6 +66,7 @@ impl Shape for TriangleRow {
     type Beside = TriangleFace;
     type Emitter = EmittingTriangle;
 
+    const IS_TRIANGULAR: bool = true;
     const IS_PART: bool = true;
 
     fn has_inside(_: &Triangle) -> bool {

@@ -24,6 +24,7 @@ mod material;
 mod planar;
 mod plane;
 mod print;
+mod rasterisation;
 mod sampling;
 mod shadow;
 mod shadow_stages;
@@ -90,6 +91,8 @@ pub enum Group {
     Shapes,
     /// Hierarchies of shapes and of the triangles of meshes, against testing everything.
     Hierarchy,
+    /// Triangles projected onto the image, against rays.
+    Rasterisation,
     /// Light paths: what they carry, how they end, what they count for.
     Transport,
 }
@@ -110,6 +113,7 @@ impl Group {
         Self::Cuboid,
         Self::Shapes,
         Self::Hierarchy,
+        Self::Rasterisation,
         Self::Texture,
         Self::Light,
         Self::Material,
@@ -138,6 +142,7 @@ impl Group {
             Self::Cuboid => cuboid::trials(),
             Self::Shapes => shapes::trials(),
             Self::Hierarchy => hierarchy::trials(),
+            Self::Rasterisation => rasterisation::trials(),
             Self::Light => light::trials(),
             Self::Material => material::trials(),
             Self::Emitter => emitter::trials(),
@@ -164,6 +169,7 @@ impl fmt::Display for Group {
             Self::Cuboid => "cuboid",
             Self::Shapes => "shapes",
             Self::Hierarchy => "hierarchy",
+            Self::Rasterisation => "rasterisation",
             Self::Light => "light",
             Self::Material => "material",
             Self::Emitter => "emitter",

@@ -25,6 +25,7 @@ impl Group {
             Self::Rectangle => ["rectangles", "to check", "wrong"],
             Self::Cuboid => ["cuboids", "to check", "wrong"],
             Self::Shapes => ["rays against every registered shape", "to check", "wrong"],
+            Self::Rasterisation => ["triangles projected onto the image, against rays", "to check", "wrong"],
             Self::Hierarchy => ["rays through hierarchies, against testing everything", "to check", "wrong"],
         }
     }

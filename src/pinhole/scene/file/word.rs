@@ -3,7 +3,8 @@ use crate::scene::{
     Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, EmissionMap, Emissive, Environment,
     EquirectangularCamera, FisheyeCamera, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing, LookAt, Mesh,
     MetallicRoughnessMap, Motion, NormalMap, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight,
-    Rectangle, Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Torus, Triangle, View,
+    Rasterisation, Rectangle, Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Torus, Triangle,
+    View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -42,6 +43,7 @@ const WORDS: &[Word] = &[
     Word::of::<Shutter>("shutter"),
     Word::of::<Sampling>("sampling"),
     Word::of::<Adaptive>("adaptive"),
+    Word::of::<Rasterisation>("rasterisation"),
     Word::of::<Integrator>("integrator"),
     Word::of::<LightTracing>("light_tracing"),
     Word::of::<Emissive>("emissive"),

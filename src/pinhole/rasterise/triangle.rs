@@ -1,0 +1,131 @@
+//! A triangle in raster space: vertices in fixed point, edge functions, and depth as a plane.
+
+use super::spaces::{ClipPoint, Projection};
+use glam::{DVec2, DVec3};
+
+/// The steps of a pixel to which vertices and samples are rounded.
+pub const SUBPIXELS: f64 = 256.0;
+
+/// A triangle that covers some of the image, as tiles rasterise it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RasterTriangle {
+    /// The vertices in raster space, in 1/256 of a pixel, such that the area is positive.
+    pub corners: [[i32; 2]; 3],
+    /// The shape's number.
+    pub shape: u32,
+    /// The number of the triangle within its shape, where that consists of several.
+    pub primitive: u32,
+    /// The row of the shape in its table.
+    pub row: u32,
+    /// The triangle's plane, which says how near each raster point is.
+    pub plane: NearnessPlane,
+}
+
+/// How near a triangle is at each raster point: a linear function of the point.
+///
+/// For a perspective camera that is the depth's reciprocal, since depth itself is not linear across the image; for an
+/// orthographic one it is the negative depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearnessPlane {
+    /// Per pixel to the right, per pixel downward, and at the image's top left corner.
+    pub coefficients: [f64; 3],
+    /// The least and the greatest nearness of a vertex, beyond which rounding must not lead.
+    pub range: [f64; 2],
+}
+
+impl NearnessPlane {
+    /// The plane through three clip points; none if it holds the eye, so that it is seen from the side.
+    ///
+    /// With a normal n and n · P = d, the point of a plane at a depth z on the ray (x, y, −1) is z (x, y, −1), so
+    /// 1/z = n · (x, y, −1) / d.
+    #[inline(always)]
+    pub fn through(projection: &Projection, corners: [ClipPoint; 3]) -> Option<Self> {
+        let [a, b, c] = corners.map(|corner| projection.camera(corner));
+        let normal = (b - a).cross(c - a);
+        let distance = normal.dot(a);
+        let DVec3 { x, y, z } = normal;
+        let (right, up) = (x * projection.half.x, y * projection.half.y);
+        let [right, up, at_centre, whole] = match projection.is_perspective {
+            true => [right, up, -z, distance],
+            false => [-right, -up, distance, z],
+        };
+        let (width, height) = (projection.size.x, projection.size.y);
+        let coefficients = [2.0 * right / width, -2.0 * up / height, at_centre - right + up].map(|part| part / whole);
+        let of = |corner: ClipPoint| if projection.is_perspective { 1.0 / corner.depth } else { -corner.depth };
+        let nearness = corners.map(of);
+        let range = [
+            nearness.into_iter().fold(f64::INFINITY, f64::min),
+            nearness.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        ];
+        coefficients.iter().all(|part| part.is_finite()).then_some(Self { coefficients, range })
+    }
+
+    /// The nearness at a raster point.
+    #[inline(always)]
+    pub fn at(&self, raster: DVec2) -> f64 {
+        let [right, down, at_corner] = self.coefficients;
+        within(right * raster.x + down * raster.y + at_corner, self.range)
+    }
+}
+
+/// A number, or the end of a range that it is beyond.
+#[inline(always)]
+pub fn within(number: f64, [least, most]: [f64; 2]) -> f64 {
+    let number = if number < least { least } else { number };
+    if number > most { most } else { number }
+}
+
+/// A raster coordinate in 1/256 of a pixel.
+#[inline(always)]
+pub fn fixed(raster: DVec2) -> [i32; 2] {
+    // A saturating cast of a rounded number, which is far below its limits inside the guard band.
+    [(raster.x * SUBPIXELS + 0.5).floor() as i32, (raster.y * SUBPIXELS + 0.5).floor() as i32]
+}
+
+/// The edge function of a point: twice the area of the triangle from, to, point; positive to the right of the edge.
+#[inline(always)]
+pub fn edge_function(from: [i32; 2], to: [i32; 2], point: [i32; 2]) -> i64 {
+    let [fx, fy] = from.map(i64::from);
+    let [tx, ty] = to.map(i64::from);
+    let [px, py] = point.map(i64::from);
+    (tx - fx) * (py - fy) - (ty - fy) * (px - fx)
+}
+
+/// Whether a point exactly on an edge belongs to the triangle: on the left edges and on the top ones.
+///
+/// The interior is to the right of each edge, with y downward: an edge upward is a left one, and a level edge to the
+/// right is a top one.
+/// The neighbour passes a common edge in the other direction, where it is neither, so each point belongs to one of them.
+#[inline(always)]
+pub fn is_top_left(from: [i32; 2], to: [i32; 2]) -> bool {
+    to[1] < from[1] || (to[1] == from[1] && to[0] > from[0])
+}
+
+/// An edge function as a·x + b·y + c about the corner of a tile, in 1/256 of a pixel; a sample is inside where it is at
+/// least 0.
+///
+/// All of its values are whole numbers below 2⁵³, which f64 holds exactly, so the order of additions changes nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    /// Per 1/256 of a pixel to the right.
+    pub a: f64,
+    /// Per 1/256 of a pixel downward.
+    pub b: f64,
+    /// At the tile's corner; one less where samples on the edge do not belong to the triangle.
+    pub c: f64,
+}
+
+impl Edge {
+    /// The edge function of an edge, about this corner of a tile.
+    #[inline(always)]
+    pub fn new(from: [i32; 2], to: [i32; 2], corner: [i32; 2]) -> Self {
+        let c = edge_function(from, to, corner) - i64::from(!is_top_left(from, to));
+        Self { a: f64::from(from[1] - to[1]), b: f64::from(to[0] - from[0]), c: c as f64 }
+    }
+
+    /// Its value.
+    #[inline(always)]
+    pub fn at(&self, x: f64, y: f64) -> f64 {
+        self.a * x + self.b * y + self.c
+    }
+}

@@ -1,0 +1,138 @@
+//! Rasterisation: the same hits as by rays, the same pictures, and what is refused.
+
+use crate::scenes::{FilmBits, named, offer, one_world};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use pinhole::plan::{Census, plan};
+use pinhole::render::render;
+use pinhole::scene::*;
+use pinhole_lab::measure::extremes::{Group, try_group};
+use pinhole_lab::measure::torus_knot::torus_knot;
+use pinhole_lab::measure::visibility::compare_visibility;
+
+/// What `cargo run --release -- extremes rasterisation --rays 100000` tries in full.
+#[test]
+fn rasterisation_sees_what_rays_see_and_every_sample_is_in_one_triangle() {
+    const TRIED: u64 = 1000;
+    let cases = try_group(Group::Rasterisation, "", TRIED, &());
+    for case in &cases {
+        eprint!("{case}");
+        assert!(case.held(), "{case}");
+        assert!(case.rays >= TRIED / 100 && 3 * case.hits > case.rays, "{}: {} of {}", case.name, case.hits, case.rays);
+    }
+}
+
+/// A knot over a ground, with a mirror ball and a light.
+fn knot(integrator: Integrator) -> World {
+    let mut world = World::new();
+    let look = LookAt { eye: DVec3::new(0.0, 5.0, 8.0), target: DVec3::new(0.0, -0.3, 0.0), ..LookAt::default() };
+    let size = Resolution { width: 96, height: 64 };
+    world.spawn((Name::new("camera"), PerspectiveCamera::default(), look, size, integrator));
+    let geometry = MeshGeometry::new(torus_knot(80, 16));
+    world.spawn((Name::new("knot"), MeshInstance { geometry }, Matte { colour: Rgb::grey(0.6) }));
+    let ground = [DVec3::new(-20.0, -1.6, -20.0), DVec3::new(0.0, -1.6, 20.0), DVec3::new(20.0, -1.6, -20.0)];
+    world.spawn((Triangle { vertices: ground, ..Triangle::default() }, Matte::default()));
+    world.spawn((Sphere { radius: 0.7 }, Placement::at(0.0, 1.2, 0.0), Mirror::default()));
+    world.spawn((PointLight { intensity: Rgb::grey(900.0), ..PointLight::default() }, Placement::at(4.0, 9.0, 6.0)));
+    world
+}
+
+fn bits(world: &World) -> FilmBits {
+    FilmBits::of(&render(world, &offer(), &one_world(), &()).expect("renders").film)
+}
+
+/// A pixel whose hit is the same has the same light to the last bit: with shadows, reflections and many bounces.
+#[test]
+fn pictures_are_the_same_to_the_bit_but_for_explained_pixels() {
+    for integrator in [Integrator::RayCasting, Integrator::Whitted { max_depth: 5 }] {
+        let mut world = knot(integrator);
+        let differ = compare_visibility(&mut world).expect("valid").differ;
+        let traced = render(&world, &offer(), &one_world(), &()).expect("renders").film;
+        let camera = named(&mut world, "camera");
+        world.entity_mut(camera).insert(Rasterisation);
+        let rasterised = render(&world, &offer(), &one_world(), &()).expect("renders").film;
+        let pixels = (0..64).flat_map(|y| (0..96).map(move |x| (x, y)));
+        let apart = pixels.filter(|&(x, y)| traced.mean(x, y) != rasterised.mean(x, y)).count() as u64;
+        assert!(apart <= differ && differ < 60, "{integrator:?}: {apart} of 6144 pixels apart, {differ} hits");
+        eprintln!("{integrator:?}: {apart} of 6144 pixels are apart, where {differ} see another triangle");
+    }
+}
+
+/// Samples anywhere in their pixels, in passes over some of a tile's pixels, in tiles of any size.
+#[test]
+fn samples_anywhere_see_what_rays_see() {
+    let mut world = knot(Integrator::Path { max_depth: 3, lights: LightStrategy::Mis, roulette: 0 });
+    let camera = named(&mut world, "camera");
+    let filter = Filter::Gaussian { radius: 2.0, sigma: 0.5 };
+    world.entity_mut(camera).insert(Sampling { samples: 16, filter, ..Sampling::default() });
+    let traced = render(&world, &offer(), &one_world(), &()).expect("renders").film;
+    world.entity_mut(camera).insert(Rasterisation);
+    let execution = |tile_side| pinhole::render::Execution { tile_side, ..one_world() };
+    let films: Vec<_> = [8, 32, 61]
+        .map(|side| render(&world, &offer(), &execution(side), &()).expect("renders").film)
+        .into_iter()
+        .collect();
+    let pixels = || (0..64).flat_map(|y| (0..96).map(move |x| (x, y)));
+    for film in &films[1..] {
+        assert!(pixels().all(|(x, y)| film.mean(x, y) == films[0].mean(x, y)), "tiles change the picture");
+    }
+    let apart = pixels().filter(|&(x, y)| traced.mean(x, y) != films[0].mean(x, y)).count();
+    assert!(apart < 6144 / 8, "{apart} pixels have a sample that sees another triangle");
+    eprintln!("{apart} of 6144 pixels have one of 16 samples that sees another triangle");
+}
+
+#[test]
+fn the_plan_says_which_stages_rasterisation_replaces() {
+    let rows = |integrator| {
+        let mut world = knot(integrator);
+        let camera = named(&mut world, "camera");
+        world.entity_mut(camera).insert(Rasterisation);
+        let plan = plan(&Census::of(&world), &offer()).expect("a plan");
+        ["Rasterise triangles", "Intersect meshes", "Intersect spheres"].map(|stage| {
+            let row = plan.rows.iter().find(|row| row.stage == stage).expect("offered");
+            (row.kept, row.reason.clone())
+        })
+    };
+    let [rasterise, meshes, spheres] = rows(Integrator::RayCasting);
+    assert!(rasterise.0 && !meshes.0 && spheres.0, "{rasterise:?} {meshes:?} {spheres:?}");
+    assert_eq!(meshes.1, "1 rasterising camera: \"camera\"");
+    let [_, meshes, _] = rows(Integrator::PATH);
+    assert_eq!(meshes, (true, "1 mesh: \"knot\"; from the second bounce on: 1 rasterising camera: \"camera\"".into()));
+}
+
+#[test]
+fn a_camera_that_cannot_rasterise_is_refused_in_one_sentence() {
+    let refused = |change: fn(&mut EntityWorldMut<'_>)| {
+        let mut world = knot(Integrator::RayCasting);
+        let camera = named(&mut world, "camera");
+        change(world.entity_mut(camera).insert(Rasterisation));
+        render(&world, &offer(), &one_world(), &()).err().expect("refused").to_string()
+    };
+    insta::assert_snapshot!(refused(|camera| {
+        camera.remove::<PerspectiveCamera>().insert(FisheyeCamera::default());
+    }), @r#"camera "camera": rasterisation is asked of a camera without an image plane, but only a perspective or an orthographic camera maps straight edges to straight edges: take one, or remove the rasterisation"#);
+    insta::assert_snapshot!(refused(|camera| {
+        camera.insert((Lens::default(), Sampling::default()));
+    }), @r#"camera "camera": rasterisation is asked of a camera with a lens, but all points project through one: remove the lens, or the rasterisation"#);
+    insta::assert_snapshot!(refused(|camera| {
+        camera.insert((Motion { velocity: DVec3::X, ..Motion::default() }, Shutter::default(), Sampling::default()));
+    }), @r#"camera "camera": rasterisation is asked of a camera that moves, but vertices are projected once for all samples: remove the camera's motion, or the rasterisation"#);
+    let mut world = knot(Integrator::RayCasting);
+    let knot = named(&mut world, "knot");
+    world.entity_mut(knot).insert(Rasterisation);
+    let misplaced = render(&world, &offer(), &one_world(), &()).err().expect("refused").to_string();
+    insta::assert_snapshot!(misplaced, @r#""knot": rasterisation is on no camera, but it must be on the camera"#);
+}
+
+/// Without the component nothing of it runs, and no table of it exists.
+#[test]
+fn a_camera_that_traces_rays_pays_nothing() {
+    let world = knot(Integrator::RayCasting);
+    let plan = plan(&Census::of(&world), &offer()).expect("a plan");
+    assert!(plan.tables.iter().all(|table| table.name != "raster triangles" && table.name != "projection"));
+    assert!(plan.stages.iter().all(|stage| !stage.from_second_bounce));
+    let mut other = knot(Integrator::RayCasting);
+    let camera = named(&mut other, "camera");
+    other.entity_mut(camera).insert(Rasterisation).remove::<Rasterisation>();
+    assert!(bits(&world) == bits(&other));
+}
