@@ -5,6 +5,7 @@ mod cameras;
 mod census;
 mod circles;
 mod counted;
+mod denoise;
 mod emitters;
 mod film;
 mod follow;

@@ -17,6 +17,7 @@
 
 mod accumulate;
 mod checkpoint;
+mod denoise;
 mod develop;
 mod exr;
 mod film_tile;
@@ -35,6 +36,8 @@ pub use accumulate::{add_to_film, film_stage};
 #[doc(hidden)]
 pub use checkpoint::{read_checkpoint, write_checkpoint};
 #[doc(hidden)]
+#[doc(hidden)]
+pub use denoise::{GUIDES, Guides, denoise, denoise_radiance};
 pub use develop::Curve;
 #[doc(hidden)]
 pub use develop::{byte_from_linear, srgb_from_linear};
