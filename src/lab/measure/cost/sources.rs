@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const SOURCE: FileKind = FileKind { name: "a source", most: 16 << 20 };
 
 /// The folders whose code decides what a stage costs.
-const FOLDERS: [&str; 15] = [
+const FOLDERS: [&str; 16] = [
     "plan",
     "cameras",
     "bvh",
@@ -20,6 +20,7 @@ const FOLDERS: [&str; 15] = [
     "sample",
     "rays",
     "intersect",
+    "rasterise",
     "shade",
     "follow",
     "film",
@@ -27,7 +28,7 @@ const FOLDERS: [&str; 15] = [
 ];
 
 /// A fingerprint (FNV-1a, 64 bits) of the sources that decide what a chapter's stages cost: those of the stages and of
-/// the loop that runs them, and the chapter's own. The ends of lines do not count.
+/// the loop that runs them, and the chapter's own. The ends of lines do not count, nor do the marks of the book's listings.
 ///
 /// Errors: the sources are not there to be read.
 pub fn made_from(chapter: &str) -> Result<String> {
@@ -52,7 +53,9 @@ pub fn made_from_these(chapter: &str, beside: &[&str]) -> Result<String> {
         let text = String::from_utf8_lossy(&text);
         let name = file.strip_prefix(root).unwrap_or(&file).to_string_lossy().replace('\\', "/");
         hash = fnv(hash, name.as_bytes());
-        hash = fnv(hash, text.replace("\r\n", "\n").as_bytes());
+        for line in text.lines().filter(|line| !line.trim_start().starts_with("// ANCHOR")) {
+            hash = fnv(fnv(hash, line.as_bytes()), b"\n");
+        }
     }
     Ok(format!("{hash:016x}"))
 }
