@@ -59,6 +59,8 @@ pub enum Command {
     Angles(PlanChapter),
     /// Follow one pixel from raster to light, and print what every stage wrote for it
     Trace(TraceChapter),
+    /// Look at a scene in the browser: move the camera, paint columns, trace pixels, switch stages, edit, save
+    View(ViewScene),
     /// Try the methods where numbers are hardest, beside the naive ones and exact arithmetic
     Extremes(TryExtremes),
     /// Compare whole renders with closed forms, and print each one's standard error
@@ -300,6 +302,22 @@ pub struct TraceChapter {
     pub all: bool,
     #[command(flatten)]
     pub options: SceneOptions,
+}
+
+#[derive(Args)]
+pub struct ViewScene {
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole); a scene file, ending in .ron; or a model file
+    /// (default: the cover)
+    pub chapter: Option<OsString>,
+    /// How many pixels the image has: 960x540, 1080p, a width alone such as 960, or a part such as 50%
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true, value_parser = size)]
+    pub size: Option<Size>,
+    /// The port of this machine to be answered at (default: one that is free)
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub port: u16,
+    /// Print the address, and open no browser
+    #[arg(long)]
+    pub no_open: bool,
 }
 
 impl RenderChapter {

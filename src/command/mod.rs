@@ -41,6 +41,7 @@ mod subject;
 mod summary;
 mod sweep;
 mod trace;
+mod view;
 mod warnings;
 mod watch;
 
@@ -130,6 +131,7 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
             let subject = Subject::find(chapters, &asked.chapter)?;
             trace::print_trace(&subject, asked.pixel, asked.sample, asked.all, &asked.options, format, out)
         }
+        Some(Command::View(asked)) => view::view(chapters, &asked, format, streams),
         Some(Command::Export(asked)) => export::export(chapters, &asked, format, out),
         Some(Command::ClosedForms(asked)) => closed_forms::print_closed_forms(&asked, format, out),
         Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, format, out),

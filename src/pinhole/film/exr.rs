@@ -1,20 +1,29 @@
 use super::{Film, write_whole};
 use crate::Result;
 use exr::prelude::{Encoding, Image, SpecificChannels, WritableImage};
-use std::io;
+use std::io::{self, Cursor, Seek, Write};
 use std::path::Path;
 
 /// Writes the film's mean radiance as an OpenEXR file of linear 32-bit floats.
 ///
 /// Errors: the path and the error of the operating system; no partial file is left behind.
 pub fn write_exr(film: &Film, path: &Path) -> Result {
-    write_whole(path, |file| {
-        let channels = SpecificChannels::rgb(|at: exr::math::Vec2<usize>| {
-            let [r, g, b] = film.mean(at.x() as u32, at.y() as u32);
-            (r, g, b)
-        });
-        let size = (film.width as usize, film.height as usize);
-        let image = Image::from_encoded_channels(size, Encoding::FAST_LOSSLESS, channels);
-        image.write().non_parallel().to_buffered(file).map_err(io::Error::other)
-    })
+    write_whole(path, |file| encode(film, file))
+}
+
+/// Encodes the film as such a file in memory.
+pub fn exr_bytes(film: &Film) -> io::Result<Vec<u8>> {
+    let mut bytes = Cursor::new(Vec::new());
+    encode(film, &mut bytes)?;
+    Ok(bytes.into_inner())
+}
+
+fn encode(film: &Film, out: impl Write + Seek) -> io::Result<()> {
+    let channels = SpecificChannels::rgb(|at: exr::math::Vec2<usize>| {
+        let [r, g, b] = film.mean(at.x() as u32, at.y() as u32);
+        (r, g, b)
+    });
+    let size = (film.width as usize, film.height as usize);
+    let image = Image::from_encoded_channels(size, Encoding::FAST_LOSSLESS, channels);
+    image.write().non_parallel().to_buffered(out).map_err(io::Error::other)
 }

@@ -41,6 +41,8 @@ pub use denoise::{GUIDES, Guides, denoise, denoise_radiance};
 pub use develop::Curve;
 #[doc(hidden)]
 pub use develop::{byte_from_linear, srgb_from_linear};
+#[doc(hidden)]
+pub use exr::exr_bytes;
 pub use exr::write_exr;
 pub use film_tile::Film;
 #[doc(hidden)]
@@ -53,7 +55,7 @@ pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
 pub use moments::{FilmMoments, add_to_moments, moments_stage, variance_evidence};
 pub use png::write_png;
 #[doc(hidden)]
-pub use png::{png_bytes, png_bytes_by};
+pub use png::{png_bytes, png_bytes_by, rgba_bytes};
 #[doc(hidden)]
 pub use splats::{FilmSplats, SplatFilter};
 #[doc(hidden)]

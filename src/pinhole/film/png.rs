@@ -23,6 +23,16 @@ pub fn png_bytes_by(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8) -> i
     Ok(bytes)
 }
 
+/// The film as 8-bit RGBA, row by row, every pixel opaque, for a display that needs no file.
+pub fn rgba_bytes(film: &Film, curve: Curve) -> Vec<u8> {
+    let pixels = (0..film.height).flat_map(|y| (0..film.width).map(move |x| film.mean(x, y)));
+    let bytes = pixels.flat_map(|[r, g, b]| {
+        let [r, g, b] = [r, g, b].map(|linear| byte_from_linear(linear, curve));
+        [r, g, b, u8::MAX]
+    });
+    bytes.collect()
+}
+
 fn encode(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8, out: impl Write) -> io::Result<()> {
     let mut encoder = png::Encoder::new(out, film.width, film.height);
     encoder.set_color(png::ColorType::Rgb);

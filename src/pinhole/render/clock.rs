@@ -1,8 +1,8 @@
-use super::Hook;
+use super::{Hook, RenderWorld};
 use crate::plan::{ColumnKind, Plan, Stage};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// The time that a stage took over all tiles of a worker.
@@ -38,6 +38,12 @@ impl StageClock {
         self.laps[slot].rows += rows;
         self.start();
     }
+}
+
+/// The laps of a worker's world so far; none where no statistics were requested, or the world is not made yet.
+pub(super) fn laps_of(world: &Mutex<Option<RenderWorld>>) -> Option<Vec<Lap>> {
+    let world = world.lock().unwrap_or_else(PoisonError::into_inner);
+    Some(world.as_ref()?.world.get_resource::<StageClock>()?.laps.clone())
 }
 
 /// A system after each stage that records its lap; the system's own work falls between two laps.

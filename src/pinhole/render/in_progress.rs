@@ -1,4 +1,4 @@
-use super::clock::{Lap, StageClock};
+use super::clock::{Lap, laps_of};
 use super::light_pass::{LightPass, Means, batches};
 use super::memory::check_film_fits;
 use super::render_world::{RenderWorld, prepare};
@@ -208,18 +208,18 @@ impl RenderInProgress {
         }
     }
 
+    /// The laps so far: one per kept stage, summed over workers; empty where no statistics were requested.
+    pub fn laps(&self) -> Vec<Lap> {
+        let of_lights = self.light.iter().flat_map(LightPass::laps);
+        sum_laps(self.worlds.iter().filter_map(laps_of).chain(of_lights).collect())
+    }
+
     /// Ends the render and returns its result.
     pub fn finish(self) -> Rendered {
         let threads = self.threads();
-        let clock_of = |world: Mutex<Option<RenderWorld>>| {
-            let world = world.into_inner().unwrap_or_else(PoisonError::into_inner);
-            world.and_then(|mut world| world.world.remove_resource::<StageClock>())
-        };
-        let of_lights = self.light.into_iter().flat_map(LightPass::clocks);
-        let clocks = self.worlds.into_iter().filter_map(clock_of).chain(of_lights);
-        let laps = clocks.map(|clock| clock.laps).collect();
+        let laps = self.laps();
         let table_bytes = self.tables.iter().map(|table| table.bytes).sum();
-        Rendered { plan: self.plan, film: self.film, laps: sum_laps(laps), threads, time: self.time, table_bytes }
+        Rendered { plan: self.plan, film: self.film, laps, threads, time: self.time, table_bytes }
     }
 }
 

@@ -1,5 +1,5 @@
 use super::Execution;
-use super::clock::StageClock;
+use super::clock::{Lap, laps_of};
 use super::render_world::{Hook, RenderWorld};
 use crate::extract::{FilterTable, ImageFrame, LightTracingTable, SamplingTable};
 use crate::film::{Film, SplatFilter};
@@ -133,12 +133,9 @@ impl LightPass {
         made
     }
 
-    /// The workers' stopwatches.
-    pub fn clocks(self) -> impl Iterator<Item = StageClock> {
-        self.worlds.into_iter().filter_map(|world| {
-            let world = world.into_inner().unwrap_or_else(PoisonError::into_inner);
-            world.and_then(|mut world| world.world.remove_resource::<StageClock>())
-        })
+    /// The laps of each worker so far.
+    pub fn laps(&self) -> impl Iterator<Item = Vec<Lap>> {
+        self.worlds.iter().filter_map(laps_of)
     }
 }
 

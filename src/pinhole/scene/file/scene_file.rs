@@ -40,6 +40,11 @@ impl SceneFile {
         }
     }
 
+    /// The text that it was read from.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// The number of entities in the file.
     pub fn len(&self) -> usize {
         self.entities.len()

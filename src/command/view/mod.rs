@@ -1,0 +1,57 @@
+//! A scene in the browser.
+
+mod browser;
+mod scene;
+
+use super::arguments::ViewScene;
+use super::called::called;
+use super::error::{Error, Result};
+use super::format::{Format, print_json};
+use super::streams::Streams;
+use super::subject::Subject;
+use pinhole::Chapter;
+use pinhole_live::View;
+use scene::ViewedScene;
+use serde_json::json;
+use std::ffi::OsStr;
+use std::io::ErrorKind;
+use std::net::TcpListener;
+use std::rc::Rc;
+
+/// Shows a scene at an address of this machine, until the program is stopped.
+///
+/// Errors: there is no such scene, it cannot be rendered, or the port cannot be opened.
+pub fn view(chapters: &[Chapter], asked: &ViewScene, format: Format, streams: &mut Streams<'_>) -> Result {
+    let name = asked.chapter.as_deref().unwrap_or(OsStr::new("cover"));
+    if name == "-" {
+        return Err(Error::CommandLine(
+            "standard input has no file to be edited: save it as a scene file first".into(),
+        ));
+    }
+    let subject = Subject::find(chapters, name)?;
+    let shown = subject.shown();
+    let scene = Rc::new(ViewedScene::of(subject));
+    let listener = listen(asked.port)?;
+    let view = View::open(scene, asked.size, listener).map_err(Error::usage)?;
+    let address = &view.address;
+    if format.is_json() {
+        print_json(&json!({ "address": address }), streams.out)?;
+    } else {
+        let opened = !asked.no_open && browser::open(address);
+        let what = if opened { "is opened in the browser" } else { "is the address to open in a browser" };
+        writeln!(streams.out, "{address} {what}: it shows {shown} until Ctrl-C.")?;
+    }
+    streams.out.flush()?;
+    view.run();
+    Ok(())
+}
+
+fn listen(port: u16) -> Result<TcpListener> {
+    TcpListener::bind(("127.0.0.1", port)).map_err(|error| match error.kind() {
+        ErrorKind::AddrInUse => {
+            let what = format!("port {port} is in use by another program: `{}` finds a free one", called("view"));
+            Error::usage(what)
+        }
+        _ => Error::usage(format!("port {port} cannot be opened on 127.0.0.1: {error}")),
+    })
+}

@@ -1,0 +1,73 @@
+use crate::answer::Answer;
+use serde::Deserialize;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::SyncSender;
+use tokio::sync::oneshot;
+
+/// What a page asks of the viewer; lengths are fractions of the picture's height, points fractions of its sides.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Order {
+    /// Turn the camera around its target, to the right and down.
+    Orbit([f64; 2]),
+    /// Move the camera along the image.
+    Pan([f64; 2]),
+    /// Bring the target nearer by this factor.
+    Zoom(f64),
+    /// Turn around what is seen at a point of the picture from now on.
+    Focus([f64; 2]),
+    /// Go back to the camera as the scene says.
+    Reset,
+    /// Render as the mode of this key does.
+    Mode(char),
+    /// Paint this column, or the picture again.
+    Column(Option<String>),
+    /// Offer a stage, or take it out of the offer.
+    Stage(String, bool),
+    /// Show the scene of this text.
+    Apply(String),
+    /// The same, and write the text to its file.
+    Save(String),
+    /// Say what every stage wrote for the pixel at a point of the picture.
+    Trace([f64; 2]),
+    /// Say what can be chosen and what is chosen.
+    Sheet,
+    /// Encode the picture so far.
+    Picture(Kind),
+}
+
+/// A kind of picture file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// 8-bit sRGB.
+    Png,
+    /// Linear floats.
+    Exr,
+}
+
+/// An order and where its answer goes.
+pub(crate) type Letter = (Order, oneshot::Sender<Answer>);
+
+/// Hands orders over to the viewer, and makes it look up from a frame that takes long.
+#[derive(Clone)]
+pub(crate) struct Orders {
+    letters: SyncSender<Letter>,
+    waiting: Arc<AtomicBool>,
+}
+
+impl Orders {
+    /// Orders that wait here until the viewer takes them; `waiting` is set while there are any.
+    pub fn new(letters: SyncSender<Letter>, waiting: Arc<AtomicBool>) -> Self {
+        Self { letters, waiting }
+    }
+
+    /// The viewer's answer; none where too many orders wait already, or nobody answers any more.
+    pub async fn answer(&self, order: Order) -> Option<Answer> {
+        let (send, receive) = oneshot::channel();
+        self.letters.try_send((order, send)).ok()?;
+        self.waiting.store(true, Ordering::SeqCst);
+        receive.await.ok()
+    }
+}

@@ -1,0 +1,94 @@
+//! The pixel under the pointer, through all spaces.
+
+use bevy_ecs::prelude::World;
+use glam::DVec3;
+use pinhole::intersect::Surfaces;
+use pinhole::look::{Recorded, Trace};
+use pinhole::plan::{ComponentNumber, Stage};
+use pinhole::scene::{TracePixel, View};
+use pinhole::{extract, look, plan};
+use serde::Serialize;
+use std::collections::HashMap;
+
+/// The last bounce that is shown; later ones are more of the same.
+const LAST_BOUNCE: u32 = 7;
+
+/// What the stages wrote for one pixel.
+#[derive(Serialize)]
+pub struct Traced {
+    pixel: [u32; 2],
+    columns: Vec<Written>,
+}
+
+#[derive(Serialize)]
+struct Written {
+    bounce: u32,
+    stage: &'static str,
+    column: &'static str,
+    space: &'static str,
+    unit: &'static str,
+    rows: Vec<Vec<(&'static str, String)>>,
+}
+
+/// Traces a pixel of the picture, whether or not a column is painted instead.
+///
+/// Errors: whatever a render would refuse.
+pub fn trace(scene: &mut World, offer: &[Stage], [x, y]: [u32; 2]) -> pinhole::Result<Trace> {
+    let camera = extract::camera_entity(scene)?;
+    let view = scene.entity_mut(camera).take::<View>();
+    let trace = look::trace(&plan::Census::of(scene), offer, TracePixel { x, y });
+    if let Some(view) = view {
+        scene.entity_mut(camera).insert(view);
+    }
+    trace
+}
+
+/// The point of the first surface that a pixel's ray hits, relative to the eye.
+pub fn surface(trace: &Trace) -> Option<DVec3> {
+    let of_camera_ray = |recorded: &&Recorded| recorded.depth == 0 && recorded.column.is::<Surfaces>();
+    let row = trace.stages.iter().rev().find(of_camera_ray)?.rows.first()?;
+    let part = |name: &str| match row.iter().find(|(own, _)| *own == name)?.1 {
+        ComponentNumber::F64(value) => Some(value),
+        ComponentNumber::F32(value) => Some(f64::from(value)),
+        ComponentNumber::U32(_) => None,
+    };
+    let point = DVec3::new(part("px")?, part("py")?, part("pz")?);
+    point.is_finite().then_some(point)
+}
+
+impl Traced {
+    /// Of a column that several stages wrote at one bounce, the last is what light goes on with.
+    pub fn of(trace: &Trace) -> Self {
+        let mut last = HashMap::new();
+        for (at, recorded) in trace.stages.iter().enumerate() {
+            last.insert((recorded.depth, recorded.column.id), at);
+        }
+        let shown = trace.stages.iter().enumerate().filter(|(at, recorded)| {
+            let listing = recorded.column.unit == "rows";
+            let is_last = last.get(&(recorded.depth, recorded.column.id)) == Some(at);
+            is_last && !listing && recorded.depth <= LAST_BOUNCE
+        });
+        let columns = shown.map(|(_, recorded)| Written::of(trace, recorded)).collect();
+        Self { pixel: [trace.pixel.x, trace.pixel.y], columns }
+    }
+}
+
+impl Written {
+    fn of(trace: &Trace, recorded: &Recorded) -> Self {
+        let word = |&(name, number): &(&'static str, ComponentNumber)| match name {
+            "path" => None,
+            "shape" => Some((name, trace.shape_name(number).unwrap_or("none").to_owned())),
+            _ => Some((name, number.to_string())),
+        };
+        let rows = recorded.rows.iter().map(|row| row.iter().filter_map(word).collect()).collect();
+        let column = &recorded.column;
+        Self {
+            bounce: recorded.depth,
+            stage: recorded.stage,
+            column: column.name,
+            space: column.space,
+            unit: column.unit,
+            rows,
+        }
+    }
+}
