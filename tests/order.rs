@@ -56,6 +56,7 @@ const ORDER: &[(&str, &[&str])] = &[
         ],
     ),
     ("lab", &["png_url", "repository", "naive", "measure", "figure", "review", "report", "exercise"]),
+    ("live", &["answer", "guard", "http", "view"]),
     ("", &["exercises", "figures", "command"]),
 ];
 

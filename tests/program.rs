@@ -7,3 +7,4 @@ mod long_renders;
 mod report_command;
 mod scene_files;
 mod scenes;
+mod view;

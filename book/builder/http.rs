@@ -1,39 +1,12 @@
-//! Answers a browser on this machine, by hyper: one thread, a bounded number of connections, a bounded time for each.
+//! Shows the book to a browser on this machine, by the server that the viewer has.
 
 use crate::site::Site;
-use http_body_util::Full;
-use hyper::body::{Bytes, Incoming};
-use hyper::server::conn::http1;
-use hyper::service::service_fn;
-use hyper::{Request, Response, header};
-use hyper_util::rt::TokioIo;
-use std::collections::VecDeque;
-use std::convert::Infallible;
+use pinhole_live::{Answer, start};
 use std::io;
 use std::net::TcpListener;
 use std::sync::{Arc, PoisonError, RwLock};
-use std::thread::{Builder, JoinHandle};
+use std::thread::JoinHandle;
 use std::time::Duration;
-use tokio::net::TcpStream;
-use tokio::runtime;
-use tokio::sync::Semaphore;
-use tokio::task::AbortHandle;
-use tokio::time::{Instant, sleep, timeout, timeout_at};
-
-/// The most connections at once. A further one waits for one of them to end, or for the oldest to have had its turn.
-const MOST_CONNECTIONS: usize = 64;
-
-/// How long the oldest connection keeps its place while another waits: a request and its answer take far less.
-const TURN: Duration = Duration::from_millis(250);
-
-/// How long a connection may take for its request and its answer together.
-pub const PATIENCE: Duration = Duration::from_secs(10);
-
-/// A browser's request is far shorter, in bytes.
-const LONGEST_REQUEST: usize = 64 * 1024;
-
-/// How long to wait when no connection can be accepted, for want of file descriptors say.
-const PAUSE: Duration = Duration::from_millis(50);
 
 /// The site that is shown, which a new build replaces as a whole.
 #[derive(Clone, Debug, Default)]
@@ -52,63 +25,17 @@ impl Shown {
 }
 
 /// Answers on a thread of its own, for as long as the program runs.
-pub fn start(listener: TcpListener, shown: Shown, patience: Duration) -> io::Result<JoinHandle<()>> {
-    listener.set_nonblocking(true)?;
-    let runtime = runtime::Builder::new_current_thread().enable_all().build()?;
-    let entered = runtime.enter();
-    let listener = tokio::net::TcpListener::from_std(listener)?;
-    drop(entered);
-    Builder::new().name("http".to_owned()).spawn(move || runtime.block_on(accept(listener, shown, patience)))
-}
-
-async fn accept(listener: tokio::net::TcpListener, shown: Shown, patience: Duration) {
-    let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
-    let mut open: VecDeque<(Instant, AbortHandle)> = VecDeque::new();
-    loop {
-        let Ok((stream, _)) = listener.accept().await else {
-            sleep(PAUSE).await;
-            continue;
-        };
-        open.retain(|(_, connection)| !connection.is_finished());
-        let place = loop {
-            let end_of_turn = open.front().map_or_else(Instant::now, |(start, _)| *start) + TURN;
-            match timeout_at(end_of_turn, Arc::clone(&places).acquire_owned()).await {
-                Ok(place) => break place,
-                Err(_) => open.pop_front().into_iter().for_each(|(_, oldest)| oldest.abort()),
-            }
-        };
-        let conversation = timeout(patience, converse(stream, shown.clone()));
-        let connection = tokio::spawn(async move {
-            // A reader who leaves before the answer has come is no trouble.
-            let _ = conversation.await;
-            drop(place);
-        });
-        open.push_back((Instant::now(), connection.abort_handle()));
-    }
-}
-
-/// Reads one request and answers it; the connection then ends.
-async fn converse(stream: TcpStream, shown: Shown) -> hyper::Result<()> {
-    let service = service_fn(|request| std::future::ready(Ok::<_, Infallible>(respond(&shown, &request))));
-    // hyper's own limit of time is for the header alone, and `patience` for all.
-    let mut http = http1::Builder::new();
-    http.keep_alive(false).header_read_timeout(None).max_buf_size(LONGEST_REQUEST);
-    http.serve_connection(TokioIo::new(stream), service).await
-}
-
-fn respond(shown: &Shown, request: &Request<Incoming>) -> Response<Full<Bytes>> {
-    let answer = shown.now().answer(request);
-    let mut response = Response::new(Full::new(answer.body));
-    *response.status_mut() = answer.status;
-    let headers = response.headers_mut();
-    headers.insert(header::CONTENT_TYPE, header::HeaderValue::from_static(answer.kind));
-    headers.insert(header::CACHE_CONTROL, header::HeaderValue::from_static("no-store"));
-    response
+pub fn show(listener: TcpListener, shown: Shown, patience: Duration) -> io::Result<JoinHandle<()>> {
+    start(listener, patience, move |request| {
+        let answer: Answer = shown.now().answer(&request);
+        std::future::ready(answer)
+    })
 }
 
 #[cfg(test)]
 pub mod tests {
     use super::*;
+    use pinhole_live::{LONGEST_HEAD, MOST_CONNECTIONS, PATIENCE};
     use std::fs;
     use std::io::{Read, Write};
     use std::thread::sleep;
@@ -118,7 +45,7 @@ pub mod tests {
     pub fn served(shown: &Shown, patience: Duration) -> u16 {
         let listener = TcpListener::bind(("127.0.0.1", 0)).expect("a free port");
         let port = listener.local_addr().expect("an address").port();
-        start(listener, shown.clone(), patience).expect("a server");
+        show(listener, shown.clone(), patience).expect("a server");
         port
     }
 
@@ -175,7 +102,7 @@ pub mod tests {
         assert!(asked(port, "POST /page.txt").starts_with("HTTP/1.1 405"));
         assert!(asked(port, "GET /page.txt HTTP/1.1\r\nHost: evil.example").starts_with("HTTP/1.1 403"));
         assert!(asked(port, "nonsense").starts_with("HTTP/1.1 400"));
-        let long = format!("GET /page.txt HTTP/1.1\r\nCookie: {}", "a".repeat(4 * LONGEST_REQUEST));
+        let long = format!("GET /page.txt HTTP/1.1\r\nCookie: {}", "a".repeat(4 * LONGEST_HEAD));
         let answer = asked(port, &long);
         assert!(answer.is_empty() || answer.starts_with("HTTP/1.1 431"), "{answer}");
         let many: Vec<_> = (0..200).map(|_| std::thread::spawn(move || asked(port, "GET /page.txt"))).collect();
@@ -238,10 +165,10 @@ pub mod tests {
         let start = Instant::now();
         while start.elapsed() < Duration::from_millis(1500) {
             assert!(watch.changed().is_empty(), "a folder that cannot be read has not changed");
-            sleep(PAUSE);
+            sleep(Duration::from_millis(50));
         }
         drop(taken);
-        sleep(PAUSE * 4);
+        sleep(Duration::from_millis(200));
         let (now, threads_now) = counted();
         assert!(watch.changed().is_empty());
         assert_eq!(threads_now, threads, "a connection takes no thread");

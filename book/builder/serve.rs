@@ -1,11 +1,12 @@
 //! Shows the book to this machine only, builds it again when something changes, and tells the open pages.
 
 use crate::build::{Book, build};
-use crate::http::{PATIENCE, Shown, start};
+use crate::http::{Shown, show};
 use crate::program::Program;
 use crate::say;
 use crate::site::Site;
 use crate::watch::Watch;
+use pinhole_live::PATIENCE;
 use std::cell::RefCell;
 use std::io::{ErrorKind, Write};
 use std::net::TcpListener;
@@ -23,7 +24,7 @@ pub fn serve(book: &Book, program: &Rc<RefCell<Program>>, port: u16, out: &mut d
     let shown = Shown::default();
     // What an earlier run has built is shown until this one's first build is done.
     shown.replace(Site::read(&book.out, 0).unwrap_or_default());
-    let server = start(listener, shown.clone(), PATIENCE);
+    let server = show(listener, shown.clone(), PATIENCE);
     let server = server.map_err(|error| format!("the book cannot be shown at port {}: {error}.", address.port()))?;
     let watched = ["chapters", "src", "book/builder/book.css", "book/book.toml"];
     let watched = watched.iter().map(|place| book.repository.join(place));

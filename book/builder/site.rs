@@ -3,6 +3,7 @@
 use hyper::body::Bytes;
 use hyper::{Request, StatusCode, header};
 use percent_encoding::percent_decode_str;
+use pinhole_live::Answer;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
@@ -37,22 +38,6 @@ pub struct Site {
     files: BTreeMap<String, (&'static str, Bytes)>,
     revision: u32,
     error: Option<String>,
-}
-
-/// What one address answers.
-#[derive(Debug, PartialEq, Eq)]
-pub struct Answer {
-    /// The HTTP status.
-    pub status: StatusCode,
-    /// The media type.
-    pub kind: &'static str,
-    /// What is sent.
-    pub body: Bytes,
-}
-
-/// A sentence instead of a page.
-pub fn plain(status: StatusCode, text: String) -> Answer {
-    Answer { status, kind: "text/plain; charset=utf-8", body: text.into() }
 }
 
 impl Site {
@@ -103,10 +88,10 @@ impl Site {
         let hosts: Vec<&str> = hosts.chain(request.uri().authority().map(|authority| authority.as_str())).collect();
         if hosts.is_empty() || !hosts.iter().all(|host| is_this_machine(host)) {
             let told = "the book is shown at 127.0.0.1 and at localhost, and under no other name";
-            return plain(StatusCode::FORBIDDEN, told.to_owned());
+            return Answer::plain(StatusCode::FORBIDDEN, told.to_owned());
         }
         if !["GET", "HEAD"].contains(&request.method().as_str()) {
-            return plain(StatusCode::METHOD_NOT_ALLOWED, "only GET and HEAD are answered here".to_owned());
+            return Answer::plain(StatusCode::METHOD_NOT_ALLOWED, "only GET and HEAD are answered here".to_owned());
         }
         self.at(request.uri().path())
     }
@@ -114,19 +99,19 @@ impl Site {
     fn at(&self, path: &str) -> Answer {
         if path == REVISION {
             let error = self.error.as_ref().map(|error| format!("\n{error}")).unwrap_or_default();
-            return plain(StatusCode::OK, format!("{}{error}", self.revision));
+            return Answer::plain(StatusCode::OK, format!("{}{error}", self.revision));
         }
         let path = percent_decode_str(path).decode_utf8_lossy();
         let parts = path.split('/').filter(|part| !part.is_empty() && *part != ".");
         let file: String = parts.flat_map(|part| ["/", part]).collect();
         if let Some((kind, body)) = self.files.get(&file).or_else(|| self.files.get(&(file + "/index.html"))) {
-            return Answer { status: StatusCode::OK, kind, body: body.clone() };
+            return Answer::of(kind, body.clone());
         }
         if self.files.is_empty() {
             let body = self.reloading(b"<!doctype html><body>The book is being built.</body>");
-            return Answer { status: StatusCode::SERVICE_UNAVAILABLE, kind: HTML, body };
+            return Answer { status: StatusCode::SERVICE_UNAVAILABLE, ..Answer::of(HTML, body) };
         }
-        plain(StatusCode::NOT_FOUND, "there is no such page in the book".to_owned())
+        Answer::plain(StatusCode::NOT_FOUND, "there is no such page in the book".to_owned())
     }
 }
 
@@ -172,7 +157,7 @@ mod tests {
         assert_eq!([status("/none.html"), status("/../src/01_one.md"), status("/%2e%2e/src/01_one.md")], [404; 3]);
         assert_eq!([status("/figures/..%2f..%2fsrc/01_one.md"), status("/..\\src"), status("/%zz")], [404; 3]);
         assert_eq!([status("/link/01_one.md"), status("//etc/passwd"), status("/01_one.html%00")], [404; 3]);
-        assert_eq!(site.at(REVISION), plain(StatusCode::OK, "7\na mistake".to_owned()));
+        assert_eq!(site.at(REVISION), Answer::plain(StatusCode::OK, "7\na mistake".to_owned()));
         let page = String::from_utf8(site.at("/02_two.html").body.into()).expect("text");
         assert!(page.contains("const shown = \"7\""));
         let written = std::fs::read_to_string(book.out.join("02_two.html")).expect("a page");

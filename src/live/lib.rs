@@ -1,67 +1,18 @@
-//! Shows renders of pinhole in a browser on the same machine, and takes the reader's input.
+//! Shows what pinhole renders in a browser on the same machine, and takes the reader's input.
 //!
-//! A server on 127.0.0.1 answers whoever knows the token in its address, within bounds of time, memory and connections;
-//! a viewer renders what the reader has chosen, and hands one frame after another to it.
+//! A server on 127.0.0.1 answers within bounds of time, memory and connections.
+//! With the feature `view`, it shows a scene to whoever knows the token in its address: a viewer renders what the reader
+//! has chosen, and hands one frame after another to the page.
 //! The page, its script and its style are part of the program; nothing is fetched from anywhere else.
 
 mod answer;
 mod guard;
 mod http;
-mod modes;
-mod orbit;
-mod order;
-mod pace;
-mod scene;
-mod serve;
-mod sheet;
-mod shown;
-mod source;
-mod traced;
-mod viewer;
+#[cfg(feature = "view")]
+mod view;
 
 pub use answer::Answer;
 pub use guard::Guard;
 pub use http::{LONGEST_HEAD, MOST_CONNECTIONS, PATIENCE, start};
-pub use modes::{MODES, Mode};
-pub use scene::Scene;
-
-use order::{Letter, Orders};
-use serve::Desk;
-use shown::Shown;
-use std::net::TcpListener;
-use std::rc::Rc;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-use std::sync::mpsc::{Receiver, sync_channel};
-use viewer::Viewer;
-
-/// A scene that is shown at an address of this machine.
-pub struct View {
-    /// The address to open, with the token in it.
-    pub address: String,
-    viewer: Viewer,
-    letters: Receiver<Letter>,
-}
-
-impl View {
-    /// Answers from now on; the first picture comes with [`run`](Self::run).
-    ///
-    /// Errors: the scene cannot be rendered, or the server cannot be started, in one sentence.
-    pub fn open(scene: Rc<dyn Scene>, size: Option<pinhole::Size>, listener: TcpListener) -> Result<Self, String> {
-        let refused = |error: std::io::Error| format!("the viewer cannot be started: {error}");
-        let guard = Guard::new(listener.local_addr().map_err(refused)?.port()).map_err(refused)?;
-        let address = guard.address();
-        let (letters, received) = sync_channel(MOST_CONNECTIONS);
-        let waiting = Arc::new(AtomicBool::new(false));
-        let (shown, frames) = tokio::sync::watch::channel(Shown::default());
-        let viewer = Viewer::new(scene, size, shown, Arc::clone(&waiting))?;
-        let desk = Desk::new(guard, Orders::new(letters, waiting), frames);
-        start(listener, PATIENCE, move |request| desk.clone().answer(request)).map_err(refused)?;
-        Ok(Self { address, viewer, letters: received })
-    }
-
-    /// Renders what is asked for, for as long as the program runs.
-    pub fn run(mut self) {
-        self.viewer.run(&self.letters);
-    }
-}
+#[cfg(feature = "view")]
+pub use view::{MODES, Mode, Scene, View};

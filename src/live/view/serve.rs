@@ -1,7 +1,7 @@
+use super::order::{Kind, Order, Orders};
+use super::shown::Shown;
 use crate::answer::Answer;
 use crate::guard::Guard;
-use crate::order::{Kind, Order, Orders};
-use crate::shown::Shown;
 use http_body_util::{BodyExt, Limited};
 use hyper::body::Incoming;
 use hyper::header::{self, HeaderValue};

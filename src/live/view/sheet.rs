@@ -1,4 +1,4 @@
-use crate::modes::MODES;
+use super::modes::MODES;
 use pinhole::plan::{Plan, PlanRow};
 use serde::Serialize;
 

@@ -1,13 +1,13 @@
+use super::modes::MODES;
+use super::orbit::Orbit;
+use super::order::{Kind, Letter, Order};
+use super::pace::Pace;
+use super::scene::Scene;
+use super::sheet::{Sheet, StageRow, columns, modes};
+use super::shown::{Shown, Told};
+use super::source::{FrameSource, Shot, was_stopped};
+use super::traced::{self, Traced};
 use crate::answer::Answer;
-use crate::modes::MODES;
-use crate::orbit::Orbit;
-use crate::order::{Kind, Letter, Order};
-use crate::pace::Pace;
-use crate::scene::Scene;
-use crate::sheet::{Sheet, StageRow, columns, modes};
-use crate::shown::{Shown, Told};
-use crate::source::{FrameSource, Shot, was_stopped};
-use crate::traced::{self, Traced};
 use bevy_ecs::prelude::World;
 use hyper::StatusCode;
 use pinhole::extract::camera_entity;
@@ -165,7 +165,8 @@ impl Viewer {
         let moving = divisor > 1 || self.pace.is_moving();
         self.set_size(size);
         let patience = if moving { Duration::ZERO } else { BETWEEN_FRAMES };
-        let shot = Shot { scene: &self.world, offer: &self.offer, changed: self.begun != Some(size), patience };
+        let changed = self.begun != Some(size);
+        let shot = Shot { scene: &self.world, offer: &self.offer, changed, patience };
         let until = UntilAnOrder(&self.waiting);
         // A frame of a camera that moves is short, and is shown before the next movement.
         let watch: &dyn Watch = if moving { &() } else { &until };
@@ -175,7 +176,9 @@ impl Viewer {
                 let names = progress.plan.stages.iter().map(|stage| stage.name);
                 let costs = progress.laps.iter().map(|lap| lap.time.as_secs_f64() * 1e3);
                 let rendered = u64::from(size.width) * u64::from(size.height);
-                self.pace.note(rendered, progress.time);
+                if changed {
+                    self.pace.note(rendered, progress.time);
+                }
                 self.done = progress.is_done() || (moving && divisor > 1);
                 let pixels = progress.pixels();
                 let told = Told {

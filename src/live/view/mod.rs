@@ -1,0 +1,59 @@
+//! A scene in the browser: its page, the orders that the page sends, and the viewer that carries them out.
+
+mod modes;
+mod orbit;
+mod order;
+mod pace;
+mod scene;
+mod serve;
+mod sheet;
+mod shown;
+mod source;
+mod traced;
+mod viewer;
+
+pub use modes::{MODES, Mode};
+pub use scene::Scene;
+
+use crate::guard::Guard;
+use crate::http::{MOST_CONNECTIONS, PATIENCE, start};
+use order::{Letter, Orders};
+use serve::Desk;
+use shown::Shown;
+use std::net::TcpListener;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::sync::mpsc::{Receiver, sync_channel};
+use viewer::Viewer;
+
+/// A scene that is shown at an address of this machine.
+pub struct View {
+    /// The address to open, with the token in it.
+    pub address: String,
+    viewer: Viewer,
+    letters: Receiver<Letter>,
+}
+
+impl View {
+    /// Answers from now on; the first picture comes with [`run`](Self::run).
+    ///
+    /// Errors: the scene cannot be rendered, or the server cannot be started, in one sentence.
+    pub fn open(scene: Rc<dyn Scene>, size: Option<pinhole::Size>, listener: TcpListener) -> Result<Self, String> {
+        let refused = |error: std::io::Error| format!("the viewer cannot be started: {error}");
+        let guard = Guard::new(listener.local_addr().map_err(refused)?.port()).map_err(refused)?;
+        let address = guard.address();
+        let (letters, received) = sync_channel(MOST_CONNECTIONS);
+        let waiting = Arc::new(AtomicBool::new(false));
+        let (shown, frames) = tokio::sync::watch::channel(Shown::default());
+        let viewer = Viewer::new(scene, size, shown, Arc::clone(&waiting))?;
+        let desk = Desk::new(guard, Orders::new(letters, waiting), frames);
+        start(listener, PATIENCE, move |request| desk.clone().answer(request)).map_err(refused)?;
+        Ok(Self { address, viewer, letters: received })
+    }
+
+    /// Renders what is asked for, for as long as the program runs.
+    pub fn run(mut self) {
+        self.viewer.run(&self.letters);
+    }
+}
