@@ -1,5 +1,5 @@
 use bevy_ecs::prelude::World;
-use pinhole::film::{Curve, Film, rgba_bytes};
+use pinhole::film::{Curve, Film, byte_from_linear, denoise, rgba_bytes};
 use pinhole::plan::{Census, Plan, Stage};
 use pinhole::render::{Execution, Lap, RenderInProgress, Watch, samples_after, steps_of};
 use pinhole::{Error, Result};
@@ -43,11 +43,20 @@ impl FrameSource {
     ///
     /// Errors: an invalid scene, no plan, or that the observer stopped it; the samples so far are then kept.
     pub fn film(&mut self, shot: &Shot<'_>, watch: &dyn Watch) -> Result<Progress<'_>> {
-        let begun = match self.render.take().filter(|_| !shot.changed) {
-            Some(render) => render,
+        let scene = || Census::of(shot.scene);
+        if shot.changed {
+            self.laps.clear();
+        }
+        let begun = match self.render.take() {
             None => {
                 self.laps.clear();
-                RenderInProgress::begin(&Census::of(shot.scene), shot.offer, &Execution::default())?
+                RenderInProgress::begin(&scene(), shot.offer, &Execution::default())?
+            }
+            Some(mut render) => {
+                if shot.changed {
+                    render.begin_frame(&scene(), shot.offer)?;
+                }
+                render
             }
         };
         let render = self.render.insert(begun);
@@ -88,9 +97,13 @@ impl Progress<'_> {
         self.samples[0] >= self.samples[1]
     }
 
-    /// The picture, 8-bit RGBA.
-    pub fn pixels(&self) -> Vec<u8> {
-        rgba_bytes(self.film, curve(self.plan))
+    /// The picture, 8-bit RGBA, through so many levels of the denoiser where the film has the layers for it.
+    pub fn pixels(&self, levels: u32) -> Vec<u8> {
+        let smooth = if levels > 0 && self.plan.view.is_none() { denoise(self.film, levels) } else { None };
+        let Some([red, green, blue]) = smooth else { return rgba_bytes(self.film, curve(self.plan)) };
+        let pixels = red.iter().zip(&green).zip(&blue);
+        let byte = |linear: &f32| byte_from_linear(*linear, curve(self.plan));
+        pixels.flat_map(|((red, green), blue)| [byte(red), byte(green), byte(blue), u8::MAX]).collect()
     }
 }
 

@@ -1,4 +1,4 @@
-use super::modes::MODES;
+use super::modes::{MODES, every_stage};
 use super::orbit::Orbit;
 use super::order::{Kind, Letter, Order};
 use super::pace::Pace;
@@ -138,9 +138,10 @@ impl Viewer {
         let own = camera.get::<Resolution>().copied().unwrap_or_default();
         let full = self.size.map_or(own, |size| size.of(own));
         camera.insert(full);
-        (MODES[choice.mode].prepare)(&mut camera);
-        let offer: Vec<Stage> =
-            choice.scene.stages().into_iter().filter(|stage| !choice.taken_out.contains(&stage.name)).collect();
+        let mode = &MODES[choice.mode];
+        (mode.prepare)(&mut camera);
+        let stages = if mode.every_stage { every_stage() } else { choice.scene.stages() };
+        let offer: Vec<Stage> = stages.into_iter().filter(|stage| !choice.taken_out.contains(&stage.name)).collect();
         let columns = paint(&mut world, &offer, choice.column.as_deref()).map_err(explain)?;
         if let Some(orbit) = &self.orbit {
             orbit.put(&mut world);
@@ -180,7 +181,7 @@ impl Viewer {
                     self.pace.note(rendered, progress.time);
                 }
                 self.done = progress.is_done() || (moving && divisor > 1);
-                let pixels = progress.pixels();
+                let pixels = progress.pixels(MODES[self.choice.mode].denoised);
                 let told = Told {
                     frame: self.shown.borrow().frame + 1,
                     change: self.change,

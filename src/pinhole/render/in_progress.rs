@@ -1,4 +1,4 @@
-use super::clock::{Lap, laps_of};
+use super::clock::{Lap, StageClock, laps_of};
 use super::light_pass::{LightPass, Means, batches};
 use super::memory::check_film_fits;
 use super::render_world::{RenderWorld, prepare};
