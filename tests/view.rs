@@ -7,6 +7,7 @@ mod browser;
 #[path = "view/page.rs"]
 mod page;
 
+use std::ffi::OsString;
 use std::fs;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -32,8 +33,10 @@ impl Drop for Viewing {
     }
 }
 
+/// The program that these tests were built with, or another build of it that `PINHOLE_PROGRAM` names.
 fn program(folder: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_pinhole"));
+    let own = || OsString::from(env!("CARGO_BIN_EXE_pinhole"));
+    let mut command = Command::new(std::env::var_os("PINHOLE_PROGRAM").unwrap_or_else(own));
     command.current_dir(folder).stdin(Stdio::null()).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
     command
 }

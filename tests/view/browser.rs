@@ -135,10 +135,10 @@ impl Browser {
         let began = Instant::now();
         while self.value(&format!("Boolean({expression})")) != true {
             if began.elapsed() > PATIENCE {
-                let message = self.value(
-                    "document.getElementById('message').textContent + document.getElementById('said').textContent",
-                );
-                panic!("never came true: {expression}; the page says {message}; {:?}", self.errors);
+                let shown =
+                    "JSON.stringify([document.body.dataset, document.activeElement.id, document.body.innerText])";
+                let page = self.value(shown);
+                panic!("never came true: {expression}; the page is {page}; {:?}", self.errors);
             }
             sleep(Duration::from_millis(10));
         }

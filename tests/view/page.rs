@@ -129,16 +129,16 @@ fn columns_modes_stages_and_the_pixel_are_shown() {
 
     click(&mut browser, "[data-panel=stages]");
     let stage = |name: &str| format!("#stages [aria-label={}]", json!(name));
-    let shadows = stage("Trace shadow rays: spheres");
+    let lighting = stage("Evaluate direct light");
     assert!(
         browser.number(
             "[...document.querySelectorAll('#kept .number')].reduce((sum, e) => sum + Number(e.textContent), 0)"
         ) > 0.0
     );
     browser.photograph("stages");
-    let unshadowed = next_picture(&mut browser, |browser| click(browser, &shadows));
-    assert_ne!(unshadowed, first);
-    assert_eq!(next_picture(&mut browser, |browser| click(browser, &shadows)), first);
+    let unlit = next_picture(&mut browser, |browser| click(browser, &lighting));
+    assert_ne!(unlit, first);
+    assert_eq!(next_picture(&mut browser, |browser| click(browser, &lighting)), first);
     let rays = stage("Generate camera rays: perspective");
     click(&mut browser, &rays);
     browser.until("!document.getElementById('message').hidden");
@@ -268,6 +268,9 @@ fn the_page_is_readable_in_the_light_and_in_the_dark() {
         let contrast = "getComputedStyle(document.body).color !== getComputedStyle(document.body).backgroundColor";
         assert_eq!(browser.value(contrast), true, "{name}");
         browser.photograph(name);
+        browser.value("document.querySelectorAll('nav button')[1].click()");
+        browser.photograph(&format!("{name}_stages"));
+        browser.value("document.querySelectorAll('nav button')[0].click()");
     }
     assert!(browser.errors.is_empty(), "{:?}", browser.errors);
 }

@@ -27,6 +27,7 @@ const order = async (what) => {
 const complain = (error) => {
   part("message").textContent = error ? error.message ?? error : "";
   part("message").hidden = !error;
+  fit();
 };
 
 /** Sends an order that changes what can be chosen, shows a refusal, and reads the sheet again either way. */
@@ -261,10 +262,10 @@ const listStages = () => {
 /** The picture fills its place without changing its proportions. */
 const fit = () => {
   if (!sheet) return;
-  const place = part("frame").getBoundingClientRect();
   const [width, height] = sheet.size;
   const narrow = matchMedia("(max-width: 900px)").matches;
-  const factor = Math.min(place.width / width, narrow ? Infinity : place.height / height);
+  const below = ["status", "message"].reduce((sum, id) => sum + part(id).offsetHeight + 8, 32);
+  const factor = Math.min(part("frame").clientWidth / width, narrow ? Infinity : (part("stage").clientHeight - below) / height);
   picture.style.width = `${Math.floor(width * factor)}px`;
   picture.style.height = `${Math.floor(height * factor)}px`;
 };
@@ -321,7 +322,7 @@ const listTrace = ({ pixel, columns }) => {
       parts.push(make("h3", "", head), make("dl"));
     }
     const rows = written.rows.map((row) =>
-      make("div", "row", ...row.map(([name, value]) => make("span", "", make("i", "", name), value)), ...swatch(row)));
+      make("div", "row", ...row.map(([name, value]) => make("span", "", make("i", "", name), value)), ...(written.unit.includes("Rec. 709") ? swatch(row) : [])));
     const head = make("dt", "", written.column);
     head.title = written.stage;
     const place = make("small", "", `${written.space} · ${written.unit}`);
