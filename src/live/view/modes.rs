@@ -15,7 +15,7 @@ pub struct Mode {
     pub prepare: fn(&mut EntityWorldMut<'_>),
     /// Whether all stages are on offer, and not those of the scene's chapter.
     pub every_stage: bool,
-    /// The levels of the denoiser that a frame is shown through.
+    /// The levels of the denoiser that a frame of one sample is shown through.
     pub denoised: u32,
 }
 
