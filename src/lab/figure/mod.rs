@@ -39,6 +39,7 @@ mod pen;
 mod picture;
 pub mod pinhole;
 mod pixel_ray;
+pub mod projection;
 mod props;
 pub mod ray;
 pub mod relief;

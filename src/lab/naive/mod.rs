@@ -25,6 +25,8 @@ pub mod ndc;
 pub mod path;
 pub mod planar;
 pub mod plane;
+pub mod projection;
+pub mod rasterise;
 pub mod sampling;
 pub mod screen;
 pub mod shadow;

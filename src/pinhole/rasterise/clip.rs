@@ -82,6 +82,7 @@ impl ClipPlanes {
     }
 }
 
+// ANCHOR: clipped
 /// The part of a polygon where a linear function of the point is at least 0.
 ///
 /// A new vertex is computed from the one inside to the one outside, in whichever direction the polygon passes the edge,
@@ -105,6 +106,7 @@ fn clipped(polygon: &Polygon, side: impl Fn(ClipPoint) -> f64) -> Polygon {
     }
     left
 }
+// ANCHOR_END: clipped
 
 /// Where the function is 0 between a vertex at which it is positive and one at which it is negative.
 fn crossing(inside: ClipPoint, at_inside: f64, outside: ClipPoint, at_outside: f64) -> ClipPoint {

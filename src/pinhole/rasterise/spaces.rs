@@ -36,6 +36,7 @@ pub struct ClipPoint {
     pub w: f64,
 }
 
+// ANCHOR: projection
 /// Transforms a point from camera space to clip space.
 ///
 /// The screen's edges become ±w: x is scaled by the plane's half width, y by its half height.
@@ -56,6 +57,7 @@ pub fn ndc_from_clip(clip: ClipPoint) -> DVec2 {
 pub fn raster_from_ndc(ndc: DVec2, size: DVec2) -> DVec2 {
     ndc * size
 }
+// ANCHOR_END: projection
 
 impl Projection {
     /// The clip point of a point in render space.

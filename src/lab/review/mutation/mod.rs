@@ -7,6 +7,7 @@ mod hits;
 mod light;
 mod meshes;
 mod moving;
+mod rasterised;
 mod rays;
 mod shapes;
 mod table;

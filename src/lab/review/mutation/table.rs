@@ -1,4 +1,4 @@
-use super::{Bug, Mutation, hits, light, meshes, moving, rays, shapes, textures, triangles};
+use super::{Bug, Mutation, hits, light, meshes, moving, rasterised, rays, shapes, textures, triangles};
 use bevy_ecs::prelude::*;
 use pinhole::film::film_stage;
 use pinhole::follow::direct_light_stage;
@@ -11,6 +11,7 @@ use pinhole::intersect::{
 use pinhole::look::view_stage;
 use pinhole::material::{BlinnPhongTable, PhongTable};
 use pinhole::plan::Stage;
+use pinhole::rasterise::rasterise_stage;
 use pinhole::rays::{
     lens_point_stage, lens_stage, ndc_stage, orthographic_stage, perspective_stage, place_samples_stage, raster_stage,
     screen_stage, time_stage, world_stage,
@@ -59,6 +60,8 @@ const BLURRED: &str = "23_depth_of_field";
 const MOVING: &str = "24_motion_blur";
 /// Models of many triangles.
 const MODELS: &str = "28_meshes";
+/// A camera that rasterises.
+const PROJECTED: &str = "32_projection";
 /// A gradient behind mirrors.
 const MIRRORED: &str = "19_mirrors";
 /// A column painted for the picture.
@@ -87,6 +90,7 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("unit-ray", ellipsoid_stage, "unit ray, t kept", SCALED, Bug::Instead(|| hits::ellipsoid_unit_ray.into_configs())),
     bug("two-edges", triangle_stage, "third edge not asked for", MICROFACETS, Bug::Instead(|| triangles::two_edges.into_configs())),
     bug("own-unit", mesh_stage, "t in the mesh's own unit", MODELS, Bug::After(|| meshes::own_unit.into_configs())),
+    bug("depth-for-distance", rasterise_stage, "depth taken for the distance along the ray", PROJECTED, Bug::After(|| rasterised::depth_for_distance.into_configs())),
     bug("plane-sign", plane_stage, "sign of k", MOST, Bug::Instead(|| hits::plane_sign.into_configs())),
     bug("disk-square", disk_stage, "the square about it", SHAPES, Bug::Instead(|| shapes::disk_square.into_configs())),
     bug("one-coordinate", rectangle_stage, "one coordinate asked", SHAPES, Bug::Instead(|| shapes::one_coordinate.into_configs())),

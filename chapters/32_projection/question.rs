@@ -1,0 +1,132 @@
+//! Chapter 32: where the image shows a point of the world.
+
+use super::mine::mine;
+use glam::{DMat3, DVec2, DVec3};
+use pinhole::rasterise::{clip_from_camera, ndc_from_clip, raster_from_ndc};
+use pinhole_lab::exercise::apart::absolute;
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::measure::ray_aim::Draws;
+
+/// Point, eye, axes, tan_half, size.
+pub(super) type Input = ([f64; 3], [f64; 3], [[f64; 3]; 3], f64, [u32; 2]);
+
+/// What the reader writes.
+pub type Yours = fn([f64; 3], [f64; 3], [[f64; 3]; 3], f64, [u32; 2]) -> [f64; 2];
+
+/// The exercise with the function as the reader has it now.
+pub fn yours() -> Exercise {
+    exercise(super::exercise::raster_from_world)
+}
+
+/// The exercise with this function in it.
+pub fn exercise(yours: Yours) -> Exercise {
+    let written = move |&(point, eye, axes, tan_half, size): &Input| yours(point, eye, axes, tan_half, size);
+    Exercise::rendered("raster_from_world", question, written, mine)
+}
+
+fn question() -> Question<Input, [f64; 2]> {
+    Question {
+        pinhole_has: ("src/pinhole/rasterise/spaces.rs", "ndc_from_clip"),
+        probes: asked(),
+        tell: |(point, eye, axes, tan_half, size)| {
+            let [right, up, back] = axes.map(|axis| axis.shown());
+            let [point, eye] = [point, eye].map(Shown::shown);
+            format!("point {point}, eye {eye}, axes {right} {up} {back}, tan_half {tan_half:?}, size {size:?}")
+        },
+        right: |input| raster(camera(input), input, 1.0),
+        apart: |yours, right| absolute(yours, right),
+        allowed: 1e-6,
+        measured: "pixels",
+        mistakes: vec![
+            Mistake::new(
+                "the eye is not subtracted: the point is seen as if the camera stood at the origin",
+                |input| raster(axes(input).transpose() * DVec3::from(input.0), input, 1.0),
+            ),
+            Mistake::new(
+                "the point goes from the camera to the world: multiply by the transpose, that is, take the dot product \
+                 with each axis",
+                |input| raster(axes(input) * (DVec3::from(input.0) - DVec3::from(input.1)), input, 1.0),
+            ),
+            Mistake::new("y is not turned down: the picture stands on its head", |input| {
+                let [x, y] = raster(camera(input), input, 1.0);
+                [x, f64::from(input.4[1]) - y]
+            }),
+            Mistake::new("the aspect is left out: x is in half heights until it is divided by width/height", |input| {
+                let aspect = f64::from(input.4[0]) / f64::from(input.4[1]);
+                raster(camera(input) * DVec3::new(aspect, 1.0, 1.0), input, 1.0)
+            }),
+            Mistake::new("it is divided by z, which is negative in front of the camera: take −z", |input| {
+                raster(camera(input) * DVec3::new(-1.0, -1.0, 1.0), input, 1.0)
+            }),
+            Mistake::new(
+                "it is divided by the distance from the eye; the depth is the distance along the axis",
+                |input| {
+                    let camera = camera(input);
+                    raster(camera, input, -camera.length() / camera.z)
+                },
+            ),
+            Mistake::new("the field of view is left out", |input| {
+                raster(camera(input), &(input.0, input.1, input.2, 1.0, input.4), 1.0)
+            }),
+            Mistake::new("nothing is divided by the depth, as for an orthographic camera", |input| {
+                let camera = camera(input);
+                raster(camera, input, -1.0 / camera.z)
+            }),
+        ],
+        hints: &[
+            "subtract the eye from the point; what is left along each of the three axes is a dot product",
+            "the depth is minus the part along the axis that points back; x and y divided by depth · tan_half are the \
+             screen point of chapters 7 and 8, y from −1 to 1 and x from −aspect to aspect",
+            "NDC is (0.5 + 0.5 · x / aspect, 0.5 − 0.5 · y); times the size it is in pixels",
+        ],
+    }
+}
+
+fn axes(&(_, _, [x, y, z], ..): &Input) -> DMat3 {
+    DMat3::from_cols(x.into(), y.into(), z.into())
+}
+
+/// The point in camera space, by the matrix's inverse.
+fn camera(input: &Input) -> DVec3 {
+    axes(input).inverse() * (DVec3::from(input.0) - DVec3::from(input.1))
+}
+
+/// The raster point of one in camera space, divided by its depth times this factor.
+fn raster(camera: DVec3, &(.., tan_half, [width, height]): &Input, factor: f64) -> [f64; 2] {
+    let size = DVec2::new(f64::from(width), f64::from(height));
+    let mut clip = clip_from_camera(camera, DVec2::new(tan_half * size.x / size.y, tan_half), true);
+    clip.w *= factor;
+    raster_from_ndc(ndc_from_clip(clip), size).into()
+}
+
+fn asked() -> Vec<Probe<Input>> {
+    const STRAIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let at = |point| (point, [0.0; 3], STRAIGHT, 0.5, [200, 200]);
+    let mut asked: Vec<_> = probes("straight ahead", [at([0.0, 0.0, -4.0])]).collect();
+    asked.extend(probes("to the right and up", [at([1.0, 1.0, -4.0]), at([0.25, 0.5, -8.0])]));
+    asked.extend(probes("a corner of the image", [at([1.0, 1.0, -2.0]), at([-1.0, -1.0, -2.0])]));
+    let wide = |point| (point, [0.0; 3], STRAIGHT, 0.5, [480, 270]);
+    asked.extend(probes("an image that is not square", [wide([1.0, 1.0, -4.0]), wide([-0.5, 0.25, -3.0])]));
+    asked.extend(probes("another field of view", [([1.0, 0.5, -4.0], [0.0; 3], STRAIGHT, 2.0, [480, 270])]));
+    let eye = [3.0, -1.0, 5.0];
+    asked.extend(probes("a camera elsewhere", [([3.5, -0.5, 1.0], eye, STRAIGHT, 0.5, [480, 270])]));
+    // It looks along −x.
+    let left = [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
+    asked.extend(probes("a camera that is turned", [([-1.0, -0.5, 4.5], eye, left, 0.5, [480, 270])]));
+    asked.extend(probes("any camera and point", (0..200).map(drawn)));
+    asked
+}
+
+/// A point in front of a camera that stands and looks anywhere.
+fn drawn(index: u64) -> Input {
+    let mut draws = Draws::new(3201, index);
+    let back = draws.unit_vector();
+    let right = draws.unit_vector_across(back);
+    let axes = [right, back.cross(right), back];
+    let eye = DVec3::from([(); 3].map(|()| draws.between(-10.0, 10.0)));
+    let (depth, tan_half) = (draws.between(0.5, 50.0), draws.between(0.1, 1.5));
+    let [x, y] = [(); 2].map(|()| draws.between(-2.0, 2.0) * depth * tan_half);
+    let point = eye + axes[0] * x + axes[1] * y - axes[2] * depth;
+    let size = [draws.between(1.0, 2000.0) as u32, draws.between(1.0, 2000.0) as u32];
+    (point.into(), eye.into(), axes.map(DVec3::into), tan_half, size)
+}
