@@ -36,6 +36,18 @@ impl Answer {
         Self { status, kind: "text/plain; charset=utf-8", body: text.into().into(), file: None, policy: None }
     }
 
+    /// A value as JSON.
+    #[cfg(feature = "view")]
+    pub fn json(value: &impl serde::Serialize) -> Self {
+        Self::of("application/json", serde_json::to_vec(value).unwrap_or_default())
+    }
+
+    /// A sentence that says why an order was not carried out.
+    #[cfg(feature = "view")]
+    pub fn refused(sentence: String) -> Self {
+        Self::plain(StatusCode::UNPROCESSABLE_ENTITY, sentence)
+    }
+
     /// What hyper sends.
     pub(crate) fn response(self) -> Response<Full<Bytes>> {
         let mut response = Response::new(Full::new(self.body));

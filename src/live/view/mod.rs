@@ -4,6 +4,7 @@ mod modes;
 mod orbit;
 mod order;
 mod pace;
+mod paint;
 mod scene;
 mod serve;
 mod sheet;

@@ -1,4 +1,5 @@
 use crate::answer::Answer;
+use pinhole::render::Watch;
 use serde::Deserialize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -69,5 +70,18 @@ impl Orders {
         self.letters.try_send((order, send)).ok()?;
         self.waiting.store(true, Ordering::SeqCst);
         receive.await.ok()
+    }
+}
+
+/// Stops a frame for an order that waits.
+pub struct UntilAnOrder<'a>(pub &'a Arc<AtomicBool>);
+
+impl Watch for UntilAnOrder<'_> {
+    fn stopped(&self) -> bool {
+        self.0.load(Ordering::SeqCst)
+    }
+
+    fn stop_flag(&self) -> Option<Arc<AtomicBool>> {
+        Some(Arc::clone(self.0))
     }
 }

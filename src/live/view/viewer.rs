@@ -1,19 +1,19 @@
 use super::modes::{MODES, every_stage};
 use super::orbit::Orbit;
-use super::order::{Kind, Letter, Order};
+use super::order::{Kind, Letter, Order, UntilAnOrder};
 use super::pace::Pace;
+use super::paint::paint;
 use super::scene::Scene;
-use super::sheet::{Sheet, StageRow, columns, modes};
+use super::sheet::{Sheet, StageRow, modes};
 use super::shown::{Shown, Told};
 use super::source::{FrameSource, Shot, was_stopped};
 use super::traced::{self, Traced};
 use crate::answer::Answer;
 use bevy_ecs::prelude::World;
-use hyper::StatusCode;
 use pinhole::extract::camera_entity;
 use pinhole::film::{exr_bytes, png_bytes};
-use pinhole::plan::{Census, Stage, plan, view_names};
-use pinhole::render::{Watch, prepare};
+use pinhole::plan::Stage;
+use pinhole::render::Watch;
 use pinhole::scene::{Resolution, Statistics, View};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -36,6 +36,11 @@ struct Choice {
     taken_out: Vec<&'static str>,
 }
 
+/// The stages on offer before any is taken out.
+fn stages_of(choice: &Choice) -> Vec<Stage> {
+    if MODES[choice.mode].every_stage { every_stage() } else { choice.scene.stages() }
+}
+
 /// Renders what a reader has chosen, from where they look at it, frame after frame.
 pub struct Viewer {
     choice: Choice,
@@ -54,19 +59,6 @@ pub struct Viewer {
     change: u64,
     shown: watch::Sender<Shown>,
     waiting: Arc<AtomicBool>,
-}
-
-/// Stops a frame for an order that waits.
-struct UntilAnOrder<'a>(&'a Arc<AtomicBool>);
-
-impl Watch for UntilAnOrder<'_> {
-    fn stopped(&self) -> bool {
-        self.0.load(Ordering::SeqCst)
-    }
-
-    fn stop_flag(&self) -> Option<Arc<AtomicBool>> {
-        Some(Arc::clone(self.0))
-    }
 }
 
 impl Viewer {
@@ -138,9 +130,8 @@ impl Viewer {
         let own = camera.get::<Resolution>().copied().unwrap_or_default();
         let full = self.size.map_or(own, |size| size.of(own));
         camera.insert(full);
-        let mode = &MODES[choice.mode];
-        (mode.prepare)(&mut camera);
-        let stages = if mode.every_stage { every_stage() } else { choice.scene.stages() };
+        (MODES[choice.mode].prepare)(&mut camera);
+        let stages = stages_of(&choice);
         let offer: Vec<Stage> = stages.into_iter().filter(|stage| !choice.taken_out.contains(&stage.name)).collect();
         let columns = paint(&mut world, &offer, choice.column.as_deref()).map_err(explain)?;
         if let Some(orbit) = &self.orbit {
@@ -243,13 +234,18 @@ impl Viewer {
             Order::Stage(name, offered) => self.offer_stage(&name, offered),
             Order::Apply(text) => self.edit(text),
             Order::Save(text) => {
-                return self.edit(text).and_then(|()| self.save()).map_or_else(refused, |file| json(&file));
+                return self
+                    .edit(text)
+                    .and_then(|()| self.save())
+                    .map_or_else(Answer::refused, |file| Answer::json(&file));
             }
-            Order::Trace(at) => return self.trace(at).map_or_else(refused, |trace| json(&Traced::of(&trace))),
-            Order::Sheet => return json(&self.sheet()),
+            Order::Trace(at) => {
+                return self.trace(at).map_or_else(Answer::refused, |trace| Answer::json(&Traced::of(&trace)));
+            }
+            Order::Sheet => return Answer::json(&self.sheet()),
             Order::Picture(kind) => return self.picture(kind),
         };
-        done.map_or_else(refused, |()| json(&self.change))
+        done.map_or_else(Answer::refused, |()| Answer::json(&self.change))
     }
 
     fn moved(&mut self, change: impl FnOnce(&mut Orbit)) -> Result<(), String> {
@@ -286,7 +282,7 @@ impl Viewer {
     }
 
     fn offer_stage(&mut self, name: &str, offered: bool) -> Result<(), String> {
-        let stages = self.choice.scene.stages();
+        let stages = stages_of(&self.choice);
         let name = stages.iter().map(|stage| stage.name).find(|own| *own == name).ok_or("there is no such stage")?;
         let mut choice = self.choice.clone();
         choice.taken_out.retain(|own| *own != name);
@@ -336,7 +332,7 @@ impl Viewer {
     }
 
     fn picture(&self, kind: Kind) -> Answer {
-        let Some((film, curve)) = self.source.last() else { return refused("there is no picture yet".into()) };
+        let Some((film, curve)) = self.source.last() else { return Answer::refused("there is no picture yet".into()) };
         let (media, ending, bytes) = match kind {
             Kind::Png => ("image/png", "png", png_bytes(film, curve)),
             Kind::Exr => ("image/x-exr", "exr", exr_bytes(film)),
@@ -344,29 +340,9 @@ impl Viewer {
         let stem: String =
             self.choice.scene.stem().chars().filter(|c| c.is_ascii_alphanumeric() || "-_".contains(*c)).collect();
         let file = Some(format!("{stem}.{ending}"));
-        bytes.map_or_else(|error| refused(error.to_string()), |bytes| Answer { file, ..Answer::of(media, bytes) })
+        bytes.map_or_else(
+            |error| Answer::refused(error.to_string()),
+            |bytes| Answer { file, ..Answer::of(media, bytes) },
+        )
     }
-}
-
-/// Puts the view of a column on the scene's camera, or takes it away, and says which columns could be viewed.
-///
-/// Errors: the scene cannot be rendered so.
-fn paint(world: &mut World, offer: &[Stage], column: Option<&str>) -> pinhole::Result<Vec<&'static str>> {
-    let camera = camera_entity(world)?;
-    world.entity_mut(camera).remove::<View>();
-    // The first chapters have columns and no picture.
-    let columns = plan(&Census::of(world), offer).map_or_else(|_| view_names(offer), |plan| columns(&plan));
-    if let Some(column) = column {
-        world.entity_mut(camera).insert(View { column: column.into() });
-    }
-    prepare(&Census::of(world), offer)?;
-    Ok(columns)
-}
-
-fn json(value: &impl serde::Serialize) -> Answer {
-    Answer::of("application/json", serde_json::to_vec(value).unwrap_or_default())
-}
-
-fn refused(sentence: String) -> Answer {
-    Answer::plain(StatusCode::UNPROCESSABLE_ENTITY, sentence)
 }
