@@ -13,6 +13,7 @@ pub mod boxes;
 pub mod broken_paths;
 pub mod cameras;
 pub mod caustics;
+pub mod coverage;
 pub mod curves;
 mod drawn_image;
 pub mod field_of_view;

@@ -7,6 +7,7 @@ pub mod adaptive;
 pub mod boxes;
 pub mod camera;
 pub mod caustics;
+pub mod coverage;
 pub mod cuboid;
 pub mod ellipsoid;
 pub mod emitter;

@@ -92,6 +92,7 @@ impl TileTriangle {
 }
 
 impl Cover {
+    // ANCHOR: keep_nearest
     /// Keeps the triangle at the samples of some rows that are inside it and where nothing is nearer; of equally near
     /// ones the first wins, which is that of the lowest number.
     #[inline(always)]
@@ -109,4 +110,5 @@ impl Cover {
             nearest[sample] = if wins { triangle.number } else { nearest[sample] };
         }
     }
+    // ANCHOR_END: keep_nearest
 }

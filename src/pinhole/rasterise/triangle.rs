@@ -82,6 +82,7 @@ pub fn fixed(raster: DVec2) -> [i32; 2] {
     [(raster.x * SUBPIXELS + 0.5).floor() as i32, (raster.y * SUBPIXELS + 0.5).floor() as i32]
 }
 
+// ANCHOR: edge_function
 /// The edge function of a point: twice the area of the triangle from, to, point; positive to the right of the edge.
 #[inline(always)]
 pub fn edge_function(from: [i32; 2], to: [i32; 2], point: [i32; 2]) -> i64 {
@@ -90,7 +91,9 @@ pub fn edge_function(from: [i32; 2], to: [i32; 2], point: [i32; 2]) -> i64 {
     let [px, py] = point.map(i64::from);
     (tx - fx) * (py - fy) - (ty - fy) * (px - fx)
 }
+// ANCHOR_END: edge_function
 
+// ANCHOR: is_top_left
 /// Whether a point exactly on an edge belongs to the triangle: on the left edges and on the top ones.
 ///
 /// The interior is to the right of each edge, with y downward: an edge upward is a left one, and a level edge to the
@@ -100,6 +103,7 @@ pub fn edge_function(from: [i32; 2], to: [i32; 2], point: [i32; 2]) -> i64 {
 pub fn is_top_left(from: [i32; 2], to: [i32; 2]) -> bool {
     to[1] < from[1] || (to[1] == from[1] && to[0] > from[0])
 }
+// ANCHOR_END: is_top_left
 
 /// An edge function as a·x + b·y + c about the corner of a tile, in 1/256 of a pixel; a sample is inside where it is at
 /// least 0.
