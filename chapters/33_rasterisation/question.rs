@@ -53,7 +53,7 @@ fn question() -> Question<Input, bool> {
                 let &([fx, fy], [tx, ty], _) = input;
                 area(input) > 0 || (area(input) == 0 && (ty > fy || (ty == fy && tx > fx)))
             }),
-            Mistake::new("the products overflow i32: two numbers of 25 bits take 50", |input| narrow(input)),
+            Mistake::new("the products overflow i32: two numbers of 25 bits take 50", narrow),
         ],
         hints: &[
             "the edge function is twice the area of the triangle from, to, sample: \

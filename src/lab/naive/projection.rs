@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn a_point_on_a_ray_comes_back_to_where_the_ray_went_through() {
         let (eye, tan_half, size) = (DVec3::new(3.0, -1.0, 2.0), 0.4, DVec2::new(480.0, 270.0));
-        let turn = DMat3::from_rotation_y(0.7) * DMat3::from_rotation_x(-0.3);
+        let turn = DMat3::from_cols_array(&[2.0, 2.0, 1.0, -2.0, 1.0, 2.0, 1.0, -2.0, 2.0]) * (1.0 / 3.0);
         for step in 0..200 {
             let raster = size * DVec2::new((f64::from(step) * 0.618).fract(), (f64::from(step) * 0.414).fract());
             let screen = screen_from_ndc(ndc_from_raster(raster, size), size.x / size.y);

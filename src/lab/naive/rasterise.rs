@@ -18,9 +18,9 @@ pub fn raster_triangles(
     meshes: &MeshTable,
     mut raster_of: impl FnMut(DVec3) -> DVec2,
 ) -> Vec<RasterTriangle> {
-    let reach = |bounds: [DVec3; 2]| bounds[0].abs().max(bounds[1].abs()).length();
-    let reaches = meshes.row.iter().map(|mesh| reach([mesh.bounds.least, mesh.bounds.most]));
-    let planes = ClipPlanes::new(projection, reaches.fold(0.0, f64::max));
+    let extent = |bounds: [DVec3; 2]| bounds[0].abs().max(bounds[1].abs()).length();
+    let extents = meshes.row.iter().map(|mesh| extent([mesh.bounds.least, mesh.bounds.most]));
+    let planes = ClipPlanes::new(projection, extents.fold(0.0, f64::max));
     let mut fixed_of = |clip: ClipPoint| {
         let raster = raster_of(projection.camera_from_world.transpose() * projection.camera(clip));
         fixed(raster.clamp(DVec2::splat(-FARTHEST), DVec2::splat(FARTHEST)))
