@@ -58,6 +58,23 @@ fn pictures_are_the_same_to_the_bit_but_for_explained_pixels() {
     }
 }
 
+/// Chapter 33 says how many of its pixels differ; here, that each of them is explained.
+#[test]
+fn chapters_that_rasterise_see_what_rays_see() {
+    let mut compared = 0;
+    for chapter in chapters::all() {
+        let mut world = chapter.world(&pinhole::Overrides::default());
+        if world.query::<&Rasterisation>().iter(&world).next().is_none() {
+            continue;
+        }
+        let seen = compare_visibility(&mut world).expect("valid");
+        assert!(seen.unexplained.is_empty() && 100 * seen.differ < seen.pixels, "{}: {seen:?}", chapter.name);
+        eprintln!("{}: {} of {} samples see another triangle", chapter.name, seen.differ, seen.pixels);
+        compared += 1;
+    }
+    assert!(compared >= 2, "{compared} chapters rasterise");
+}
+
 /// Samples anywhere in their pixels, in passes over some of a tile's pixels, in tiles of any size.
 #[test]
 fn samples_anywhere_see_what_rays_see() {

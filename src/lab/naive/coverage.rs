@@ -114,7 +114,8 @@ mod tests {
     #[test]
     fn each_sample_of_a_fan_is_in_one_triangle() {
         for index in 0..200 {
-            let spokes = 3 + (unit(index, 0) * 6.0) as usize;
+            // Enough spokes that the rim is farther out than any sample.
+            let spokes = 5 + (unit(index, 0) * 4.0) as usize;
             let rim: Vec<[i32; 2]> = (0..spokes)
                 .map(|spoke| {
                     let turn =
