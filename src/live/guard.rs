@@ -53,8 +53,8 @@ impl Guard {
         let sites = values(HeaderName::from_static("sec-fetch-site"));
         let own = !hosts.is_empty()
             && hosts.iter().all(|host| ours(host))
-            && origins.iter().all(|origin| same_origin(&origin.as_ref()))
-            && sites.iter().all(|site| same_site(&site.as_ref()));
+            && origins.iter().all(same_origin)
+            && sites.iter().all(same_site);
         let mut parts = request.uri().path().splitn(3, '/').skip(1);
         let token = parts.next().unwrap_or_default();
         if !own || !self.is_token(token) {
