@@ -136,7 +136,11 @@ fn ticks([low, high]: [f64; 2], samples: bool) -> Vec<(f64, String)> {
         let powers = (0..16).map(|power| f64::from(1_u32 << (2 * power)));
         ticks.extend(powers.map(|value| (value, format!("{value}"))));
     } else {
-        let steps: &[f64] = if high - low < 2.2 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let steps: &[f64] = match high - low {
+            decades if decades < 0.8 => &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0],
+            decades if decades < 2.2 => &[1.0, 2.0, 5.0],
+            _ => &[1.0],
+        };
         for decade in low.floor() as i32..=high.ceil() as i32 {
             for step in steps {
                 ticks.push((step * libm::exp10(f64::from(decade)), scientific(*step, decade)));
