@@ -46,13 +46,13 @@ impl Guard {
         };
         let mut hosts = values(header::HOST);
         hosts.extend(request.uri().authority().map(|authority| authority.as_str()));
-        let ours = |host: &str| self.hosts.iter().any(|own| own.eq_ignore_ascii_case(host));
-        let same_origin = |origin: &&str| origin.strip_prefix("http://").is_some_and(ours);
+        let is_here = |host: &str| self.hosts.iter().any(|own| own.eq_ignore_ascii_case(host));
+        let same_origin = |origin: &&str| origin.strip_prefix("http://").is_some_and(is_here);
         let same_site = |site: &&str| matches!(*site, "same-origin" | "none");
         let origins = values(header::ORIGIN);
         let sites = values(HeaderName::from_static("sec-fetch-site"));
         let own = !hosts.is_empty()
-            && hosts.iter().all(|host| ours(host))
+            && hosts.iter().all(|host| is_here(host))
             && origins.iter().all(same_origin)
             && sites.iter().all(same_site);
         let mut parts = request.uri().path().splitn(3, '/').skip(1);

@@ -37,9 +37,13 @@ impl Pace {
     }
 
     /// Takes note of how long a new frame of so many pixels took.
+    ///
+    /// A frame that took hardly more than the least says only that a pixel takes no more than so much.
     pub fn note(&mut self, pixels: u64, time: Duration) {
         self.least = self.least.min(time.as_secs_f64());
-        self.pixel = (time.as_secs_f64() - LEAST_KNOWN * self.least).max(0.0) / pixels.max(1) as f64;
+        let time = time.as_secs_f64();
+        let pixel = (time - LEAST_KNOWN * self.least).max(0.0) / pixels.max(1) as f64;
+        self.pixel = if LEAST_KNOWN * time <= self.least { pixel.min(self.pixel) } else { pixel };
     }
 
     /// By how much to divide the sides of a picture of so many pixels now.

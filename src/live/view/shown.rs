@@ -1,9 +1,9 @@
 use hyper::body::Bytes;
 use serde::Serialize;
 
-/// What a page is told beside the pixels of a frame.
+/// What a page is head beside the pixels of a frame.
 #[derive(Serialize)]
-pub struct Told<'a> {
+pub struct FrameHead<'a> {
     /// The frame's number, from 1.
     pub frame: u64,
     /// The number of the last movement or change that it shows.
@@ -20,7 +20,7 @@ pub struct Told<'a> {
     pub error: Option<String>,
 }
 
-/// A frame as it is sent: the length of what is told, that as JSON, and the pixels, 8-bit RGBA row by row.
+/// A frame as it is sent: the length of what is head, that as JSON, and the pixels, 8-bit RGBA row by row.
 #[derive(Clone, Default)]
 pub struct Shown {
     /// The frame's number; 0 before the first.
@@ -31,12 +31,12 @@ pub struct Shown {
 
 impl Shown {
     /// Puts it together.
-    pub fn new(told: &Told<'_>, pixels: &[u8]) -> Self {
-        let json = serde_json::to_vec(told).unwrap_or_default();
+    pub fn new(head: &FrameHead<'_>, pixels: &[u8]) -> Self {
+        let json = serde_json::to_vec(head).unwrap_or_default();
         let mut body = Vec::with_capacity(4 + json.len() + pixels.len());
         body.extend_from_slice(&(json.len() as u32).to_le_bytes());
         body.extend_from_slice(&json);
         body.extend_from_slice(pixels);
-        Self { frame: told.frame, body: body.into() }
+        Self { frame: head.frame, body: body.into() }
     }
 }

@@ -5,7 +5,7 @@ use super::pace::Pace;
 use super::paint::paint;
 use super::scene::Scene;
 use super::sheet::{Sheet, StageRow, modes};
-use super::shown::{Shown, Told};
+use super::shown::{FrameHead, Shown};
 use super::source::{FrameSource, Shot, was_stopped};
 use super::traced::{self, Traced};
 use crate::answer::Answer;
@@ -173,7 +173,7 @@ impl Viewer {
                 }
                 self.done = progress.is_done() || (moving && divisor > 1);
                 let pixels = progress.pixels(MODES[self.choice.mode].denoised);
-                let told = Told {
+                let head = FrameHead {
                     frame: self.shown.borrow().frame + 1,
                     change: self.change,
                     size: [size.width, size.height],
@@ -182,7 +182,7 @@ impl Viewer {
                     stages: names.zip(costs).collect(),
                     error: None,
                 };
-                self.shown.send_replace(Shown::new(&told, &pixels));
+                self.shown.send_replace(Shown::new(&head, &pixels));
             }
             Err(error) if was_stopped(&error) => {}
             Err(error) => {
@@ -196,7 +196,7 @@ impl Viewer {
     fn fail(&mut self, sentence: String) {
         let frame = self.shown.borrow().frame + 1;
         let error = Some(sentence.clone());
-        let told = Told {
+        let head = FrameHead {
             frame,
             change: self.change,
             size: [0, 0],
@@ -205,7 +205,7 @@ impl Viewer {
             stages: Vec::new(),
             error,
         };
-        self.shown.send_replace(Shown::new(&told, &[]));
+        self.shown.send_replace(Shown::new(&head, &[]));
         (self.error, self.done, self.begun) = (Some(sentence), true, Some(self.full));
     }
 
