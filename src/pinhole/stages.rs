@@ -237,6 +237,7 @@ pub fn intersection() -> Vec<Stage> {
 }
 
 /// Triangles and meshes projected onto the image, in place of camera rays.
+#[doc(hidden)]
 pub fn rasterisation() -> Vec<Stage> {
     of(Rasterisation)
 }

@@ -147,8 +147,8 @@ pub use plane::Plane;
 pub use point_light::PointLight;
 #[doc(hidden)]
 pub use printable::{is_invisible, printable, printable_message, printable_path};
-#[doc(hidden)]
 pub use rasterisation::Rasterisation;
+#[doc(hidden)]
 pub use rectangle::Rectangle;
 pub use request::Statistics;
 #[doc(hidden)]
@@ -160,6 +160,7 @@ pub use scene_error::SceneError;
 pub use sphere::Sphere;
 pub use spot_light::SpotLight;
 pub use stripes::Stripes;
+#[doc(hidden)]
 pub use texture::{TextureBy, Wrap};
 pub use torus::Torus;
 pub use triangle::Triangle;
