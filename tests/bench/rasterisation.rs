@@ -1,6 +1,7 @@
 //! First hits by projection and by rays; projection beside another rasteriser; frames of a moving camera.
 //!
 //! `cargo bench --bench rasterisation` measures all three; `-- curves`, `-- peer` or `-- frames` one of them.
+//! `frames --mode 0` renders frames of the first mode alone.
 //! `--rounds 5` says how often each pair is timed, `--frames 1000` how many frames are rendered, `--most 1000000` where
 //! the curves end.
 //! All but the frames run on one thread and are timed in processor time; frames take as many threads as there are
@@ -238,7 +239,10 @@ const MODES: [Mode; 4] = [
 /// Frames of a camera that goes round a mesh of 102,400 triangles, at 640 × 360.
 fn frames() {
     let frames = after("--frames", 1000_u32);
-    for (mode, (name, change)) in MODES.into_iter().enumerate() {
+    let only = after("--mode", MODES.len());
+    let wanted = |mode: &usize| only == *mode || only == MODES.len();
+    for mode in (0..MODES.len()).filter(wanted) {
+        let (name, change) = MODES[mode];
         let (mut world, camera) = scene([800, 64], [640, 360]);
         change(&mut world.entity_mut(camera));
         let ground = [DVec3::new(-20.0, -1.6, -20.0), DVec3::new(0.0, -1.6, 20.0), DVec3::new(20.0, -1.6, -20.0)];
@@ -252,6 +256,7 @@ fn frames() {
         let offer = stages_of();
         let begun = RenderInProgress::begin(&Census::of(&world), &offer, &Execution::default());
         let mut render = begun.expect("begins");
+        let mut extracted = 0.0;
         let mut times: Vec<f64> = (0..frames)
             .map(|frame| {
                 let angle = f64::from(frame) * 0.01;
@@ -259,6 +264,7 @@ fn frames() {
                 let started = Instant::now();
                 world.entity_mut(camera).insert(LookAt { eye, target: TARGET, ..LookAt::default() });
                 render.begin_frame(&Census::of(&world), &offer).expect("a frame");
+                extracted += started.elapsed().as_secs_f64();
                 render.advance(render.steps(), &()).expect("renders");
                 std::hint::black_box(render.film.mean(320, 180));
                 started.elapsed().as_secs_f64()
@@ -267,10 +273,11 @@ fn frames() {
         times.sort_by(f64::total_cmp);
         let at = |part: f64| times[((times.len() - 1) as f64 * part) as usize];
         println!(
-            "{name}: median {:.1} ms ({:.0} frames a second), 99 % below {:.1} ms, {frames} frames",
+            "{name}: median {:.1} ms ({:.0} frames a second), 99 % below {:.1} ms, {frames} frames; until all tables are extracted {:.1} ms on average",
             1e3 * at(0.5),
             1.0 / at(0.5),
-            1e3 * at(0.99)
+            1e3 * at(0.99),
+            1e3 * extracted / f64::from(frames),
         );
     }
 }

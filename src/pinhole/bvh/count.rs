@@ -51,7 +51,7 @@ pub fn traverse_counted(
         }
         let base = traversal.height();
         let mut leaves = CountedLeaf { test: &mut test, above, counts: &mut *counts };
-        if !traversal.step::<false>(bvh, &mut stack, &mut leaves) {
+        if !traversal.step(false, bvh, &mut stack, &mut leaves) {
             return;
         }
         let height = traversal.height();

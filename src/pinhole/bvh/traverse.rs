@@ -69,7 +69,7 @@ pub trait LeafTest {
 
 /// A ray on its path through a hierarchy: where it is, and how much of its stack is filled.
 ///
-/// With `ANY`, the first leaf that finds anything ends it; otherwise it goes on until nothing can be closer, and what
+/// With `any`, the first leaf that finds anything ends it; otherwise it goes on until nothing can be closer, and what
 /// is at an equal distance is visited too, so that ties are decided by numbers and not by the hierarchy.
 pub struct Traversal {
     ray: BoxRay,
@@ -104,12 +104,12 @@ impl Traversal {
     // ANCHOR: step
     /// Visits one node or one leaf, and says whether there is more to visit.
     #[inline(always)]
-    pub fn step<const ANY: bool>(&mut self, bvh: &Bvh, stack: &mut Stack, leaves: &mut impl LeafTest) -> bool {
+    pub fn step(&mut self, any: bool, bvh: &Bvh, stack: &mut Stack, leaves: &mut impl LeafTest) -> bool {
         match self.at.kind() {
             ChildKind::Leaf(number) => {
                 let t = leaves.test(number);
                 if t < self.t {
-                    if ANY {
+                    if any {
                         return false;
                     }
                     (self.t, self.limit) = (t, self.ray.limit(t));
@@ -132,7 +132,7 @@ impl Traversal {
                         let (entry, farther);
                         (entry, more) = next();
                         (nearest, farther) = if entry < nearest { (entry, nearest) } else { (nearest, entry) };
-                        if ANY {
+                        if any {
                             stack.put(height, farther)
                         } else {
                             stack.sort_in(base, height, farther)
@@ -160,14 +160,8 @@ impl Traversal {
 
 /// Visits the leaves whose boxes a ray hits, the nearest first, until none can hold anything closer.
 #[inline(always)]
-pub fn traverse<const ANY: bool>(
-    bvh: &Bvh,
-    ray: [DVec3; 2],
-    t_max: f64,
-    stack: &mut Stack,
-    leaves: &mut impl LeafTest,
-) {
+pub fn traverse(any: bool, bvh: &Bvh, ray: [DVec3; 2], t_max: f64, stack: &mut Stack, leaves: &mut impl LeafTest) {
     if let Some(mut traversal) = Traversal::new(bvh, ray, t_max) {
-        while traversal.step::<ANY>(bvh, stack, leaves) {}
+        while traversal.step(any, bvh, stack, leaves) {}
     }
 }

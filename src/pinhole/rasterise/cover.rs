@@ -5,6 +5,8 @@ use super::triangle::{Edge, RasterTriangle, SUBPIXELS, within};
 use crate::rays::{RasterPoints, Tile};
 use multiversion::multiversion;
 
+/// Fewer samples than this are tested one by one, for a loop over eight at once would take longer.
+const FEW: usize = 5;
 /// The number of no triangle.
 const NONE: f64 = -1.0;
 
@@ -25,19 +27,14 @@ impl Cover {
     /// where it is not that of its number.
     pub fn fill(&mut self, table: &RasterTriangles, tile: &Tile, raster: &RasterPoints, in_order: bool) {
         let rows = raster.x.len();
-        let corner = [f64::from(tile.x), f64::from(tile.y)];
-        let steps = |points: &[f64], corner: f64, into: &mut Vec<f64>| {
-            into.clear();
-            // Rounded before the corner is taken away, so that no tile's size or place changes a sample.
-            into.extend(points.iter().map(|point| (point * SUBPIXELS + 0.5).floor() - corner * SUBPIXELS));
-        };
-        steps(&raster.x, corner[0], &mut self.x);
-        steps(&raster.y, corner[1], &mut self.y);
+        for column in [&mut self.x, &mut self.y] {
+            column.resize(rows, 0.0);
+        }
         self.nearness.clear();
         self.nearness.resize(rows, f64::NEG_INFINITY);
         self.nearest.clear();
         self.nearest.resize(rows, NONE);
-        cover(self, table, tile, in_order);
+        cover(self, table, (tile, raster), in_order);
     }
 
     /// The nearest triangle of a row and its nearness.
@@ -49,19 +46,30 @@ impl Cover {
 
 /// Tests the samples near each triangle of the tile's bins.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn cover(own: &mut Cover, table: &RasterTriangles, tile: &Tile, in_order: bool) {
-    for list in table.lists_of(tile) {
-        for &number in list {
-            let triangle = &table.triangles[number as usize];
+fn cover(own: &mut Cover, table: &RasterTriangles, (tile, raster): (&Tile, &RasterPoints), in_order: bool) {
+    let corner = [tile.x, tile.y].map(|pixels| f64::from(pixels) * SUBPIXELS);
+    for (points, corner, steps) in [(&raster.x, corner[0], &mut own.x), (&raster.y, corner[1], &mut own.y)] {
+        for (point, step) in points.iter().zip(steps) {
+            // Rounded before the corner is taken away, so that no tile's size or place changes a sample.
+            *step = (point * SUBPIXELS + 0.5).floor() - corner;
+        }
+    }
+    for (triangles, first, list) in table.lists_near(tile) {
+        for &place in list {
+            let triangle = &triangles[place as usize];
             let Some([[left, right], [top, bottom]]) = table.pixels_of(triangle, tile) else { continue };
-            let of_tile = TileTriangle::new(triangle, tile, number);
+            let of_tile = TileTriangle::new(triangle, tile, first + place as usize);
             if !in_order {
                 own.keep_nearest(&of_tile, 0..own.x.len());
                 continue;
             }
             for line in top..=bottom {
                 let start = line * tile.width as usize;
-                own.keep_nearest(&of_tile, start + left..start + right + 1);
+                let rows = start + left..start + right + 1;
+                match rows.len() < FEW {
+                    true => rows.for_each(|row| own.keep_nearest_at(&of_tile, row)),
+                    false => own.keep_nearest(&of_tile, rows),
+                }
             }
         }
     }
@@ -77,7 +85,7 @@ struct TileTriangle {
 
 impl TileTriangle {
     #[inline(always)]
-    fn new(triangle: &RasterTriangle, tile: &Tile, number: u32) -> Self {
+    fn new(triangle: &RasterTriangle, tile: &Tile, number: usize) -> Self {
         let [a, b, c] = triangle.corners;
         let corner = [tile.x, tile.y].map(|pixels| pixels as i32 * SUBPIXELS as i32);
         let [right, down, at_corner] = triangle.plane.coefficients;
@@ -86,7 +94,7 @@ impl TileTriangle {
             edges: [Edge::new(a, b, corner), Edge::new(b, c, corner), Edge::new(c, a, corner)],
             nearness: [right / SUBPIXELS, down / SUBPIXELS, own],
             range: triangle.plane.range,
-            number: f64::from(number),
+            number: number as f64,
         }
     }
 }
@@ -111,4 +119,18 @@ impl Cover {
         }
     }
     // ANCHOR_END: keep_nearest
+
+    /// The same for one row.
+    #[inline(always)]
+    fn keep_nearest_at(&mut self, triangle: &TileTriangle, row: usize) {
+        let [ab, bc, ca] = triangle.edges;
+        let [right, down, at_corner] = triangle.nearness;
+        let (x, y) = (self.x[row], self.y[row]);
+        if (ab.at(x, y) >= 0.0) & (bc.at(x, y) >= 0.0) & (ca.at(x, y) >= 0.0) {
+            let near = within(right * x + down * y + at_corner, triangle.range);
+            if near > self.nearness[row] {
+                (self.nearness[row], self.nearest[row]) = (near, triangle.number);
+            }
+        }
+    }
 }

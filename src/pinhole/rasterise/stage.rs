@@ -8,7 +8,7 @@ use crate::extract::{MeshTable, TriangleTable, kind_evidence, rasterisation_evid
 use crate::intersect::{HitPrimitives, Hits, NO_PRIMITIVE};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{ActivePixels, RasterPoints, Tile, WorldRays};
-use crate::shapes::{PlacedMesh, TriangleRow, triangle_t};
+use crate::shapes::{PAIRS, PlacedMesh, TrianglePairs, TriangleRow, triangle_t};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::DVec3;
@@ -35,30 +35,90 @@ pub fn rasterise_triangles(
     table: Res<Shared<RasterTriangles>>,
     triangles: Option<Res<Shared<TriangleTable>>>,
     meshes: Option<Res<Shared<MeshTable>>>,
-    mut cover: Local<Cover>,
+    mut found: Local<(Cover, TrianglePairs)>,
     mut tiles: Query<RasterView>,
 ) {
-    for RasterViewItem { tile, active, raster, rays, mut hits, mut primitives } in &mut tiles {
-        let in_order = raster.rows() == tile.rows() && active.is_none_or(|active| active.0.len() == tile.rows());
+    let (cover, pairs) = &mut *found;
+    let shapes = (triangles.as_deref(), meshes.as_deref());
+    for mut view in &mut tiles {
+        let (tile, raster) = (view.tile, view.raster);
+        let in_order = raster.rows() == tile.rows() && view.active.is_none_or(|active| active.0.len() == tile.rows());
         cover.fill(&table, tile, raster, in_order);
-        for row in 0..raster.rows() {
-            let Some((number, nearness)) = cover.nearest(row) else { continue };
-            let triangle = &table.triangles[number];
-            let ray = [rays.origin_of(row), rays.direction_of(row)];
-            let t = match (&triangles, &meshes) {
-                (_, Some(meshes)) if triangle.primitive != NO_PRIMITIVE => {
-                    meshes.row[triangle.row as usize].triangle_t(ray, triangle.primitive)
-                }
-                (Some(triangles), _) => triangle_t(ray[0], ray[1], &triangles.row[triangle.row as usize]),
-                _ => f64::INFINITY,
-            };
-            let t = if t < f64::INFINITY { t } else { plane_t(&projection, ray[1], nearness) };
-            let RasterTriangle { shape, primitive, .. } = *triangle;
-            if t < hits.t[row] || (t == hits.t[row] && shape < hits.shape[row]) {
-                (hits.t[row], hits.shape[row]) = (t, shape);
-                if let Some(primitives) = &mut primitives {
-                    primitives.primitive[row] = primitive;
-                }
+        let mut seen = (0..raster.rows()).filter_map(|row| cover.nearest(row).map(|nearest| (row, nearest)));
+        let (mut some, mut count) = ([Seen::default(); PAIRS], PAIRS);
+        while count == PAIRS {
+            count = 0;
+            for (row, (number, nearness)) in seen.by_ref().take(PAIRS) {
+                let RasterTriangle { shape, primitive, row: of, .. } = *table.triangle(number);
+                let ray = [view.rays.origin_of(row), view.rays.direction_of(row)];
+                let start = set_pair(pairs, count, ray, shapes, (of as usize, primitive));
+                some[count] = Seen { row, nearness, shape, primitive, of: of as usize, ray, start };
+                count += 1;
+            }
+            let found = pairs.t();
+            for (seen, t) in some[..count].iter().zip(found) {
+                let t = if t.is_nan() { uncertain_t(seen, shapes) } else { seen.start + t };
+                view.keep(seen, if t < f64::INFINITY { t } else { plane_t(&projection, seen.ray[1], seen.nearness) });
+            }
+        }
+    }
+}
+
+/// A row that sees a triangle: which one, and from where.
+#[derive(Clone, Copy, Debug, Default)]
+struct Seen {
+    row: usize,
+    nearness: f64,
+    shape: u32,
+    primitive: u32,
+    /// The row of the shape in its table.
+    of: usize,
+    ray: [DVec3; 2],
+    /// The t at which the ray starts where its triangle is.
+    start: f64,
+}
+
+/// The tables of the shapes that consist of triangles.
+type Shapes<'t> = (Option<&'t Shared<TriangleTable>>, Option<&'t Shared<MeshTable>>);
+
+/// Sets a pair of a ray and a triangle, and gives the t at which the ray starts there.
+#[inline(always)]
+fn set_pair(
+    pairs: &mut TrianglePairs,
+    place: usize,
+    ray: [DVec3; 2],
+    (triangles, meshes): Shapes<'_>,
+    (of, primitive): (usize, u32),
+) -> f64 {
+    match (triangles, meshes) {
+        (_, Some(meshes)) if primitive != NO_PRIMITIVE => meshes.row[of].set_pair(pairs, place, ray, primitive),
+        (Some(triangles), _) => {
+            pairs.set(place, ray, triangles.row[of].corners, triangles.row[of].size);
+            0.0
+        }
+        _ => f64::INFINITY,
+    }
+}
+
+/// The t of a ray that passes so near an edge that exact arithmetic has to say whether it hits.
+#[cold]
+fn uncertain_t(&Seen { primitive, of, ray, .. }: &Seen, (triangles, meshes): Shapes<'_>) -> f64 {
+    match (triangles, meshes) {
+        (_, Some(meshes)) if primitive != NO_PRIMITIVE => meshes.row[of].triangle_t(ray, primitive),
+        (Some(triangles), _) => triangle_t(ray[0], ray[1], &triangles.row[of]),
+        _ => f64::INFINITY,
+    }
+}
+
+impl RasterViewItem<'_, '_> {
+    /// Keeps a hit where it is the closest so far.
+    #[inline(always)]
+    fn keep(&mut self, &Seen { row, shape, primitive, .. }: &Seen, t: f64) {
+        let hits = &mut self.hits;
+        if t < hits.t[row] || (t == hits.t[row] && shape < hits.shape[row]) {
+            (hits.t[row], hits.shape[row]) = (t, shape);
+            if let Some(primitives) = &mut self.primitives {
+                primitives.primitive[row] = primitive;
             }
         }
     }

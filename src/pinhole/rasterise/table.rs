@@ -11,26 +11,49 @@ use crate::scene::SceneError;
 use crate::shapes::PlacedMesh;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// The side of a bin, in pixels.
 const BIN: u32 = 32;
 /// The fewest vertices or triangles that are worth a task of their own.
 const TASK: usize = 2048;
+/// How many runs a scene of many triangles is divided into; more would cost each tile more lists.
+const RUNS: usize = 64;
+/// The most triangles of a run, and the room for what clipping makes of them: eight of each at most.
+const LONGEST_RUN: usize = 1 << 17;
+const ROOM: usize = 8 * LONGEST_RUN;
 
 /// Triangles in raster space, in the order of their shapes' numbers and then of their own, and the bins that each of
 /// them is in.
+///
+/// They come in runs, each of them made and sorted by itself, on any thread.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RasterTriangles {
-    /// The triangles that cover some of the image.
-    pub triangles: Vec<RasterTriangle>,
-    /// Where the list of each bin starts, line by line, and where the last one ends.
-    starts: Vec<u32>,
-    /// The triangles of one bin after another, each list in ascending order.
-    lists: Vec<u32>,
+    runs: Vec<Run>,
     /// Bins from left to right, and from top to bottom.
     bins: [u32; 2],
     /// How far from a pixel's centre its samples may be, in 1/256 of a pixel.
     margin: i32,
+}
+
+/// Some triangles that cover some of the image, in order, and the lists of their bins.
+#[derive(Clone, Debug, PartialEq)]
+struct Run {
+    triangles: Vec<RasterTriangle>,
+    /// Where the list of each bin starts, line by line, and where the last one ends.
+    starts: Vec<u32>,
+    /// The triangles of one bin after another, each list in ascending order.
+    lists: Vec<u32>,
+}
+
+/// The first and last pixel to the right and downward.
+type Extent = [[u32; 2]; 2];
+
+/// The triangles of a run before they are sorted into bins, and the pixels that each may cover.
+#[derive(Default)]
+struct Unsorted {
+    triangles: Vec<RasterTriangle>,
+    extents: Vec<Extent>,
 }
 
 /// What makes raster triangles.
@@ -64,7 +87,7 @@ impl Setup<'_> {
 
     /// Appends a triangle, or the triangles that clipping leaves of it.
     #[inline(always)]
-    fn push(&self, corners: [Vertex; 3], whose: Whose, into: &mut Vec<RasterTriangle>) {
+    fn push(&self, corners: [Vertex; 3], whose: Whose, into: &mut Unsorted) {
         let clip = corners.map(|corner| corner.clip);
         match corners.map(|corner| corner.raster) {
             [Some(a), Some(b), Some(c)] => {
@@ -75,7 +98,7 @@ impl Setup<'_> {
     }
 
     #[cold]
-    fn push_clipped(&self, corners: [ClipPoint; 3], whose: Whose, into: &mut Vec<RasterTriangle>) {
+    fn push_clipped(&self, corners: [ClipPoint; 3], whose: Whose, into: &mut Unsorted) {
         let polygon: Polygon = self.planes.clip(corners);
         let Some((first, others)) = polygon.points().split_first() else { return };
         for pair in others.windows(2) {
@@ -96,22 +119,24 @@ impl Setup<'_> {
         mut corners: [[i32; 2]; 3],
         plane: impl FnOnce() -> Option<NearnessPlane>,
         whose: Whose,
-        into: &mut Vec<RasterTriangle>,
+        into: &mut Unsorted,
     ) {
         let area = edge_function(corners[0], corners[1], corners[2]);
-        if area == 0 || self.pixels(&corners).is_none() {
-            return;
-        }
+        let extent = if area == 0 { None } else { self.pixels(&corners) };
+        let Some(extent) = extent else { return };
         if area < 0 {
             corners.swap(1, 2);
         }
         let Whose { shape, primitive, row } = whose;
-        into.extend(plane().map(|plane| RasterTriangle { corners, shape, primitive, row, plane }));
+        if let Some(plane) = plane() {
+            into.triangles.push(RasterTriangle { corners, shape, primitive, row, plane });
+            into.extents.push(extent);
+        }
     }
 
     /// The pixels that a sample inside the triangle may belong to.
     #[inline(always)]
-    fn pixels(&self, corners: &[[i32; 2]; 3]) -> Option<[[u32; 2]; 2]> {
+    fn pixels(&self, corners: &[[i32; 2]; 3]) -> Option<Extent> {
         let size = [self.projection.size.x as i32, self.projection.size.y as i32];
         pixels_near(corners, self.margin, size)
     }
@@ -120,7 +145,7 @@ impl Setup<'_> {
 /// The first and last pixel to the right and downward whose centres are within a distance of the triangle's extent, in
 /// an image of this size.
 #[inline(always)]
-fn pixels_near(corners: &[[i32; 2]; 3], margin: i32, size: [i32; 2]) -> Option<[[u32; 2]; 2]> {
+fn pixels_near(corners: &[[i32; 2]; 3], margin: i32, size: [i32; 2]) -> Option<Extent> {
     const STEPS: i32 = SUBPIXELS as i32;
     let along = |axis: usize| {
         let [a, b, c] = corners.map(|corner| corner[axis]);
@@ -143,14 +168,51 @@ impl RasterTriangles {
         inside.then(|| [[own(left, tile.x), own(right, tile.x)], [own(top, tile.y), own(bottom, tile.y)]])
     }
 
-    /// The lists of the bins that a tile overlaps; of two bins, each may hold the same triangle.
-    pub fn lists_of(&self, tile: &Tile) -> impl Iterator<Item = &[u32]> {
+    /// The triangle with a number.
+    #[inline(always)]
+    pub fn triangle(&self, number: usize) -> &RasterTriangle {
+        &self.runs[number / ROOM].triangles[number % ROOM]
+    }
+
+    /// The bins that a tile overlaps, run by run: the triangles of the run, the number of the first of them, and which of
+    /// them are in the bin; of two bins, each may hold the same triangle.
+    pub fn lists_near(&self, tile: &Tile) -> impl Iterator<Item = (&[RasterTriangle], usize, &[u32])> {
         let bins = |start: u32, count: u32| start / BIN..=(start + count.max(1) - 1) / BIN;
-        let [across, _] = self.bins;
-        let columns = bins(tile.x, tile.width);
-        bins(tile.y, tile.height)
-            .flat_map(move |line| columns.clone().map(move |column| (line * across + column) as usize))
-            .map(|bin| &self.lists[self.starts[bin] as usize..self.starts[bin + 1] as usize])
+        let (columns, lines, across) = (bins(tile.x, tile.width), bins(tile.y, tile.height), self.bins[0]);
+        self.runs.iter().enumerate().flat_map(move |(number, run)| {
+            let columns = columns.clone();
+            let bins = lines.clone().flat_map(move |line| columns.clone().map(move |column| line * across + column));
+            bins.map(move |bin| (&run.triangles[..], number * ROOM, run.list(bin as usize)))
+        })
+    }
+}
+
+impl Run {
+    /// The triangles of a bin.
+    fn list(&self, bin: usize) -> &[u32] {
+        &self.lists[self.starts[bin] as usize..self.starts[bin + 1] as usize]
+    }
+
+    /// Sorts triangles into bins, each of which keeps their order.
+    fn binned(Unsorted { triangles, extents }: Unsorted, bins: [u32; 2]) -> Self {
+        let bins_of = |extent: &Extent| {
+            let [columns, lines] = extent.map(|[first, last]| first / BIN..=last / BIN);
+            lines.flat_map(move |line| columns.clone().map(move |column| (line * bins[0] + column) as usize))
+        };
+        let mut starts = vec![0_u32; (bins[0] * bins[1]) as usize + 1];
+        extents.iter().flat_map(bins_of).for_each(|bin| starts[bin + 1] += 1);
+        for bin in 1..starts.len() {
+            starts[bin] += starts[bin - 1];
+        }
+        let mut next = starts.clone();
+        let mut lists = vec![0; starts[starts.len() - 1] as usize];
+        for (place, extent) in extents.iter().enumerate() {
+            for bin in bins_of(extent) {
+                lists[next[bin] as usize] = place as u32;
+                next[bin] += 1;
+            }
+        }
+        Self { triangles, starts, lists }
     }
 }
 
@@ -168,100 +230,104 @@ impl Table for RasterTriangles {
             false => 0,
         };
         let setup = Setup { projection: &projection, planes, margin };
-        Ok(Self::binned(setup.of_shapes(&triangles, &meshes), margin, &projection))
+        let bins = [projection.size.x, projection.size.y].map(|pixels| (pixels as u32).div_ceil(BIN));
+        Ok(Self { runs: setup.runs(&Source::all(&setup, &triangles, &meshes), bins), bins, margin })
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(&self.triangles[..]) + size_of_val(&self.starts[..]) + size_of_val(&self.lists[..])
+        let of_run =
+            |run: &Run| size_of_val(&run.triangles[..]) + size_of_val(&run.starts[..]) + size_of_val(&run.lists[..]);
+        self.runs.iter().map(of_run).sum()
+    }
+}
+
+/// Triangles before they are clipped.
+enum Source<'s> {
+    /// Rows of the table of triangles.
+    Table(&'s TriangleTable, Range<usize>),
+    /// A mesh with its vertices in clip space, each projected once, however many triangles have it.
+    Mesh(&'s PlacedMesh, Vec<Vertex>, Whose),
+}
+
+impl<'s> Source<'s> {
+    /// Those of all shapes, in the order of their numbers.
+    fn all(setup: &Setup<'_>, triangles: &'s TriangleTable, meshes: &'s MeshTable) -> Vec<Self> {
+        let vertices: Vec<Vec<Vertex>> = meshes.row.par_iter().map(|mesh| setup.vertices(mesh)).collect();
+        let (mut all, mut next) = (Vec::new(), 0);
+        for (row, (mesh, vertices)) in meshes.row.iter().zip(vertices).enumerate() {
+            let shape = meshes.shape[row];
+            let until = triangles.shape.partition_point(|&own| own < shape);
+            all.push(Self::Table(triangles, next..until));
+            next = until;
+            all.push(Self::Mesh(mesh, vertices, Whose { shape, primitive: 0, row: row as u32 }));
+        }
+        all.push(Self::Table(triangles, next..triangles.row.len()));
+        all
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Table(_, rows) => rows.len(),
+            Self::Mesh(mesh, ..) => mesh.geometry.triangles.len(),
+        }
+    }
+
+    /// Appends some of the triangles, by their places in the source, to those of a run.
+    fn push(&self, setup: &Setup<'_>, places: Range<usize>, into: &mut Unsorted) {
+        match self {
+            Self::Table(table, rows) => {
+                for row in rows.start + places.start..rows.start + places.end {
+                    let corners = table.row[row].corners.map(|corner| setup.vertex(setup.projection.clip(corner)));
+                    let whose = Whose { shape: table.shape[row], primitive: NO_PRIMITIVE, row: row as u32 };
+                    setup.push(corners, whose, into);
+                }
+            }
+            Self::Mesh(mesh, vertices, whose) => {
+                for triangle in places {
+                    let corners = mesh.geometry.triangles[triangle].map(|vertex| vertices[vertex as usize]);
+                    setup.push(corners, Whose { primitive: triangle as u32, ..*whose }, into);
+                }
+            }
+        }
     }
 }
 
 impl Setup<'_> {
-    /// The raster triangles of all shapes, in the order of their numbers.
-    fn of_shapes(&self, triangles: &TriangleTable, meshes: &MeshTable) -> Vec<RasterTriangle> {
-        let (mut all, mut next) = (Vec::new(), 0);
-        for (mesh, (of_mesh, &shape)) in meshes.row.iter().zip(&meshes.shape).enumerate() {
-            let until = triangles.shape.partition_point(|&own| own < shape);
-            self.push_triangles(triangles, next..until, &mut all);
-            next = until;
-            let whose = Whose { shape, primitive: 0, row: mesh as u32 };
-            self.push_mesh(of_mesh, whose, &mut all);
-        }
-        self.push_triangles(triangles, next..triangles.row.len(), &mut all);
-        all
-    }
-
-    fn push_triangles(&self, triangles: &TriangleTable, rows: std::ops::Range<usize>, all: &mut Vec<RasterTriangle>) {
-        let (rows_of, shapes) = (&triangles.row[rows.clone()], &triangles.shape[rows.clone()]);
-        self.push_all(rows_of.len(), all, |place| {
-            let corners = rows_of[place].corners.map(|corner| self.vertex(self.projection.clip(corner)));
-            let row = (rows.start + place) as u32;
-            (corners, Whose { shape: shapes[place], primitive: NO_PRIMITIVE, row })
-        });
-    }
-
-    /// Projects each vertex of a mesh once, however many triangles have it.
-    fn push_mesh(&self, mesh: &PlacedMesh, whose: Whose, all: &mut Vec<RasterTriangle>) {
+    /// The vertices of a mesh in clip space.
+    fn vertices(&self, mesh: &PlacedMesh) -> Vec<Vertex> {
         let camera_from_world: DMat3 = self.projection.camera_from_world;
         let camera_from_object = camera_from_world * mesh.world_from_object;
         let position = camera_from_world * mesh.position;
+        let Projection { half, is_perspective, .. } = *self.projection;
         let vertices = mesh.geometry.positions.par_iter().with_min_len(TASK).map(|vertex| {
             let camera = camera_from_object * DVec3::from(vertex.map(f64::from)) + position;
-            let Projection { half, is_perspective, .. } = *self.projection;
             self.vertex(super::spaces::clip_from_camera(camera, half, is_perspective))
         });
-        let vertices: Vec<Vertex> = vertices.collect();
-        self.push_all(mesh.geometry.triangles.len(), all, |triangle| {
-            let corners = mesh.geometry.triangles[triangle].map(|vertex| vertices[vertex as usize]);
-            (corners, Whose { primitive: triangle as u32, ..whose })
-        });
+        vertices.collect()
     }
 
-    fn push_all(
-        &self,
-        count: usize,
-        all: &mut Vec<RasterTriangle>,
-        triangle: impl Fn(usize) -> ([Vertex; 3], Whose) + Sync,
-    ) {
-        let tasks = (0..count.div_ceil(TASK)).into_par_iter().map(|task| {
-            let places = task * TASK..count.min((task + 1) * TASK);
-            let mut own = Vec::with_capacity(places.len());
-            for place in places {
-                let (corners, whose) = triangle(place);
-                self.push(corners, whose, &mut own);
+    /// All raster triangles, in runs that depend on the number of triangles and on nothing else.
+    fn runs(&self, sources: &[Source<'_>], bins: [u32; 2]) -> Vec<Run> {
+        let starts: Vec<usize> = sources
+            .iter()
+            .scan(0, |next, source| {
+                let start = *next;
+                *next += source.len();
+                Some(start)
+            })
+            .collect();
+        let count: usize = sources.iter().map(Source::len).sum();
+        let length = count.div_ceil(RUNS).clamp(TASK, LONGEST_RUN);
+        let runs = (0..count.div_ceil(length)).into_par_iter().map(|run| {
+            let (start, end) = (run * length, count.min((run + 1) * length));
+            let mut unsorted = Unsorted::default();
+            let first = starts.partition_point(|&own| own <= start).saturating_sub(1);
+            for (source, &own) in sources[first..].iter().zip(&starts[first..]).take_while(|(_, own)| **own < end) {
+                let places = start.saturating_sub(own)..(end - own).min(source.len());
+                source.push(self, places, &mut unsorted);
             }
-            own
+            Run::binned(unsorted, bins)
         });
-        let parts: Vec<Vec<RasterTriangle>> = tasks.collect();
-        all.reserve(parts.iter().map(Vec::len).sum());
-        parts.iter().for_each(|part| all.extend_from_slice(part));
-    }
-}
-
-impl RasterTriangles {
-    /// Sorts triangles into bins, each of which keeps their order.
-    fn binned(triangles: Vec<RasterTriangle>, margin: i32, projection: &Projection) -> Self {
-        let size = [projection.size.x as i32, projection.size.y as i32];
-        let bins = size.map(|pixels| (pixels as u32).div_ceil(BIN));
-        let bins_of = |triangle: &RasterTriangle| {
-            let [columns, lines] = pixels_near(&triangle.corners, margin, size).unwrap_or([[1, 0]; 2]);
-            let columns = columns[0] / BIN..=columns[1] / BIN;
-            (lines[0] / BIN..=lines[1] / BIN)
-                .flat_map(move |line| columns.clone().map(move |column| (line * bins[0] + column) as usize))
-        };
-        let mut starts = vec![0_u32; (bins[0] * bins[1]) as usize + 1];
-        triangles.iter().flat_map(bins_of).for_each(|bin| starts[bin + 1] += 1);
-        for bin in 1..starts.len() {
-            starts[bin] += starts[bin - 1];
-        }
-        let mut next = starts.clone();
-        let mut lists = vec![0; starts[starts.len() - 1] as usize];
-        for (number, triangle) in triangles.iter().enumerate() {
-            for bin in bins_of(triangle) {
-                lists[next[bin] as usize] = number as u32;
-                next[bin] += 1;
-            }
-        }
-        Self { triangles, starts, lists, bins, margin }
+        runs.collect()
     }
 }

@@ -78,8 +78,12 @@ pub fn within(number: f64, [least, most]: [f64; 2]) -> f64 {
 /// A raster coordinate in 1/256 of a pixel.
 #[inline(always)]
 pub fn fixed(raster: DVec2) -> [i32; 2] {
-    // A saturating cast of a rounded number, which is far below its limits inside the guard band.
-    [(raster.x * SUBPIXELS + 0.5).floor() as i32, (raster.y * SUBPIXELS + 0.5).floor() as i32]
+    [raster.x, raster.y].map(|coordinate| {
+        let steps = coordinate * SUBPIXELS + 0.5;
+        // A cast rounds towards 0, and calls no function as `floor` would.
+        let towards_0 = steps as i32;
+        towards_0 - i32::from(f64::from(towards_0) > steps)
+    })
 }
 
 // ANCHOR: edge_function

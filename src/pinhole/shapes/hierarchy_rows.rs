@@ -52,10 +52,7 @@ pub fn keep_closest_of<S: Shape>(
             continue;
         }
         let mut leaves = ShapeLeaves { shapes, numbers, bvh, ray, closest, inner: &mut inner };
-        match closest.any {
-            true => traverse::<true>(bvh, ray, closest.t, &mut stack, &mut leaves),
-            false => traverse::<false>(bvh, ray, closest.t, &mut stack, &mut leaves),
-        }
+        traverse(closest.any, bvh, ray, closest.t, &mut stack, &mut leaves);
         hits.set(row, leaves.closest);
     }
 }

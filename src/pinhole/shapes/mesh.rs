@@ -24,7 +24,7 @@ pub struct PlacedMesh {
     /// The triangles.
     pub geometry: MeshGeometry,
     /// The same in a hierarchy.
-    hierarchy: Arc<MeshHierarchy>,
+    pub(super) hierarchy: Arc<MeshHierarchy>,
     /// The linear map from render space to object space.
     pub object_from_world: DMat3,
     /// Its inverse.
@@ -105,6 +105,7 @@ impl PlacedMesh {
     }
 
     /// A triangle in object space.
+    #[inline(always)]
     pub(super) fn triangle(&self, triangle: u32) -> TriangleRow {
         let corners = self.geometry.corners(triangle as usize).map(|corner| DVec3::from(corner.map(f64::from)));
         let size = corners.map(l1_norm).into_iter().fold(0.0, f64::max);
@@ -142,13 +143,7 @@ impl PlacedMesh {
         self.keep_closest_of_ray([origin, direction], 0, ClosestHit::NONE, &mut Stack::default())
     }
 
-    /// The t at which a ray hits one of the triangles, as the hierarchy finds it; infinity for a miss.
-    #[inline(always)]
-    pub fn triangle_t(&self, ray: [DVec3; 2], triangle: u32) -> f64 {
-        self.hierarchy.triangle_t(self.own_ray(ray), &self.triangle(triangle))
-    }
-
-    /// The same found by testing all triangles.
+    /// The closest hit, found by testing all triangles.
     pub fn closest_of_all(&self, origin: DVec3, direction: DVec3) -> ClosestHit {
         let (ray, start) = self.own_ray([origin, direction]);
         self.hierarchy.closest_of_all(ray, start)

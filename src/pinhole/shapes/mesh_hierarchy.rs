@@ -53,7 +53,6 @@ impl MeshHierarchy {
     /// The t at which a ray in object space, which starts at t = `start`, hits one triangle; infinity for a miss.
     ///
     /// It is the same to the last bit as in a leaf.
-    #[inline(always)]
     pub(super) fn triangle_t(&self, ([origin, direction], start): ([DVec3; 2], f64), triangle: &TriangleRow) -> f64 {
         start + MeshRay::new(origin, direction, start, self.size).triangle_t(triangle)
     }

@@ -34,14 +34,18 @@ impl PlacedMesh {
 }
 
 /// (B − A) × (C − A), from exact differences.
+#[inline(always)]
 pub(super) fn unnormalised_normal(triangle: &TriangleRow) -> DVec3 {
     let [a, b, c] = triangle.corners;
     let (one, other) = (b - a, c - a);
     let cross = one.cross(other);
     // Where a component cancels, f64 would turn the normal of a thin triangle.
     let largest = one.abs().max_element() * other.abs().max_element();
-    if cross.abs().max_element() > largest * (1.0 / (1_u64 << 24) as f64) {
-        return cross;
-    }
+    if cross.abs().max_element() > largest * (1.0 / (1_u64 << 24) as f64) { cross } else { exact_normal([a, b, c]) }
+}
+
+#[cold]
+#[inline(never)]
+fn exact_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     DVec3::from(exact_cross(&exact_difference(b, a), &exact_difference(c, a)).map(|part| part.rounded()))
 }

@@ -61,7 +61,7 @@ impl<'a> MeshTraversal<'a> {
     /// Visits one node or one leaf, and says whether there is more to visit.
     #[inline(always)]
     fn step<const ANY: bool>(&mut self, stack: &mut Stack) -> bool {
-        self.traversal.step::<ANY>(&self.leaves.hierarchy.bvh, stack, &mut self.leaves)
+        self.traversal.step(ANY, &self.leaves.hierarchy.bvh, stack, &mut self.leaves)
     }
 }
 
