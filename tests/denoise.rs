@@ -12,7 +12,7 @@ use pinhole_lab::measure::ray_aim::Draws;
 fn random(width: usize, height: usize, seed: u64) -> (Guides, [Vec<f32>; 3]) {
     let mut draws = Draws::new(1701, seed);
     let columns = || [(); 3].map(|()| vec![0.0_f32; width * height]);
-    let mut guides = Guides { width, normal: columns(), position: columns(), albedo: columns() };
+    let mut guides = Guides { width, normal: columns(), position: columns(), origin: [0.0; 3], albedo: columns() };
     let mut radiance = columns();
     let (mut normal, mut offset) = (DVec3::Z, DVec3::ZERO);
     for at in 0..width * height {

@@ -17,6 +17,8 @@ mod motion;
 mod order;
 mod plan;
 mod rasterisation;
+mod reprojection;
+mod reprojection;
 mod sampling;
 mod scenes;
 mod shapes;

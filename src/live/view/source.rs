@@ -1,7 +1,11 @@
 use bevy_ecs::prelude::World;
-use pinhole::film::{Curve, Film, byte_from_linear, denoise, rgba_bytes};
+use glam::DVec3;
+use pinhole::extract::{camera_entity, eye};
+use pinhole::film::{Curve, Film, History, byte_from_linear, rgba_bytes};
 use pinhole::plan::{Census, Plan, Stage};
+use pinhole::rasterise::Projection;
 use pinhole::render::{Execution, Lap, RenderInProgress, Watch, samples_after, steps_of};
+use pinhole::scene::Resolution;
 use pinhole::{Error, Result};
 use std::time::{Duration, Instant};
 
@@ -9,8 +13,39 @@ use std::time::{Duration, Instant};
 #[derive(Default)]
 pub struct FrameSource {
     render: Option<RenderInProgress>,
+    /// The pixels of the frame that it was begun with, which decided how many workers it has.
+    begun_with: u64,
     laps: Vec<Lap>,
+    /// What the frame before the last change has gathered, and what the last frame has.
+    gathered: [Option<Gathered>; 2],
 }
+
+/// Radiance with its surfaces, and where it was seen from.
+struct Gathered {
+    history: History,
+    projection: Projection,
+    eye: DVec3,
+}
+
+impl Gathered {
+    /// What a film has; none if the camera does not project, or the layers that it needs are not kept.
+    fn of(film: &Film, scene: &Census<'_>) -> Option<Self> {
+        let projection = *scene.table::<Projection>().ok()?;
+        Some(Self { history: History::of(film)?, projection, eye: eye(scene).ok()? })
+    }
+
+    /// With what an earlier frame knows of the same surfaces.
+    fn with_earlier(self, Self { history, projection, eye }: &Self) -> Self {
+        let raster_of = |point: DVec3| {
+            let clip = projection.clip(point - *eye);
+            (clip.depth > 0.0).then(|| projection.raster(clip))
+        };
+        Self { history: self.history.with_earlier(history, raster_of), ..self }
+    }
+}
+
+/// The samples of its own up to which a frame has those of earlier frames beside them.
+const MOST_BESIDE: u32 = 16;
 
 /// What a frame is to show; mode, pose and size stand on the scene's camera.
 pub struct Shot<'a> {
@@ -22,6 +57,8 @@ pub struct Shot<'a> {
     pub changed: bool,
     /// How long to take samples, beyond the first.
     pub patience: Duration,
+    /// Whether a frame takes over what earlier ones know of the same surfaces.
+    pub gathers: bool,
 }
 
 /// How far a picture is.
@@ -36,6 +73,7 @@ pub struct Progress<'r> {
     pub laps: Vec<Lap>,
     /// How long the stages ran, from the first tile to the last.
     pub time: Duration,
+    gathered: Option<&'r History>,
 }
 
 impl FrameSource {
@@ -47,9 +85,14 @@ impl FrameSource {
         if shot.changed {
             self.laps.clear();
         }
-        let begun = match self.render.take() {
+        let size = shot.scene.get::<Resolution>(camera_entity(shot.scene)?).copied().unwrap_or_default();
+        let pixels = u64::from(size.width) * u64::from(size.height);
+        // A larger frame may be worth more workers.
+        let kept = self.render.take().filter(|_| !(shot.changed && pixels > self.begun_with));
+        let begun = match kept {
             None => {
                 self.laps.clear();
+                self.begun_with = pixels;
                 RenderInProgress::begin(&scene(), shot.offer, &Execution::default())?
             }
             Some(mut render) => {
@@ -77,7 +120,24 @@ impl FrameSource {
         };
         let laps = laps.iter().enumerate().map(since).collect();
         let samples = [samples_after(step), render.sampling.samples];
-        Ok(Progress { plan: &render.plan, film: &render.film, samples, laps, time: render.time() - before })
+        if shot.changed {
+            self.gathered = [self.gathered[1].take(), None];
+        }
+        let gathers = shot.gathers && render.plan.view.is_none();
+        let own = if gathers { Gathered::of(&render.film, &scene()) } else { None };
+        // Once the camera has rested for a while, its own samples are enough, and have no bias.
+        let earlier = self.gathered[0].as_ref().filter(|_| samples[0] <= MOST_BESIDE);
+        self.gathered[1] = own.map(|own| match earlier {
+            Some(earlier) => own.with_earlier(earlier),
+            None => own,
+        });
+        let gathered = self.gathered[1].as_ref().map(|gathered| &gathered.history);
+        Ok(Progress { plan: &render.plan, film: &render.film, samples, laps, time: render.time() - before, gathered })
+    }
+
+    /// Forgets what earlier frames have gathered, since the scene is another.
+    pub fn forget(&mut self) {
+        self.gathered = [None, None];
     }
 
     /// The film so far, if there is one.
@@ -97,13 +157,13 @@ impl Progress<'_> {
         self.samples[0] >= self.samples[1]
     }
 
-    /// The picture, 8-bit RGBA, through so many levels of the denoiser where the film has the layers for it.
+    /// The picture, 8-bit RGBA, through so many levels of the denoiser where the frame gathers what it needs.
     ///
     /// Four times the samples have a quarter of the variance, and need a level less to hide it: the bias goes with it.
     pub fn pixels(&self, levels: u32) -> Vec<u8> {
-        let levels = levels.saturating_sub(self.samples[0].max(1).ilog2() / 2);
-        let smooth = if levels > 0 && self.plan.view.is_none() { denoise(self.film, levels) } else { None };
-        let Some([red, green, blue]) = smooth else { return rgba_bytes(self.film, curve(self.plan)) };
+        let Some(gathered) = self.gathered else { return rgba_bytes(self.film, curve(self.plan)) };
+        let samples = gathered.mean_samples().max(1.0) as u32;
+        let [red, green, blue] = gathered.denoised(levels.saturating_sub(samples.ilog2() / 2));
         let pixels = red.iter().zip(&green).zip(&blue);
         let byte = |linear: &f32| byte_from_linear(*linear, curve(self.plan));
         pixels.flat_map(|((red, green), blue)| [byte(red), byte(green), byte(blue), u8::MAX]).collect()

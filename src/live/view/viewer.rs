@@ -139,6 +139,7 @@ impl Viewer {
         }
         (self.world, self.offer, self.columns, self.full) = (world, offer, columns, full);
         self.choice = choice;
+        self.source.forget();
         self.renew();
         Ok(())
     }
@@ -158,7 +159,8 @@ impl Viewer {
         self.set_size(size);
         let patience = if moving { Duration::ZERO } else { BETWEEN_FRAMES };
         let changed = self.begun != Some(size);
-        let shot = Shot { scene: &self.world, offer: &self.offer, changed, patience };
+        let levels = MODES[self.choice.mode].denoised;
+        let shot = Shot { scene: &self.world, offer: &self.offer, changed, patience, gathers: levels > 0 };
         let until = UntilAnOrder(&self.waiting);
         // A frame of a camera that moves is short, and is shown before the next movement.
         let watch: &dyn Watch = if moving { &() } else { &until };
@@ -172,7 +174,7 @@ impl Viewer {
                     self.pace.note(rendered, progress.time);
                 }
                 self.done = progress.is_done() || (moving && divisor > 1);
-                let pixels = progress.pixels(MODES[self.choice.mode].denoised);
+                let pixels = progress.pixels(levels);
                 let head = FrameHead {
                     frame: self.shown.borrow().frame + 1,
                     change: self.change,

@@ -22,8 +22,10 @@ pub struct Guides {
     pub width: usize,
     /// Unit normals; 0 where nothing was hit.
     pub normal: [Vec<f32>; 3],
-    /// Positions, relative to one of them.
+    /// Positions, relative to the origin.
     pub position: [Vec<f32>; 3],
+    /// The first of the positions, so that the others are small numbers, in world space.
+    pub origin: [f64; 3],
     /// The albedo that radiance is divided by, so that textures stay sharp; 1 where nothing was hit.
     pub albedo: [Vec<f32>; 3],
 }
@@ -37,7 +39,7 @@ impl Guides {
         }
         let (width, height) = (film.width as usize, film.height as usize);
         let columns = || [(); 3].map(|()| vec![0.0; width * height]);
-        let mut guides = Self { width, normal: columns(), position: columns(), albedo: columns() };
+        let mut guides = Self { width, normal: columns(), position: columns(), origin: [0.0; 3], albedo: columns() };
         let mut origin = None;
         for (tile, layers) in film.tiles.iter().zip(&film.layers) {
             for row in 0..tile.tile.rows() {
@@ -58,20 +60,32 @@ impl Guides {
                 }
             }
         }
+        guides.origin = origin.unwrap_or_default();
         Some(guides)
+    }
+
+    /// Multiplies or divides radiance by the albedo.
+    pub(super) fn scale(&self, radiance: &mut [Vec<f32>; 3], by: fn(f32, f32) -> f32) {
+        for (own, albedo) in radiance.iter_mut().zip(&self.albedo) {
+            own.iter_mut().zip(albedo).for_each(|(own, &albedo)| *own = by(*own, albedo));
+        }
     }
 }
 
 /// Smooths a film's mean radiance; none if the film lacks one of the layers that guide the filter.
 pub fn denoise(film: &Film, levels: u32) -> Option<[Vec<f32>; 3]> {
-    let guides = Guides::of(film)?;
+    Some(denoise_radiance(means(film), &Guides::of(film)?, levels))
+}
+
+/// The mean radiance of all pixels, line by line from the top.
+pub(super) fn means(film: &Film) -> [Vec<f32>; 3] {
     let mut radiance = [(); 3].map(|()| vec![0.0; film.width as usize * film.height as usize]);
     for (at, [x, y]) in (0..film.height).flat_map(|y| (0..film.width).map(move |x| [x, y])).enumerate() {
         for (part, own) in film.mean(x, y).into_iter().zip(&mut radiance) {
             own[at] = part;
         }
     }
-    Some(denoise_radiance(radiance, &guides, levels))
+    radiance
 }
 
 /// Smooths radiance, row by row from the top, in as many levels; level i mixes pixels 2ⁱ apart, 5 × 5 of them.
@@ -83,16 +97,11 @@ pub fn denoise(film: &Film, levels: u32) -> Option<[Vec<f32>; 3]> {
 /// Illumination Filtering*, 2010, without their weight of colours).
 /// A pixel whose neighbours all differ from it keeps its radiance.
 pub fn denoise_radiance(mut radiance: [Vec<f32>; 3], guides: &Guides, levels: u32) -> [Vec<f32>; 3] {
-    let scaled = |radiance: &mut [Vec<f32>; 3], by: fn(f32, f32) -> f32| {
-        for (own, albedo) in radiance.iter_mut().zip(&guides.albedo) {
-            own.iter_mut().zip(albedo).for_each(|(own, &albedo)| *own = by(*own, albedo));
-        }
-    };
-    scaled(&mut radiance, |own, albedo| own / albedo);
+    guides.scale(&mut radiance, |own, albedo| own / albedo);
     for level in 0..levels {
         radiance = smoothed(&radiance, guides, 1 << level);
     }
-    scaled(&mut radiance, |own, albedo| own * albedo);
+    guides.scale(&mut radiance, |own, albedo| own * albedo);
     radiance
 }
 

@@ -26,6 +26,7 @@ mod layers;
 mod moments;
 mod plausible;
 mod png;
+mod reproject;
 mod splats;
 mod whole_file;
 
@@ -35,7 +36,6 @@ pub use crate::extract::linear_from_srgb;
 pub use accumulate::{add_to_film, film_stage};
 #[doc(hidden)]
 pub use checkpoint::{read_checkpoint, write_checkpoint};
-#[doc(hidden)]
 #[doc(hidden)]
 pub use denoise::{GUIDES, Guides, denoise, denoise_radiance};
 pub use develop::Curve;
@@ -56,6 +56,8 @@ pub use moments::{FilmMoments, add_to_moments, moments_stage, variance_evidence}
 pub use png::write_png;
 #[doc(hidden)]
 pub use png::{png_bytes, png_bytes_by, rgba_bytes};
+#[doc(hidden)]
+pub use reproject::History;
 #[doc(hidden)]
 pub use splats::{FilmSplats, SplatFilter};
 #[doc(hidden)]
