@@ -164,7 +164,7 @@ impl Viewer {
         let until = UntilAnOrder(&self.waiting);
         // A frame of a camera that moves is short, and is shown before the next movement.
         let watch: &dyn Watch = if moving { &() } else { &until };
-        self.begun = Some(size);
+        (self.begun, self.done) = (Some(size), false);
         match self.source.film(&shot, watch) {
             Ok(progress) => {
                 let names = progress.plan.stages.iter().map(|stage| stage.name);
@@ -196,17 +196,9 @@ impl Viewer {
 
     /// Says why there is no picture.
     fn fail(&mut self, sentence: String) {
-        let frame = self.shown.borrow().frame + 1;
-        let error = Some(sentence.clone());
-        let head = FrameHead {
-            frame,
-            change: self.change,
-            size: [0, 0],
-            samples: [0, 0],
-            milliseconds: 0.0,
-            stages: Vec::new(),
-            error,
-        };
+        let (frame, error) = (self.shown.borrow().frame + 1, Some(sentence.clone()));
+        let (size, samples, stages) = ([0, 0], [0, 0], Vec::new());
+        let head = FrameHead { frame, change: self.change, size, samples, milliseconds: 0.0, stages, error };
         self.shown.send_replace(Shown::new(&head, &[]));
         (self.error, self.done, self.begun) = (Some(sentence), true, Some(self.full));
     }
@@ -348,3 +340,6 @@ impl Viewer {
         )
     }
 }
+
+#[cfg(test)]
+mod tests;
