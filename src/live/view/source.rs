@@ -1,12 +1,13 @@
 use bevy_ecs::prelude::World;
 use glam::DVec3;
 use pinhole::extract::{camera_entity, eye};
-use pinhole::film::{Curve, Film, History, byte_from_linear, rgba_bytes};
+use pinhole::film::{Curve, Film, History, rgba_bytes};
 use pinhole::plan::{Census, Plan, Stage};
 use pinhole::rasterise::Projection;
 use pinhole::render::{Execution, Lap, RenderInProgress, Watch, samples_after, steps_of};
 use pinhole::scene::Resolution;
 use pinhole::{Error, Result};
+use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
 /// Where frames come from: one render at a time, which a change of the scene replaces.
@@ -140,9 +141,15 @@ impl FrameSource {
         self.gathered = [None, None];
     }
 
-    /// The film so far, if there is one.
-    pub fn last(&self) -> Option<(&Film, Curve)> {
-        self.render.as_ref().map(|render| (&render.film, curve(&render.plan)))
+    /// The film so far, if there is one; with levels, as the page shows it.
+    pub fn last(&self, levels: u32) -> Option<(Cow<'_, Film>, Curve)> {
+        let render = self.render.as_ref()?;
+        let gathered = self.gathered[1].as_ref().filter(|_| levels > 0);
+        let film = match gathered {
+            Some(Gathered { history, .. }) => Cow::Owned(denoised(history, &render.film, levels)),
+            None => Cow::Borrowed(&render.film),
+        };
+        Some((film, curve(&render.plan)))
     }
 
     /// The plan of the last frame.
@@ -158,16 +165,29 @@ impl Progress<'_> {
     }
 
     /// The picture, 8-bit RGBA, through so many levels of the denoiser where the frame gathers what it needs.
-    ///
-    /// Four times the samples have a quarter of the variance, and need a level less to hide it: the bias goes with it.
     pub fn pixels(&self, levels: u32) -> Vec<u8> {
-        let Some(gathered) = self.gathered else { return rgba_bytes(self.film, curve(self.plan)) };
-        let samples = gathered.mean_samples().max(1.0) as u32;
-        let [red, green, blue] = gathered.denoised(levels.saturating_sub(samples.ilog2() / 2));
-        let pixels = red.iter().zip(&green).zip(&blue);
-        let byte = |linear: &f32| byte_from_linear(*linear, curve(self.plan));
-        pixels.flat_map(|((red, green), blue)| [byte(red), byte(green), byte(blue), u8::MAX]).collect()
+        let curve = curve(self.plan);
+        self.gathered.map_or_else(
+            || rgba_bytes(self.film, curve),
+            |gathered| rgba_bytes(&denoised(gathered, self.film, levels), curve),
+        )
     }
+}
+
+/// What a frame has gathered, as a film with one sample of each pixel, smoothed in so many levels.
+///
+/// Four times the samples have a quarter of the variance, and need a level less to hide it: the bias goes with it.
+fn denoised(gathered: &History, of: &Film, levels: u32) -> Film {
+    let samples = gathered.mean_samples().max(1.0) as u32;
+    let radiance = gathered.denoised(levels.saturating_sub(samples.ilog2() / 2));
+    let mut film = Film::new(of.width, of.height, of.tile_side);
+    for tile in &mut film.tiles {
+        for row in 0..tile.tile.rows() {
+            let [x, y] = tile.tile.pixel_of(row);
+            tile.add(row, radiance.each_ref().map(|part| part[(y * of.width + x) as usize]));
+        }
+    }
+    film
 }
 
 /// A view's values are data; radiance is shown by the sRGB curve.

@@ -326,10 +326,14 @@ impl Viewer {
     }
 
     fn picture(&self, kind: Kind) -> Answer {
-        let Some((film, curve)) = self.source.last() else { return Answer::refused("there is no picture yet".into()) };
+        // A PNG is what is seen; an EXR is what was rendered, with its layers.
+        let levels = if kind == Kind::Png { MODES[self.choice.mode].denoised } else { 0 };
+        let Some((film, curve)) = self.source.last(levels) else {
+            return Answer::refused("there is no picture yet".into());
+        };
         let (media, ending, bytes) = match kind {
-            Kind::Png => ("image/png", "png", png_bytes(film, curve)),
-            Kind::Exr => ("image/x-exr", "exr", exr_bytes(film)),
+            Kind::Png => ("image/png", "png", png_bytes(&film, curve)),
+            Kind::Exr => ("image/x-exr", "exr", exr_bytes(&film)),
         };
         let stem: String =
             self.choice.scene.stem().chars().filter(|c| c.is_ascii_alphanumeric() || "-_".contains(*c)).collect();
