@@ -273,7 +273,7 @@ pub struct RenderChapter {
     pub watch: bool,
     /// Render the chapter with the function that you have written for its exercise in place of pinhole's (default: to
     /// out/, as 05_mine.png)
-    #[arg(long, conflicts_with = "watch")]
+    #[arg(long, conflicts_with_all = ["watch", "set"])]
     pub mine: bool,
     #[command(flatten)]
     pub options: RenderOptions,

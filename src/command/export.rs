@@ -5,7 +5,7 @@ use super::export_images::{carry_images, name_images_whole};
 use super::export_meshes::{name_models, write_meshes};
 use super::find::is_scene_file;
 use super::format::{Format, print_json, shown};
-use super::subject::Subject;
+use super::subject::{Subject, own_view};
 use pinhole::film::write_whole;
 use pinhole::scene::{meshes_in_memory, printable_path, scene_text};
 use pinhole::{Chapter, Overrides};
@@ -25,7 +25,7 @@ use std::path::Path;
 pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &mut dyn Write) -> Result {
     let subject = Subject::find(chapters, &asked.chapter)?;
     let mut world = subject.world(&Overrides { sampling: asked.sampling.asked(), ..Overrides::default() });
-    let note = subject.own_view(&mut world).map_or(String::new(), |column| {
+    let note = own_view(&mut world).map_or(String::new(), |column| {
         format!(
             "// {} shows `{column}`, a column of its own, which no scene file has: here is its picture.\n",
             subject.name()

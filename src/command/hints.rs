@@ -15,7 +15,7 @@ pub fn next(subject: &Subject<'_>, options: &RenderOptions, width: u32, height: 
     let name = name(subject)?;
     let pixel = format!("{},{}", width / 2, height * 3 / 5);
     let size = if options.scene.sets_resolution() { format!(" --size {width}x{height}") } else { String::new() };
-    Some(called(&format!("trace {name} --pixel {pixel}{size}")))
+    Some(called(&format!("trace {name} --pixel {pixel}{size}{}", options.scene.typed_settings())))
 }
 
 /// What names a subject again, for a shell; nothing does for what came through a pipe.

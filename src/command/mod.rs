@@ -5,6 +5,7 @@
 mod angles;
 mod arguments;
 mod called;
+mod chapter_text;
 mod check;
 mod closed_forms;
 mod compare;
@@ -117,18 +118,20 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
             render::render_mine(chapters, &exercises(), &asked, format, streams)
         }
         Some(Command::Render(asked)) => {
-            let subject = Subject::find(chapters, &asked.chapter)?;
+            let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.scene.set)?;
             render::render_subject(&subject, &asked.options(), format, streams)
         }
         Some(Command::Plan(asked)) => {
-            plan::print_plan(&Subject::find(chapters, &asked.chapter)?, &asked.options, format, out)
+            let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.set)?;
+            plan::print_plan(&subject, &asked.options, format, out)
         }
         Some(Command::Preflight(asked)) => preflight::print_preflight(chapters, &asked, format, out),
         Some(Command::Angles(asked)) => {
-            angles::print_angles(&Subject::find(chapters, &asked.chapter)?, &asked.options, format, out)
+            let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.set)?;
+            angles::print_angles(&subject, &asked.options, format, out)
         }
         Some(Command::Trace(asked)) => {
-            let subject = Subject::find(chapters, &asked.chapter)?;
+            let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.set)?;
             trace::print_trace(&subject, asked.pixel, asked.sample, asked.all, &asked.options, format, out)
         }
         Some(Command::View(asked)) => view::view(chapters, &asked, format, streams),

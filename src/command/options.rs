@@ -32,6 +32,10 @@ pub struct SceneOptions {
     /// Keep more of every pixel than its light: position,normal,albedo,depth_along_ray,entity,… or all
     #[arg(long, value_name = "LAYERS", value_parser = Layers::of_words)]
     pub layers: Option<Layers>,
+    /// Set a value of the scene, such as camera.perspective_camera.fov=62: an entity by its name, a component, a field;
+    /// may be given several times
+    #[arg(long, value_name = "ENTITY.COMPONENT.FIELD=VALUE")]
+    pub set: Vec<String>,
 }
 
 #[derive(Args, Clone, Default)]
@@ -133,7 +137,13 @@ impl SceneOptions {
         ]
         .into_iter()
         .filter_map(|(name, value)| Some(format!(" --{name} {}", value?)))
+        .chain([self.typed_settings()])
         .collect()
+    }
+
+    /// What to type so that another command sees the same scene.
+    pub fn typed_settings(&self) -> String {
+        self.set.iter().map(|setting| format!(" --set {}", quoted(setting))).collect()
     }
 }
 

@@ -17,7 +17,7 @@ use std::time::Instant;
 pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, format: Format, out: &mut dyn Write) -> Result {
     let began = Instant::now();
     if let Some(chapter) = &asked.chapter {
-        let subject = Subject::find(chapters, chapter)?;
+        let subject = Subject::find(chapters, chapter)?.set(&asked.options.set)?;
         let wanted = asked.options.asked(false);
         let told =
             said(&subject.world(&wanted), &subject.stages(), began).map_err(|error| subject.placed(error, &wanted))?;

@@ -22,12 +22,13 @@ use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::{Integrator, ModelNotes, Sampling};
 use pinhole_lab::exercise::{Mine, Outcome, PATIENCE, end_at_panics};
+use std::borrow::Cow;
 use std::path::Path;
 use std::time::Instant;
 
 /// The main job: the cover, to `out/`.
 pub fn render_cover(chapters: &[Chapter], format: Format, streams: &mut Streams<'_>) -> Result {
-    let cover = Subject::Chapter(find::chapter(chapters, "cover")?);
+    let cover = Subject::Chapter(Cow::Borrowed(find::chapter(chapters, "cover")?));
     render_subject(&cover, &RenderOptions::default(), format, streams)
 }
 
@@ -77,7 +78,7 @@ pub fn render_mine(
         options.output = vec![Path::new("out").join(format!("{number}_mine.png"))];
     }
     let subject = mine.chapter.clone();
-    render_with(&Subject::Chapter(&subject), &options, Some(mine), format, streams)
+    render_with(&Subject::Chapter(Cow::Owned(subject)), &options, Some(mine), format, streams)
 }
 
 /// Ends the program as any failed command does; a panic on a thread of a render leaves nobody else to do so.

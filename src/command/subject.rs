@@ -1,3 +1,4 @@
+use super::chapter_text::ChapterText;
 use super::error::{Error, Result};
 use super::find;
 use super::interrupt::interrupted;
@@ -6,6 +7,7 @@ use pinhole::extract::{camera_entity, validate};
 use pinhole::plan::{Census, PlanError, Stage};
 use pinhole::scene::{FileProblem, ModelScene, SceneFile, View, in_words_of_files, is_model_file};
 use pinhole::{Chapter, Overrides, stages};
+use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::path::Path;
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -18,7 +20,7 @@ const PAUSE: Duration = Duration::from_millis(100);
 /// What a reader names: a chapter, or a scene file.
 pub enum Subject<'c> {
     /// A chapter, with the stages that it offers.
-    Chapter(&'c Chapter),
+    Chapter(Cow<'c, Chapter>),
     /// A scene file, for which every stage of pinhole is on offer.
     File {
         /// The scene.
@@ -48,7 +50,28 @@ impl<'c> Subject<'c> {
         } else if asked == "-" {
             Ok(Self::File { file: from_standard_input()?, typed: typed() })
         } else {
-            Ok(Self::Chapter(find::chapter(chapters, asked)?))
+            Ok(Self::Chapter(Cow::Borrowed(find::chapter(chapters, asked)?)))
+        }
+    }
+
+    /// The same with other values, each as in `camera.perspective_camera.fov=62`.
+    ///
+    /// Errors: one sentence about the first that cannot be set.
+    pub fn set(self, settings: &[String]) -> Result<Self> {
+        match self {
+            same if settings.is_empty() => Ok(same),
+            Self::Chapter(chapter) => Ok(Self::Chapter(Cow::Owned(ChapterText::of(&chapter)?.set(settings)?))),
+            Self::File { mut file, typed } => {
+                for setting in settings {
+                    file = file.set(setting).map_err(Error::usage)?;
+                }
+                Ok(Self::File { file, typed })
+            }
+            Self::Model { typed, .. } => {
+                let what =
+                    format!("{typed} is a model file, which has no values to set: `export` makes a scene file of it");
+                Err(Error::CommandLine(what))
+            }
         }
     }
 
@@ -113,18 +136,6 @@ impl<'c> Subject<'c> {
         }
     }
 
-    /// Takes away the view of a column that scene files are not offered, and names it.
-    pub fn own_view(&self, world: &mut World) -> Option<String> {
-        let camera = camera_entity(world).ok()?;
-        let View { column } = world.get::<View>(camera)?.clone();
-        let offered = every_stage().offer.iter().flat_map(|stage| stage.writes.clone()).any(|kind| kind.name == column);
-        if offered {
-            return None;
-        }
-        world.entity_mut(camera).remove::<View>();
-        Some(column)
-    }
-
     /// The same error with file, line and column, where it is the file that is at fault.
     pub fn placed(&self, error: pinhole::Error, asked: &Overrides) -> Error {
         let Self::File { file, .. } = self else { return error.into() };
@@ -141,6 +152,18 @@ impl<'c> Subject<'c> {
         };
         FileProblem { path: file.path.clone(), place, what: in_words_of_files(&error.to_string()) }.into()
     }
+}
+
+/// Takes away the view of a column that scene files are not offered, and names it.
+pub fn own_view(world: &mut World) -> Option<String> {
+    let camera = camera_entity(world).ok()?;
+    let View { column } = world.get::<View>(camera)?.clone();
+    let offered = every_stage().offer.iter().flat_map(|stage| stage.writes.clone()).any(|kind| kind.name == column);
+    if offered {
+        return None;
+    }
+    world.entity_mut(camera).remove::<View>();
+    Some(column)
 }
 
 /// The scene on standard input, whose end Ctrl-C does not have to wait for.

@@ -55,8 +55,9 @@ pub fn render_at_every_save(
         last = Some(now);
         // A render has its own say in how it ends.
         drop(waits);
-        let rendered =
-            Subject::find(chapters, file).and_then(|subject| render_subject(&subject, &options, Format::Text, streams));
+        let rendered = Subject::find(chapters, file)
+            .and_then(|subject| subject.set(&options.scene.set))
+            .and_then(|subject| render_subject(&subject, &options, Format::Text, streams));
         waits = EndsByItself::begin();
         match rendered {
             Err(Error::Pinhole(pinhole::Error::Print(broken))) => return Err(broken.into()),

@@ -5,6 +5,7 @@ use crate::render::{Execution, Rendered, render};
 use crate::scene::{Adaptive, Filter, Layers, OPEN_END, Resolution, Sampler, Sampling, Statistics, View};
 use crate::{Result, stages};
 use bevy_ecs::prelude::*;
+use std::sync::Arc;
 
 /// Renders a scene with whichever of all stages it needs, on all cores.
 ///
@@ -57,13 +58,18 @@ pub struct Chapter {
     pub offer: Vec<Stage>,
     /// The column to paint instead of the picture, by name.
     pub view: Option<&'static str>,
-    scene: fn(&mut World),
+    scene: Arc<dyn Fn(&mut World) + Send + Sync>,
 }
 
 impl Chapter {
     /// A chapter that offers no stages yet.
     pub fn new(name: &'static str, title: &'static str, scene: fn(&mut World)) -> Self {
-        Self { name, title, scene, offer: Vec::new(), view: None }
+        Self { name, title, scene: Arc::new(scene), offer: Vec::new(), view: None }
+    }
+
+    /// The same stages for another scene.
+    pub fn with_scene(self, scene: impl Fn(&mut World) + Send + Sync + 'static) -> Self {
+        Self { scene: Arc::new(scene), ..self }
     }
 
     /// Offers one stage or several.

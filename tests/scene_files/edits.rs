@@ -115,3 +115,40 @@ fn twenty_edits_change_what_they_must_and_nothing_else() {
     }
     eprintln!("edits: {} rendered", EDITS.len());
 }
+
+/// What `--set` does to the text is what a person would do by hand.
+#[test]
+fn a_value_is_set_by_the_path_to_it() {
+    let text = "[(name: \"camera\", perspective_camera: (fov: 45.0), look_at: (eye: (0.0, 1.0, 4.0), target: (0.0, 1.0, \
+                0.0)), integrator: RayCasting), (name: \"ball 1.5\", sphere: ()), (name: \"post\"), (name: \"post\")]";
+    let file = SceneFile::parse(Path::new("scene.ron"), text.into()).expect("a scene");
+    let set = |setting: &str| file.set(setting).map(|file| file.text().to_owned());
+    for (setting, from, to) in [
+        ("camera.perspective_camera.fov=62", "fov: 45.0", "fov: 62"),
+        ("camera.look_at.eye.y=2.5", "(0.0, 1.0, 4.0)", "(0.0, 2.5, 4.0)"),
+        ("camera.look_at.target.2=-1", "1.0, 0.0))", "1.0, -1))"),
+        ("ball 1.5.sphere.radius=3", "sphere: ()", "sphere: (radius: 3, )"),
+        ("camera.perspective_camera.axis=Larger", "(fov: 45.0)", "(axis: Larger, fov: 45.0)"),
+        ("camera.integrator.Path.max_depth=3", "RayCasting", "Path(max_depth: 3)"),
+        ("ball 1.5.disabled=true", "(name: \"ball", "(disabled: true, name: \"ball"),
+    ] {
+        assert_eq!(set(setting), Ok(swap(text, from, to)), "{setting}");
+    }
+    for (setting, said) in [
+        ("camera.perspective_camera.fox=1", "a field `fox` is given, but its fields are `fov`, `axis`"),
+        ("camera.perspective_camera.fov=x", "fov is x, but it must be a number"),
+        ("camra.perspective_camera.fov=1", "no entity is named \"camra\"; the nearest is \"camera\""),
+        ("post.sphere.radius=1", "2 entities are named \"post\", but a value is set on one"),
+        ("ball 1.5.spere.radius=1", "the nearest is `sphere`"),
+        ("ball 1.5.sphere.radius=1, radius: 2", "is not one value"),
+        ("ball 1.5.sphere.radius=1) // ", "is not one value"),
+        ("camera.look_at.eye.7=1", "has no element `7`"),
+        ("ball 1.5.sphere", "a value is set as ENTITY.COMPONENT.FIELD=VALUE"),
+    ] {
+        let told = set(setting).expect_err(setting);
+        assert!(told.starts_with("cannot set `") && told.contains(said) && !told.contains('\n'), "{setting}: {told}");
+    }
+    assert_eq!(file.value("camera.look_at.eye.z").as_deref(), Ok("4.0"));
+    assert_eq!(file.value("camera.resolution.width").as_deref(), Ok("480"), "what is left out has its default");
+    assert!(file.value("camera.look_at.ey").is_err());
+}

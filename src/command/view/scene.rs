@@ -1,16 +1,13 @@
-use crate::command::export_images::name_images_whole;
-use crate::command::export_meshes::name_models;
-use crate::command::subject::{Subject, every_stage};
+use crate::command::chapter_text::{Held, text_of};
+use crate::command::subject::{Subject, every_stage, own_view};
 use bevy_ecs::prelude::*;
 use pinhole::film::write_whole;
 use pinhole::models::glb_of;
 use pinhole::plan::Stage;
-use pinhole::scene::{
-    EmbeddedFiles, FileKind, MODEL_FILE, Mesh, MeshInMemory, MeshInstance, SceneFile, UnreadMesh, meshes_in_memory,
-    read_file, scene_text,
-};
+use pinhole::scene::{FileKind, MODEL_FILE, SceneFile, read_file};
 use pinhole::{Chapter, Overrides};
 use pinhole_live::Scene;
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -41,10 +38,7 @@ struct Home {
     file: PathBuf,
     /// What the file is known to hold; none before it is there.
     saved: RefCell<Option<String>>,
-    /// What a chapter's text names and no file holds.
-    meshes: Vec<MeshInMemory>,
-    files: Vec<(String, &'static [u8])>,
-    embedded: Option<EmbeddedFiles>,
+    held: Held,
 }
 
 impl ViewedScene {
@@ -54,26 +48,17 @@ impl ViewedScene {
         if let Subject::File { file, typed } = subject {
             let text = file.text().to_owned();
             let saved = RefCell::new(Some(text.clone()));
-            let home = Home { file: file.path.clone(), saved, meshes: Vec::new(), files: Vec::new(), embedded: None };
+            let home = Home { file: file.path.clone(), saved, held: Held::default() };
             let source = Source::Other(Subject::File { file, typed });
             return Self { name, stem, text, source, home: Rc::new(home) };
         }
         let mut world = subject.world(&Overrides::default());
-        let _ = subject.own_view(&mut world);
-        name_models(&mut world, None);
-        let only_here = name_images_whole(&mut world);
-        let embedded = world.get_resource::<EmbeddedFiles>().copied();
-        let bytes_of = |name: String| Some((name.clone(), EmbeddedFiles::find(&world, &name)?));
-        let home = Home {
-            file: free_file(&stem),
-            saved: RefCell::default(),
-            meshes: meshes_in_memory(&world),
-            files: only_here.into_iter().filter_map(bytes_of).collect(),
-            embedded,
-        };
-        let text = scene_text(&world).unwrap_or_else(|error| format!("// There is no text of this scene: {error}\n"));
+        let _ = own_view(&mut world);
+        let (text, held) = text_of(world);
+        let home = Home { file: free_file(&stem), saved: RefCell::default(), held };
+        let text = text.unwrap_or_else(|error| format!("// There is no text of this scene: {error}\n"));
         let source = match subject {
-            Subject::Chapter(chapter) => Source::Chapter(chapter.clone()),
+            Subject::Chapter(chapter) => Source::Chapter(chapter.into_owned()),
             Subject::Model { model, typed } => Source::Other(Subject::Model { model, typed }),
             Subject::File { file, typed } => Source::Other(Subject::File { file, typed }),
         };
@@ -82,7 +67,7 @@ impl ViewedScene {
 
     fn with_subject<R>(&self, use_it: impl FnOnce(&Subject<'_>) -> R) -> R {
         match &self.source {
-            Source::Chapter(chapter) => use_it(&Subject::Chapter(chapter)),
+            Source::Chapter(chapter) => use_it(&Subject::Chapter(Cow::Borrowed(chapter))),
             Source::Other(subject) => use_it(subject),
         }
     }
@@ -90,8 +75,8 @@ impl ViewedScene {
     /// Writes what the text names and no file holds.
     fn save_beside(&self) -> Result<(), String> {
         let folder = self.home.file.parent().unwrap_or(Path::new("."));
-        let meshes = self.home.meshes.iter().map(|mesh| (&mesh.file, glb_of(&mesh.geometry)));
-        let files = self.home.files.iter().map(|(name, bytes)| (name, Some(bytes.to_vec())));
+        let meshes = self.home.held.meshes.iter().map(|mesh| (&mesh.file, glb_of(&mesh.geometry)));
+        let files = self.home.held.files.iter().map(|(name, bytes)| (name, Some(bytes.to_vec())));
         for (name, bytes) in meshes.chain(files) {
             let place = folder.join(name);
             let bytes = bytes.ok_or_else(|| format!("{name} cannot be written: it has more than 4 GiB"))?;
@@ -121,7 +106,7 @@ impl Scene for ViewedScene {
     fn world(&self) -> World {
         let mut world = self.with_subject(|subject| subject.world(&Overrides::default()));
         if matches!(self.source, Source::Other(Subject::File { .. })) {
-            self.home.fill_in(&mut world);
+            self.home.held.fill_in(&mut world);
         }
         world
     }
@@ -154,27 +139,6 @@ impl Scene for ViewedScene {
         write_whole(file, |file| file.write_all(self.text.as_bytes())).map_err(|error| error.to_string())?;
         *self.home.saved.borrow_mut() = Some(self.text.clone());
         Ok(file.clone())
-    }
-}
-
-impl Home {
-    /// Gives the scene of an edited text what only the program holds.
-    fn fill_in(&self, world: &mut World) {
-        if let Some(embedded) = self.embedded {
-            world.insert_resource(embedded);
-        }
-        let unread: Vec<(Entity, String)> = world
-            .query_filtered::<(Entity, &Mesh), With<UnreadMesh>>()
-            .iter(world)
-            .map(|(entity, mesh)| (entity, mesh.file.clone()))
-            .collect();
-        for (entity, file) in unread {
-            if let Some(mesh) = self.meshes.iter().find(|mesh| mesh.file == file) {
-                let mut entity = world.entity_mut(entity);
-                entity.remove::<(Mesh, UnreadMesh)>();
-                entity.insert(MeshInstance { geometry: mesh.geometry.clone() });
-            }
-        }
     }
 }
 

@@ -8,6 +8,7 @@
 //!
 //! [`words`] lists every component that a file may hold.
 
+mod edit;
 mod fingerprint;
 mod found;
 mod mistake;

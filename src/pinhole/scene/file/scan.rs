@@ -91,6 +91,39 @@ pub fn check_fields(text: &str, value: Range<usize>) -> Result<Vec<Part<'_>>, Mi
     if cursor.take('(') { cursor.parts() } else { Ok(Vec::new()) }
 }
 
+/// The name of an enum's variant with which a value begins; empty if it has another form.
+pub fn variant(text: &str, value: Range<usize>) -> &str {
+    Cursor { text, at: value.start }.take_word()
+}
+
+/// The byte offset after the bracket that opens a component's fields, if it has any.
+pub fn after_bracket(text: &str, value: Range<usize>) -> Option<usize> {
+    let mut cursor = Cursor { text: text.get(..value.end)?, at: value.start };
+    cursor.take_word();
+    cursor.skip_space().ok()?;
+    cursor.take('(').then_some(cursor.at)
+}
+
+/// The byte ranges of the elements of a tuple or a list; empty if the value has another form.
+pub fn elements(text: &str, value: Range<usize>) -> Vec<Range<usize>> {
+    let mut cursor = Cursor { text: text.get(..value.end).unwrap_or(""), at: value.start };
+    let mut elements = Vec::new();
+    while cursor.take(if elements.is_empty() { '(' } else { ',' }) || (elements.is_empty() && cursor.take('[')) {
+        match cursor.value() {
+            Ok(element) => elements.push(element),
+            Err(_) => break,
+        }
+    }
+    elements
+}
+
+/// Whether a text is one value, without anything after it.
+pub fn is_one_value(text: &str) -> bool {
+    let closed = format!("{text})");
+    let mut cursor = Cursor { text: &closed, at: 0 };
+    cursor.value().is_ok_and(|value| value == (0..text.len()))
+}
+
 /// Reports a file that ends too early by the line on which the unfinished entity begins.
 fn unclosed(text: &str, began: usize, mistake: Mistake) -> Mistake {
     if mistake.at < text.len() || mistake.what.starts_with("the file ends here") {

@@ -1,3 +1,5 @@
+use super::edit::{value_at, with_value};
+use super::found::shown;
 use super::mistake::{Mistake, place_of};
 use super::read::{FileEntity, read_entity};
 use super::refer::resolve;
@@ -38,6 +40,26 @@ impl SceneFile {
                 Err(FileProblem { path: path.into(), place, what: mistake.what })
             }
         }
+    }
+
+    /// The same scene with another value, written as `camera.perspective_camera.fov=62`: an entity by its name, a
+    /// component and its fields by their words, an element of a tuple by its number or as `x`, `y`, `z`.
+    ///
+    /// What the text leaves out is inserted.
+    /// A capitalised word is a variant, as in `camera.integrator.Path.max_depth=3`, and replaces another one.
+    ///
+    /// Errors: nothing has that name, or the scene is no longer valid with it, in one sentence.
+    pub fn set(&self, setting: &str) -> Result<Self, String> {
+        let refused = |what| format!("cannot set `{}`: {what}", shown(setting));
+        let text = with_value(&self.text, &self.entities, setting).map_err(refused)?;
+        Self::parse(&self.path, text).map_err(|problem| refused(problem.what))
+    }
+
+    /// The text of a value that [`set`](Self::set) could set, or that of its default.
+    ///
+    /// Errors: nothing has that name, in one sentence.
+    pub fn value(&self, path: &str) -> Result<String, String> {
+        value_at(&self.text, &self.entities, path)
     }
 
     /// The text that it was read from.
