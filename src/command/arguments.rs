@@ -61,6 +61,9 @@ pub enum Command {
     Trace(TraceChapter),
     /// Look at a scene in the browser: move the camera, paint columns, trace pixels, switch stages, edit, save
     View(ViewScene),
+    /// Render what a program asks for on standard input, line by line: the book's live figures
+    #[command(hide = true)]
+    Live(LiveFigures),
     /// Try the methods where numbers are hardest, beside the naive ones and exact arithmetic
     Extremes(TryExtremes),
     /// Compare whole renders with closed forms, and print each one's standard error
@@ -318,6 +321,16 @@ pub struct ViewScene {
     /// Print the address, and open no browser
     #[arg(long)]
     pub no_open: bool,
+}
+
+#[derive(Args)]
+pub struct LiveFigures {
+    /// Print the values of this chapter's scene that --value names, and end
+    #[arg(requires = "value")]
+    pub chapter: Option<OsString>,
+    /// A value, such as camera.perspective_camera.fov
+    #[arg(long, value_name = "ENTITY.COMPONENT.FIELD", requires = "chapter")]
+    pub value: Vec<String>,
 }
 
 impl RenderChapter {

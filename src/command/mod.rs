@@ -25,6 +25,7 @@ mod format;
 mod hints;
 mod interrupt;
 mod list;
+mod live;
 mod long_render;
 mod mutation;
 mod options;
@@ -135,6 +136,7 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
             trace::print_trace(&subject, asked.pixel, asked.sample, asked.all, &asked.options, format, out)
         }
         Some(Command::View(asked)) => view::view(chapters, &asked, format, streams),
+        Some(Command::Live(asked)) => live::live(chapters, &asked, out),
         Some(Command::Export(asked)) => export::export(chapters, &asked, format, out),
         Some(Command::ClosedForms(asked)) => closed_forms::print_closed_forms(&asked, format, out),
         Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, format, out),

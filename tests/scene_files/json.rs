@@ -49,7 +49,7 @@ const LINES: &[(&[&str], Says)] = &[
 ];
 const CARD: &str = "chapters/16_textures/card.png";
 /// Help and scripts for shells are no data; what `render` says is tried beside the pictures that it writes.
-const TRIED_ELSEWHERE: [&str; 4] = ["help", "completions", "render", "view"];
+const TRIED_ELSEWHERE: [&str; 5] = ["help", "completions", "render", "view", "live"];
 
 /// What a command line prints, and the sentence that it ends with where it fails.
 fn printed(chapters: &[Chapter], line: &[&str], format: &str) -> (String, Option<String>) {

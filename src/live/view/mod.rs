@@ -1,5 +1,6 @@
 //! A scene in the browser: its page, the orders that the page sends, and the viewer that carries them out.
 
+mod figure;
 mod modes;
 mod orbit;
 mod order;
@@ -13,6 +14,7 @@ mod source;
 mod traced;
 mod viewer;
 
+pub use figure::LiveFigure;
 pub use modes::{MODES, Mode};
 pub use scene::Scene;
 
