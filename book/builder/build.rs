@@ -43,7 +43,7 @@ pub fn build(book: &Book, program: &Rc<RefCell<Program>>) -> Result<(), String> 
         return Err(told(&problems));
     }
     let mdbook = |error: mdbook_driver::errors::Error| format!("{error:#}");
-    let pictures = Rc::new(RefCell::new(Pictures::new()));
+    let pictures = Rc::new(RefCell::new(Pictures::default()));
     let mut site = MDBook::load_with_config(book.root(), config(book)?).map_err(mdbook)?;
     site.with_preprocessor(Pages { written, program: Rc::clone(program), pictures: Rc::clone(&pictures) });
     site.build().map_err(mdbook)?;
@@ -61,10 +61,11 @@ fn config(book: &Book) -> Result<Config, String> {
 fn write_pictures(folder: &Path, pictures: &Pictures) -> Result<(), String> {
     let failed = |error: std::io::Error| format!("{} cannot be written: {error}.", folder.display());
     std::fs::create_dir_all(folder).map_err(failed)?;
-    for (name, (_, bytes)) in pictures {
+    for (name, (_, bytes)) in &pictures.files {
         std::fs::write(folder.join(name), bytes).map_err(failed)?;
     }
-    Ok(())
+    let live = serde_json::to_vec(&pictures.live).map_err(|error| error.to_string())?;
+    std::fs::write(folder.join("live.json"), live).map_err(failed)
 }
 
 #[cfg(test)]

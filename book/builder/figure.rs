@@ -1,6 +1,7 @@
 //! Figures: a picture that pinhole made, its caption, and the command that makes it.
 
 use crate::edit::escape;
+use crate::live_figure::LiveFigure;
 use crate::math;
 use crate::program::Program;
 use pulldown_cmark::{Event, Options, Parser};
@@ -17,10 +18,22 @@ const SHOWS_PIXELS: u32 = 200;
 const GROWN: u32 = 480;
 
 /// The pictures of one build, by the name they will have under `figures/`.
-pub type Pictures = BTreeMap<String, (String, Rc<[u8]>)>;
+#[derive(Debug, Default)]
+pub struct Pictures {
+    /// Each with its command.
+    pub files: BTreeMap<String, (String, Rc<[u8]>)>,
+    /// Those whose values a reader of the served book moves, by the name that the page has for them.
+    pub live: BTreeMap<String, LiveFigure>,
+}
 
 /// The block that stands for one figure directive.
-pub fn block(program: &mut Program, pictures: &mut Pictures, command: &str, caption: &str) -> Result<String, String> {
+pub fn block(
+    program: &mut Program,
+    pictures: &mut Pictures,
+    command: &str,
+    caption: &str,
+    moves: &str,
+) -> Result<String, String> {
     let spoken = escape(&plain(caption));
     let drawn = ["figure", "report"].contains(&command.split_whitespace().next().unwrap_or_default())
         || command.split_whitespace().any(|word| word == "--gallery");
@@ -34,13 +47,20 @@ pub fn block(program: &mut Program, pictures: &mut Pictures, command: &str, capt
         image(&store(pictures, command, file), size, &spoken)
     };
     let caption = math::expand(caption)?;
+    let mut live = String::new();
+    if !moves.is_empty() {
+        let figure = LiveFigure::read(program, command, moves)?;
+        let name = format!("{}-{}", stem_of(command), pictures.live.len() + 1);
+        live = format!(" data-live=\"{name}\"");
+        pictures.live.insert(name, figure);
+    }
     // A line may break between the words of a command, never inside `--size`.
     let words = [TYPED, command].join(" ");
     let words: Vec<String> = words.split_whitespace().map(|word| format!("<span>{}</span>", escape(word))).collect();
     let made = words.join(" ");
     // Blank lines let markdown into the caption; the picture itself must hold none.
     Ok(format!(
-        "\n<figure>\n{picture}\n<figcaption>\n\n{caption}\n\n\
+        "\n<figure{live}>\n{picture}\n<figcaption>\n\n{caption}\n\n\
          <div class=\"made\">made by <code>{made}</code></div>\n</figcaption>\n</figure>\n"
     ))
 }
@@ -81,11 +101,11 @@ fn store(pictures: &mut Pictures, command: &str, file: Rc<[u8]>) -> String {
     let mut name = format!("{stem}.png");
     let mut count = 1;
     // Two commands may come down to the same letters.
-    while pictures.get(&name).is_some_and(|(other, _)| other != command) {
+    while pictures.files.get(&name).is_some_and(|(other, _)| other != command) {
         count += 1;
         name = format!("{stem}-{count}.png");
     }
-    pictures.insert(name.clone(), (command.to_owned(), file));
+    pictures.files.insert(name.clone(), (command.to_owned(), file));
     name
 }
 
@@ -145,21 +165,21 @@ mod tests {
 
     #[test]
     fn a_picture_has_its_size_and_its_command() {
-        let mut pictures = Pictures::new();
+        let mut pictures = Pictures::default();
         let program = program(SVG);
-        let block = block(&mut program.borrow_mut(), &mut pictures, "render 05_x --size 96x54", "A *box* of `a<b`");
+        let block = block(&mut program.borrow_mut(), &mut pictures, "render 05_x --size 96x54", "A *box* of `a<b`", "");
         let block = block.expect("a figure");
         let image = "<img src=\"figures/render-05_x-size-96x54.png\" width=\"96\" height=\"54\" \
                      alt=\"A box of a&lt;b\" class=\"pixels\" style=\"width: 480px\">";
         assert!(block.contains(image), "{block}");
         assert!(block.contains("<span>--size</span> <span>96x54</span></code></div>"), "{block}");
-        assert!(pictures.contains_key("render-05_x-size-96x54.png"));
+        assert!(pictures.files.contains_key("render-05_x-size-96x54.png"));
     }
 
     #[test]
     fn a_drawing_is_inlined_and_fluid() {
         let program = program(SVG);
-        let block = block(&mut program.borrow_mut(), &mut Pictures::new(), "figure 05_x", "It");
+        let block = block(&mut program.borrow_mut(), &mut Pictures::default(), "figure 05_x", "It", "");
         let expected = "<figure>\n<svg xmlns=\"s\" viewBox=\"0 0 300 9\" role=\"img\" aria-label=\"It\" \
                         style=\"width: 100%; max-width: 300px; height: auto\">\n<g id=\"figure-05_x-a\" fill=\"url(#figure-05_x-a)\"/>\n</svg>\n<figcaption>";
         assert!(block.as_ref().is_ok_and(|block| block.contains(expected)), "{block:?}");
@@ -168,13 +188,14 @@ mod tests {
     #[test]
     fn a_drawing_without_a_view_box_is_refused() {
         let program = program("<svg width=\"3\"></svg>");
-        let told = block(&mut program.borrow_mut(), &mut Pictures::new(), "figure 05_x", "It").expect_err("refused");
+        let told =
+            block(&mut program.borrow_mut(), &mut Pictures::default(), "figure 05_x", "It", "").expect_err("refused");
         assert_eq!(told, "`figure 05_x` wrote an SVG without a viewBox, which cannot be fitted to a page.");
     }
 
     #[test]
     fn names_do_not_collide() {
-        let mut pictures = Pictures::new();
+        let mut pictures = Pictures::default();
         let bytes: Rc<[u8]> = Rc::from(PNG);
         assert_eq!(store(&mut pictures, "render a --b", Rc::clone(&bytes)), "render-a-b.png");
         assert_eq!(store(&mut pictures, "render a -b", Rc::clone(&bytes)), "render-a-b-2.png");

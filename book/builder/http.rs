@@ -1,7 +1,8 @@
 //! Shows the book to a browser on this machine, by the server that the viewer has.
 
+use crate::live::{self, Live};
 use crate::site::Site;
-use pinhole_live::{Answer, start};
+use pinhole_live::start;
 use std::io;
 use std::net::TcpListener;
 use std::sync::{Arc, PoisonError, RwLock};
@@ -25,10 +26,16 @@ impl Shown {
 }
 
 /// Answers on a thread of its own, for as long as the program runs.
-pub fn show(listener: TcpListener, shown: Shown, patience: Duration) -> io::Result<JoinHandle<()>> {
+pub fn show(
+    listener: TcpListener,
+    shown: Shown,
+    live: Option<Arc<Live>>,
+    patience: Duration,
+) -> io::Result<JoinHandle<()>> {
     start(listener, patience, move |request| {
-        let answer: Answer = shown.now().answer(&request);
-        std::future::ready(answer)
+        let site = shown.now();
+        let begun = live.as_ref().and_then(|live| live.begin(&site, &request));
+        live::answer(begun.unwrap_or_else(|| Err(site.answer(&request))))
     })
 }
 
@@ -45,7 +52,7 @@ pub mod tests {
     pub fn served(shown: &Shown, patience: Duration) -> u16 {
         let listener = TcpListener::bind(("127.0.0.1", 0)).expect("a free port");
         let port = listener.local_addr().expect("an address").port();
-        show(listener, shown.clone(), patience).expect("a server");
+        show(listener, shown.clone(), None, patience).expect("a server");
         port
     }
 
@@ -73,7 +80,7 @@ pub mod tests {
         let folder = tempfile::tempdir().expect("a temporary folder");
         fs::write(folder.path().join("page.txt"), vec![b'a'; bytes]).expect("a page");
         let shown = Shown::default();
-        shown.replace(Site::read(folder.path(), 1).expect("a site"));
+        shown.replace(Site::read(folder.path(), 1, "").expect("a site"));
         (folder, shown)
     }
 

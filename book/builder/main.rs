@@ -2,7 +2,7 @@
 //!
 //! The pages are `book/src/*.md`. mdBook makes the site; what stands here is what mdBook does not do: checks that
 //! fail ([`check`]), formulas without a network ([`math`]), listings, and text and pictures made by pinhole at every
-//! build ([`page`], [`program`], [`figure`]).
+//! build ([`page`], [`program`], [`figure`]). Served, figures have values that a reader moves ([`live`]).
 
 mod build;
 #[expect(dead_code, reason = "tests/book.rs includes this module too and asks for more than a build does")]
@@ -10,6 +10,8 @@ mod check;
 mod edit;
 mod figure;
 mod http;
+mod live;
+mod live_figure;
 mod math;
 mod page;
 mod program;
@@ -26,7 +28,7 @@ use std::time::Instant;
 #[derive(Debug, Parser)]
 #[command(bin_name = "cargo run -p book --")]
 struct Arguments {
-    /// Shows the book in a browser on this machine, and follows every change
+    /// Shows the book in a browser on this machine, its figures with controls, and follows every change
     #[arg(long)]
     serve: bool,
     /// The port at which it is shown

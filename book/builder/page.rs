@@ -65,8 +65,8 @@ pub fn expand(
             (Some(Ok(Directive::Pinhole { command })), None) => {
                 program.text(command).map(|text| printed(command, &text))
             }
-            (Some(Ok(Directive::Figure { command, caption })), None) => {
-                figure::block(program, pictures, command, caption)
+            (Some(Ok(Directive::Figure { command, caption, moves })), None) => {
+                figure::block(program, pictures, command, caption, moves)
             }
             (Some(Ok(Directive::Include { path, anchor })), Some(_)) => {
                 let margin = &line.text[..line.text.len() - line.text.trim_start().len()];
@@ -133,7 +133,7 @@ mod tests {
             "plan" => writeln!(out, "```\nkept <b> & $x$\n```").map_err(|error| error.to_string()),
             _ => Err("no such command.".to_owned()),
         });
-        let expanded = expand(&made_up("a.md", text), &mut program.borrow_mut(), &mut Pictures::new());
+        let expanded = expand(&made_up("a.md", text), &mut program.borrow_mut(), &mut Pictures::default());
         expanded.map_err(|problems| problems.iter().map(ToString::to_string).collect())
     }
 

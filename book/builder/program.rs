@@ -17,6 +17,7 @@ type Make = dyn Fn() -> Result<(), String>;
 pub struct Program {
     run: Box<Run>,
     make: Box<Make>,
+    place: Option<Rc<RefCell<PathBuf>>>,
     answers: HashMap<(String, Option<&'static str>), Result<Rc<[u8]>, String>>,
 }
 
@@ -31,6 +32,7 @@ impl Program {
         let place = Rc::new(RefCell::new(compiled(&top, "release")?));
         let asked = Rc::clone(&place);
         let program = Self::with(move |words, out| ask(&asked.borrow(), words, out));
+        program.borrow_mut().place = Some(Rc::clone(&place));
         program.borrow_mut().make = Box::new(move || {
             *place.borrow_mut() = compiled(&top, "edit")?;
             Ok(())
@@ -40,7 +42,12 @@ impl Program {
 
     /// A program that answers as the function does.
     pub fn with(run: impl Fn(&[String], &mut dyn Write) -> Result<(), String> + 'static) -> Rc<RefCell<Self>> {
-        Rc::new(RefCell::new(Self { run: Box::new(run), make: Box::new(|| Ok(())), answers: HashMap::new() }))
+        Rc::new(RefCell::new(Self {
+            run: Box::new(run),
+            make: Box::new(|| Ok(())),
+            place: None,
+            answers: HashMap::new(),
+        }))
     }
 
     /// Forgets every answer and compiles what has changed, so that the next build asks again.
@@ -51,9 +58,24 @@ impl Program {
         (self.make)()
     }
 
+    /// Where the program is, once it is one of this repository.
+    pub fn place(&self) -> Option<PathBuf> {
+        self.place.as_ref().map(|place| place.borrow().clone())
+    }
+
+    /// The values in a chapter's scene that these paths lead to, one a line.
+    pub fn values(&mut self, chapter: &str, paths: &[&str]) -> Result<String, String> {
+        let mut words = vec!["live".to_owned(), chapter.to_owned()];
+        words.extend(paths.iter().flat_map(|path| ["--value".to_owned(), (*path).to_owned()]));
+        let command = words.join(" ");
+        let printed = self.answer(&command, None, |program| program.printed(&command, &words))?;
+        Ok(String::from_utf8_lossy(&printed).into_owned())
+    }
+
     /// What the command prints.
     pub fn text(&mut self, command: &str) -> Result<String, String> {
-        let printed = self.answer(command, None, |program| program.printed(command))?;
+        let words: Vec<String> = command.split_whitespace().map(str::to_owned).collect();
+        let printed = self.answer(command, None, |program| program.printed(command, &words))?;
         Ok(String::from_utf8_lossy(&printed).trim_end().to_owned())
     }
 
@@ -77,11 +99,10 @@ impl Program {
         answer
     }
 
-    fn printed(&self, command: &str) -> Result<Vec<u8>, String> {
-        let words: Vec<String> = command.split_whitespace().map(str::to_owned).collect();
+    fn printed(&self, command: &str, words: &[String]) -> Result<Vec<u8>, String> {
         let mut out = Vec::new();
         let failed = |error: String| format!("`{command}` failed: {}", error.trim_end());
-        (self.run)(&words, &mut out).map_err(failed)?;
+        (self.run)(words, &mut out).map_err(failed)?;
         Ok(out)
     }
 

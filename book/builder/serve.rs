@@ -2,6 +2,7 @@
 
 use crate::build::{Book, build};
 use crate::http::{Shown, show};
+use crate::live::Live;
 use crate::program::Program;
 use crate::say;
 use crate::site::Site;
@@ -12,6 +13,7 @@ use std::io::{ErrorKind, Write};
 use std::net::TcpListener;
 use std::path::PathBuf;
 use std::rc::Rc;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// How often the files are looked at.
@@ -21,11 +23,13 @@ const PACE: Duration = Duration::from_millis(300);
 pub fn serve(book: &Book, program: &Rc<RefCell<Program>>, port: u16, out: &mut dyn Write) -> Result<(), String> {
     let listener = listen(port)?;
     let address = listener.local_addr().map_err(|error| error.to_string())?;
+    let failed = |error| format!("the book cannot be shown at port {}: {error}.", address.port());
+    let place = program.borrow().place().unwrap_or_default();
+    let live = Arc::new(Live::new(address.port(), place).map_err(failed)?);
     let shown = Shown::default();
     // What an earlier run has built is shown until this one's first build is done.
-    shown.replace(Site::read(&book.out, 0).unwrap_or_default());
-    let server = show(listener, shown.clone(), PATIENCE);
-    let server = server.map_err(|error| format!("the book cannot be shown at port {}: {error}.", address.port()))?;
+    shown.replace(Site::read(&book.out, 0, &live.path()).unwrap_or_else(|_| Site::empty(&live.path())));
+    let server = show(listener, shown.clone(), Some(Arc::clone(&live)), PATIENCE).map_err(failed)?;
     let watched = ["chapters", "src", "book/builder/book.css", "book/book.toml"];
     let watched = watched.iter().map(|place| book.repository.join(place));
     let mut watch = Watch::new(watched.chain([book.pages.clone()]).collect());
@@ -35,7 +39,7 @@ pub fn serve(book: &Book, program: &Rc<RefCell<Program>>, port: u16, out: &mut d
         std::thread::sleep(PACE);
         let changed = watch.changed();
         if !changed.is_empty() {
-            follow(book, program, &shown, &changed, out);
+            follow(book, program, &shown, &live, &changed, out);
         }
     }
     Err(format!("nothing answers at http://{address} any more: start again."))
@@ -52,7 +56,14 @@ fn listen(port: u16) -> Result<TcpListener, String> {
 }
 
 /// Only a change outside the pages can change what pinhole answers.
-fn follow(book: &Book, program: &Rc<RefCell<Program>>, shown: &Shown, changed: &[PathBuf], out: &mut dyn Write) {
+fn follow(
+    book: &Book,
+    program: &Rc<RefCell<Program>>,
+    shown: &Shown,
+    live: &Live,
+    changed: &[PathBuf],
+    out: &mut dyn Write,
+) {
     if changed.iter().any(|path| !path.starts_with(&book.pages)) {
         say(out, "more than pages changed: the program is compiled where need be, and every page made again.");
         if let Err(error) = program.borrow_mut().renew() {
@@ -60,6 +71,7 @@ fn follow(book: &Book, program: &Rc<RefCell<Program>>, shown: &Shown, changed: &
             shown.replace(shown.now().stopped(error));
             return;
         }
+        live.renew(program.borrow().place().unwrap_or_default());
     }
     rebuild(book, program, shown, out);
 }

@@ -1,5 +1,6 @@
 //! What the served book answers: the files of one build, held in memory, and pages that reload themselves.
 
+use crate::live_figure::LiveFigure;
 use hyper::body::Bytes;
 use hyper::{Request, StatusCode, header};
 use percent_encoding::percent_decode_str;
@@ -36,15 +37,20 @@ const RELOAD: &str = r#"<script>
 #[derive(Debug, Default)]
 pub struct Site {
     files: BTreeMap<String, (&'static str, Bytes)>,
+    figures: BTreeMap<String, LiveFigure>,
+    /// Where pages ask for frames of their figures.
+    live: String,
     revision: u32,
     error: Option<String>,
 }
 
 impl Site {
-    /// The book in a folder; the revision differs from build to build.
-    pub fn read(folder: &Path, revision: u32) -> io::Result<Self> {
-        let mut site = Self { revision, ..Self::default() };
+    /// The book in a folder; the revision differs from build to build, and frames of figures are asked for at `live`.
+    pub fn read(folder: &Path, revision: u32, live: &str) -> io::Result<Self> {
+        let mut site = Self { revision, live: live.to_owned(), ..Self::default() };
         site.add(folder, "")?;
+        let declared = site.files.get("/figures/live.json").map(|(_, bytes)| bytes.clone()).unwrap_or_default();
+        site.figures = serde_json::from_slice(&declared).unwrap_or_default();
         Ok(site)
     }
 
@@ -67,19 +73,35 @@ impl Site {
     }
 
     fn reloading(&self, page: &[u8]) -> Bytes {
-        let script = RELOAD.replace("REVISION", &self.revision.to_string());
-        String::from_utf8_lossy(page).replace("</body>", &format!("{script}</body>")).into()
+        let mut script = RELOAD.replace("REVISION", &self.revision.to_string());
+        let page = String::from_utf8_lossy(page);
+        if page.contains("data-live=") && !self.live.is_empty() {
+            let controls = include_str!("live.js").replace("LIVE_ADDRESS", &format!("\"{}\"", self.live));
+            script += &format!("<style>\n{}</style>\n<script>\n{controls}</script>\n", include_str!("live.css"));
+        }
+        page.replace("</body>", &format!("{script}</body>")).into()
     }
 
     /// The build that follows this one.
     pub fn next(&self, folder: &Path) -> Result<Self, String> {
         let failed = |error| format!("{} cannot be read: {error}.", folder.display());
-        Self::read(folder, self.revision + 1).map_err(failed)
+        Self::read(folder, self.revision + 1, &self.live).map_err(failed)
+    }
+
+    /// A figure whose values move, by the name that its page has for it.
+    pub fn figure(&self, name: &str) -> Option<&LiveFigure> {
+        self.figures.get(name)
+    }
+
+    /// Nothing yet, but where frames will be asked for.
+    pub fn empty(live: &str) -> Self {
+        Self { live: live.to_owned(), ..Self::default() }
     }
 
     /// The same build, with what stopped the one that should have followed it.
     pub fn stopped(&self, error: String) -> Self {
-        Self { files: self.files.clone(), error: Some(error), ..*self }
+        let (files, figures, live) = (self.files.clone(), self.figures.clone(), self.live.clone());
+        Self { files, figures, live, revision: self.revision, error: Some(error) }
     }
 
     /// The answer to a request, which must be for this machine by name.
@@ -151,7 +173,7 @@ mod tests {
         build(&book, &little_program()).expect("the little book builds");
         #[cfg(unix)]
         std::os::unix::fs::symlink(&book.pages, book.out.join("link")).expect("a link");
-        let site = Site::read(&book.out, 7).expect("a site").stopped("a mistake".to_owned());
+        let site = Site::read(&book.out, 7, "").expect("a site").stopped("a mistake".to_owned());
         let status = |url: &str| site.at(url).status.as_u16();
         assert_eq!([status("/"), status("/01_one.html"), status("/figures/render%2epng")], [200; 3]);
         assert_eq!([status("/none.html"), status("/../src/01_one.md"), status("/%2e%2e/src/01_one.md")], [404; 3]);

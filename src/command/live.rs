@@ -9,12 +9,12 @@ use pinhole::render::Watch;
 use pinhole::{Chapter, Overrides};
 use pinhole_live::LiveFigure;
 use serde::Deserialize;
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::VecDeque;
 use std::io::{BufRead, Write, stdin};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
-/// The figures whose workers are kept; those of an older one go.
+/// The figures whose workers are kept; that which was unused longest goes.
 const MOST_FIGURES: usize = 2;
 
 /// A frame that is asked for.
@@ -30,12 +30,19 @@ struct Order {
     samples: u32,
 }
 
+impl Order {
+    /// Whether both orders are for one figure, in which the newer counts.
+    fn is_of(&self, other: &Self) -> bool {
+        self.scene == other.scene && self.size == other.size && self.view == other.view
+    }
+}
+
 /// What is asked for and not answered yet.
 #[derive(Default)]
 struct Queue {
     orders: VecDeque<Order>,
-    /// The scene that is being rendered.
-    now: Option<String>,
+    /// What is being rendered.
+    now: Option<Order>,
     ended: bool,
 }
 
@@ -69,7 +76,7 @@ impl Orders {
         for line in stdin().lock().lines().map_while(std::result::Result::ok) {
             let Ok(order) = serde_json::from_str::<Order>(&line) else { continue };
             let mut queue = self.queue();
-            if queue.now.as_deref() == Some(order.scene.as_str()) {
+            if queue.now.as_ref().is_some_and(|now| now.is_of(&order)) {
                 self.stop.store(true, Ordering::SeqCst);
             }
             queue.orders.push_back(order);
@@ -92,32 +99,33 @@ impl Orders {
         }
         let first = queue.orders.pop_front()?;
         let (mut same, others): (Vec<Order>, Vec<Order>) =
-            queue.orders.drain(..).partition(|order| order.scene == first.scene);
+            queue.orders.drain(..).partition(|order| order.is_of(&first));
         queue.orders.extend(others);
         same.insert(0, first);
         let newest = same.pop()?;
-        queue.now = Some(newest.scene.clone());
+        queue.now = Some(newest.clone());
         self.stop.store(false, Ordering::SeqCst);
         Some((newest, same.iter().map(|order| order.number).collect()))
     }
 }
 
-/// A chapter's text, and the render of what was last set in it.
+/// A chapter's text, and the render of what was last ordered of it.
 struct Figure {
     text: ChapterText,
-    last: Option<(Vec<String>, Option<String>, Option<String>)>,
+    last: Order,
+    /// Whether that render has begun.
+    begun: bool,
     frames: LiveFigure,
 }
 
 impl Figure {
     fn frame(&mut self, order: &Order, watch: &dyn Watch) -> Result<Option<Vec<u8>>> {
-        let asked = (order.set.clone(), order.size.clone(), order.view.clone());
-        if self.last.as_ref() != Some(&asked) {
+        if !self.begun || self.last.set != order.set {
             let size = order.size.as_deref().map(size).transpose().map_err(Error::CommandLine)?;
             let chapter = self.text.set(&order.set)?;
             let world = chapter.world(&Overrides { size, view: order.view.clone(), ..Overrides::default() });
             self.frames.show(world, chapter.stages());
-            self.last = Some(asked);
+            (self.last, self.begun) = (order.clone(), true);
         }
         Ok(self.frames.png(order.samples, watch)?)
     }
@@ -135,7 +143,7 @@ pub fn live(chapters: &[Chapter], asked: &LiveFigures, out: &mut dyn Write) -> R
     let orders = Arc::new(Orders::default());
     let reader = Arc::clone(&orders);
     std::thread::spawn(move || reader.read());
-    let mut figures: BTreeMap<String, Figure> = BTreeMap::new();
+    let mut figures = VecDeque::new();
     while let Some((order, older)) = orders.next() {
         for number in older {
             answer(number, "newer", &[], out)?;
@@ -151,18 +159,22 @@ pub fn live(chapters: &[Chapter], asked: &LiveFigures, out: &mut dyn Write) -> R
 
 fn frame(
     chapters: &[Chapter],
-    figures: &mut BTreeMap<String, Figure>,
+    figures: &mut VecDeque<Figure>,
     order: &Order,
     watch: &dyn Watch,
 ) -> Result<Option<Vec<u8>>> {
-    if !figures.contains_key(&order.scene) {
-        if figures.len() >= MOST_FIGURES {
-            figures.pop_first();
+    let known = figures.iter().position(|figure| figure.last.is_of(order)).and_then(|at| figures.remove(at));
+    let mut figure = match known {
+        Some(figure) => figure,
+        None => {
+            figures.truncate(MOST_FIGURES - 1);
+            let text = ChapterText::of(find::chapter(chapters, &order.scene)?)?;
+            Figure { text, last: order.clone(), begun: false, frames: LiveFigure::default() }
         }
-        let text = ChapterText::of(find::chapter(chapters, &order.scene)?)?;
-        figures.insert(order.scene.clone(), Figure { text, last: None, frames: LiveFigure::default() });
-    }
-    figures.get_mut(&order.scene).map_or(Ok(None), |figure| figure.frame(order, watch))
+    };
+    let frame = figure.frame(order, watch);
+    figures.push_front(figure);
+    frame
 }
 
 fn answer(number: u64, kind: &str, body: &[u8], out: &mut dyn Write) -> Result {

@@ -1,5 +1,6 @@
 //! The directives a page may use, each alone on its line.
 
+use super::movement;
 use super::scan::{Scan, blank_spans};
 use super::{Page, Problem};
 
@@ -18,12 +19,14 @@ pub enum Directive<'a> {
         /// The command's words.
         command: &'a str,
     },
-    /// `{{#figure command | caption}}`: a picture that a command of pinhole draws.
+    /// `{{#figure command | caption}}`: a picture that a command of pinhole draws; a third part names values to move.
     Figure {
         /// The command's words.
         command: &'a str,
         /// Its caption, in markdown.
         caption: &'a str,
+        /// What a reader of the served book moves, or nothing.
+        moves: &'a str,
     },
 }
 
@@ -66,11 +69,19 @@ fn include(rest: &str) -> Result<Directive<'_>, String> {
 }
 
 fn figure(rest: &str) -> Result<Directive<'_>, String> {
-    let (command, caption) = rest.split_once('|').unwrap_or((rest, ""));
+    let (command, rest) = rest.split_once('|').unwrap_or((rest, ""));
+    let (caption, moves) = rest.split_once(" | ").unwrap_or((rest, ""));
+    if !moves.is_empty() {
+        movement::read(moves)?;
+        let renders = command.trim().starts_with("render ");
+        renders
+            .then_some(())
+            .ok_or_else(|| format!("`{}` renders no chapter, so no value of it moves.", command.trim()))?;
+    }
     match (command.trim(), caption.trim()) {
         ("", _) => Err("{{#figure}} names no command: write {{#figure render 05_pinhole | caption}}.".to_owned()),
         (command, "") => Err(format!("the figure `{command}` has no caption: write it after a `|`.")),
-        (command, caption) => words(command).map(|command| Directive::Figure { command, caption }),
+        (command, caption) => words(command).map(|command| Directive::Figure { command, caption, moves }),
     }
 }
 
@@ -119,14 +130,20 @@ mod tests {
         let include = Directive::Include { path: "../a.rs", anchor: Some("b") };
         assert_eq!(parse("  {{#include ../a.rs:b}}"), Some(Ok(include)));
         assert_eq!(parse("{{#pinhole plan 05_pinhole}}"), Some(Ok(Directive::Pinhole { command: "plan 05_pinhole" })));
-        let figure = Directive::Figure { command: "render 05 --size 4x3", caption: "A *box* of |x|" };
+        let figure = Directive::Figure { command: "render 05 --size 4x3", caption: "A *box* of |x|", moves: "" };
         assert_eq!(parse("{{#figure render 05 --size 4x3 | A *box* of |x|}}"), Some(Ok(figure)));
+        let moves = "fov: camera.lens.fov from 5 to 9";
+        let figure = Directive::Figure { command: "render 05", caption: "A box", moves };
+        assert_eq!(parse(&format!("{{{{#figure render 05 | A box | {moves}}}}}")), Some(Ok(figure)));
         assert_eq!(parse("prose with `{{#pinhole x}}` in code, or \\{{#pinhole x}}"), None);
     }
 
     #[test]
     fn bad_directives_say_what_is_accepted() {
         assert_eq!(sentence("{{#figure render 05}}"), "the figure `render 05` has no caption: write it after a `|`.");
+        assert!(sentence("{{#figure render 05 | A box | fov 5}}").starts_with("`fov 5` is none: a movement is `LABEL"));
+        let drawn = sentence("{{#figure figure 05 | A box | fov: a.b.c from 5 to 9}}");
+        assert_eq!(drawn, "`figure 05` renders no chapter, so no value of it moves.");
         assert!(sentence("{{#figrue render 05}}").starts_with("there is no directive {{#figrue}}: a page may use"));
         assert!(sentence("See {{#pinhole plan}} here.").starts_with("a directive stands alone on its line"));
         assert!(sentence("{{#include ../a.rs:3:9}}").starts_with("`3:9` is no anchor: name one"));

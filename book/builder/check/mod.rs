@@ -2,12 +2,13 @@
 //!
 //! mdBook shows a missing anchor as an empty listing and only logs a missing file, so the rules stand here. The
 //! builder applies those of a page at every build; `tests/book.rs` includes this very module and applies all of
-//! them. Only the standard library is used, so that the test needs nothing more.
+//! them. Only the standard library and serde are used, so that the test needs nothing more.
 
 pub mod directive;
 pub mod links;
 pub mod listing;
 pub mod lists;
+pub mod movement;
 pub mod scan;
 
 use std::fmt;
