@@ -21,7 +21,8 @@
     let value;
     const show = (text) => {
       value = text;
-      output.textContent = text.replace("-", "−") + move.unit;
+      const number = Number.isFinite(Number(text)) ? String(Number(Number(text).toPrecision(3))) : "∞";
+      output.textContent = number.replace("-", "−") + move.unit;
       input.setAttribute("aria-valuetext", output.textContent);
     };
     input.addEventListener("input", () => {
@@ -31,10 +32,10 @@
       changed();
     });
     const reset = () => {
-      input.value = to(Number(move.start));
-      show(String(Number(move.start)));
+      input.value = Number.isFinite(Number(move.start)) ? to(Number(move.start)) : input.max;
+      show(move.start);
     };
-    return { elements: [input, output], reset, value: () => value, moved: () => Number(value) !== Number(move.start) };
+    return { elements: [input, output], reset, value: () => value, moved: () => value !== move.start };
   };
 
   const choice = (move, changed) => {
@@ -46,12 +47,13 @@
 
   const control = (figure, { command, samples: own, moves }) => {
     const image = figure.querySelector("img");
-    const still = image.src;
     const code = figure.querySelector(".made code");
     const typed = code.innerHTML;
     const note = made("p", { className: "note" });
     note.setAttribute("role", "status");
     let wanted = 0, running = false, quick = true, abort = new AbortController();
+
+    const values = () => controls.map((each) => each.value());
 
     const steps = () => {
       const at = moves.findIndex((move) => move.path === "camera.sampling.samples");
@@ -61,8 +63,8 @@
 
     const frame = async (count) => {
       quick = count <= QUICK;
-      const values = controls.map((each) => `&value=${encodeURIComponent(each.value())}`).join("");
-      const query = `figure=${encodeURIComponent(figure.dataset.live)}&samples=${count}${values}`;
+      const asked = values().join(" ");
+      const query = `figure=${encodeURIComponent(figure.dataset.live)}&samples=${count}${values().map((value) => `&value=${encodeURIComponent(value)}`).join("")}`;
       abort = new AbortController();
       const answer = await fetch(`${address}?${query}`, { signal: abort.signal });
       if (answer.status === 204) { return false; }
@@ -72,7 +74,7 @@
       await image.decode();
       if (before.startsWith("blob:")) { URL.revokeObjectURL(before); }
       note.textContent = "";
-      figure.dataset.samples = count;
+      Object.assign(figure.dataset, { samples: count, shown: asked });
       figure.dataset.frame = Number(figure.dataset.frame || 0) + 1;
       return true;
     };
@@ -99,6 +101,7 @@
       code.innerHTML = typed;
       code.append(...words.flatMap((word) => [" ", made("span", { textContent: word })]));
       wanted += 1;
+      figure.dataset.asked = values().join(" ");
       if (!quick) { abort.abort(); }
       run();
     };
@@ -123,7 +126,6 @@
       image.removeAttribute("height");
     }
     image.after(panel);
-    figure.dataset.still = still;
   };
 
   const figures = [...document.querySelectorAll("figure[data-live]")];

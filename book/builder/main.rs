@@ -12,6 +12,8 @@ mod figure;
 mod http;
 mod live;
 mod live_figure;
+#[cfg(test)]
+mod live_page;
 mod math;
 mod page;
 mod program;

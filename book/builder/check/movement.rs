@@ -60,20 +60,25 @@ impl Movement {
     ///
     /// Errors: one sentence where the reader could never return to it.
     pub fn starting(self, start: &str) -> Result<Self, String> {
-        let moved = Self { start: start.to_owned(), ..self };
-        moved.setting(start).map_err(|what| format!("`{}` starts elsewhere: {what}", moved.path))?;
-        Ok(moved)
+        // A range may begin without an end of its own.
+        let inside = start == "inf" || self.setting(start).is_ok();
+        let told = || format!("`{}` is {start} in the scene, which its movement has not.", self.path);
+        inside.then_some(()).ok_or_else(told)?;
+        Ok(Self { start: start.to_owned(), ..self })
     }
 
     /// What `--set` has for a value, or nothing where it is the one that the scene has.
     ///
     /// Errors: one sentence that says what is accepted.
     pub fn setting(&self, value: &str) -> Result<Option<String>, String> {
+        if value == self.start {
+            return Ok(None);
+        }
         let set = |value: &str| Some(format!("{}={value}", self.path));
         if !self.choices.is_empty() {
             let known = self.choices.iter().any(|choice| choice == value);
             let told = || format!("{} is one of {}.", self.label, self.choices.join(", "));
-            return known.then(|| set(value).filter(|_| value != self.start)).ok_or_else(told);
+            return known.then(|| set(value)).ok_or_else(told);
         }
         let number = value.parse::<f64>().ok().filter(|number| (self.from..=self.to).contains(number));
         let number = number.filter(|number| number.fract() == 0.0 || !self.is_whole());
@@ -131,9 +136,13 @@ mod tests {
         }
         let samples = one("samples: c.s.n log from 1 to 64", "16").expect("a start");
         assert_eq!(samples.setting("2.5"), Err("samples is a whole number from 1 to 64.".to_owned()));
+        let distance = one("distance: a.b.c from 1 to 9", "inf").expect("a start");
+        assert_eq!([distance.setting("inf"), distance.setting("9")], [Ok(None), Ok(Some("a.b.c=9".to_owned()))]);
         let sampler = one("sampler: c.s.s one of A, B", "A").expect("a start");
         assert_eq!([sampler.setting("A"), sampler.setting("B")], [Ok(None), Ok(Some("c.s.s=B".to_owned()))]);
         assert_eq!(sampler.setting("C"), Err("sampler is one of A, B.".to_owned()));
-        assert!(one("fov: a.b.c from 5 to 50", "60.0").is_err_and(|told| told.starts_with("`a.b.c` starts elsewhere")));
+        assert!(
+            one("fov: a.b.c from 5 to 50", "60.0").is_err_and(|told| told.starts_with("`a.b.c` is 60.0 in the scene"))
+        );
     }
 }
