@@ -26,7 +26,7 @@ impl LiveFigure {
     pub fn png(&mut self, samples: u32, watch: &dyn Watch) -> pinhole::Result<Option<Vec<u8>>> {
         let Some((scene, offer)) = &self.shown else { return Ok(None) };
         loop {
-            let shot = Shot { scene, offer, changed: self.changed, patience: Duration::ZERO };
+            let shot = Shot { scene, offer, changed: self.changed, patience: Duration::ZERO, gathers: false };
             match self.source.film(&shot, watch) {
                 Ok(progress) if progress.is_done() || progress.samples[0] >= samples => break,
                 Ok(_) => self.changed = false,
@@ -39,6 +39,6 @@ impl LiveFigure {
             }
         }
         self.changed = false;
-        Ok(self.source.last().map(|(film, curve)| png_bytes(film, curve)).transpose()?)
+        Ok(self.source.last(0).map(|(film, curve)| png_bytes(&film, curve)).transpose()?)
     }
 }
