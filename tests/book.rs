@@ -6,6 +6,8 @@
 #[path = "../book/builder/check/mod.rs"]
 mod check;
 
+use check::directive::{self, Directive};
+use check::movement::{self, Movement};
 use check::{Page, Problem};
 use std::path::Path;
 
@@ -130,4 +132,51 @@ fn every_term_of_the_glossary_leads_to_a_page() {
             "{row}"
         );
     }
+}
+
+/// The figures of a page whose values a reader of the served book moves.
+fn moved(page: &Page) -> Vec<(&str, Vec<Movement>)> {
+    let figure = |line| match directive::parse(line) {
+        Some(Ok(Directive::Figure { command, moves, .. })) if !moves.is_empty() => {
+            Some((command, movement::read(moves).expect("movements")))
+        }
+        _ => None,
+    };
+    page.text.lines().filter_map(figure).collect()
+}
+
+/// The picture of a command at a small size, with another value.
+fn picture(command: &str, setting: &str) -> Vec<u8> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("figure.png").display().to_string();
+    let command = command.replace("--size 480x270", "--size 48x27");
+    let mut words: Vec<String> = command.split_whitespace().map(str::to_owned).collect();
+    words.extend(["--quiet", "--set", setting, "-o", &file].map(str::to_owned));
+    if !setting.contains(".sampling.samples=") {
+        words.extend(["--samples", "4"].map(str::to_owned));
+    }
+    let rendered = pinhole_cli::command::run(&chapters::all(), &words, &mut Vec::new());
+    rendered.unwrap_or_else(|error| panic!("{command} --set '{setting}': {error}"));
+    std::fs::read(file).expect("a picture")
+}
+
+#[test]
+fn every_chapter_has_values_to_move_and_each_changes_the_picture() {
+    let mut count = 0;
+    for page in pages().iter().filter(|page| page.name.starts_with(|letter: char| letter.is_ascii_digit())) {
+        let figures = moved(page);
+        assert!(!figures.is_empty(), "{} has no figure whose values move", page.label);
+        for (command, movements) in figures {
+            for movement in movements {
+                let ends = movement.ends();
+                let settings = ends.iter().map(|end| format!("{}={end}", movement.path));
+                let mut pictures: Vec<Vec<u8>> = settings.map(|setting| picture(command, &setting)).collect();
+                pictures.sort();
+                pictures.dedup();
+                assert_eq!(pictures.len(), ends.len(), "{}: {} changes nothing", page.label, movement.path);
+                count += 1;
+            }
+        }
+    }
+    eprintln!("{count} values to move");
 }
