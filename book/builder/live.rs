@@ -5,7 +5,6 @@ use crate::site::Site;
 use hyper::{Method, Request, StatusCode};
 use pinhole_live::{Answer, Guard};
 use std::collections::BTreeMap;
-use std::future::Future;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
@@ -88,18 +87,16 @@ impl Live {
 }
 
 /// The answer to a frame that was begun; none where it takes too long, or where pinhole ends meanwhile.
-pub async fn finish(frame: Receiver<Answer>) -> Answer {
+async fn finish(frame: Receiver<Answer>) -> Answer {
     let waited = tokio::time::timeout(PATIENCE, frame).await;
     waited.ok().and_then(Result::ok).unwrap_or_else(|| Answer::plain(StatusCode::NO_CONTENT, ""))
 }
 
-/// Either of both answers.
-pub fn answer(begun: Result<Receiver<Answer>, Answer>) -> impl Future<Output = Answer> + Send {
-    async {
-        match begun {
-            Ok(frame) => finish(frame).await,
-            Err(answer) => answer,
-        }
+/// The answer to what was begun, or the one that was there at once.
+pub async fn answer(begun: Result<Receiver<Answer>, Answer>) -> Answer {
+    match begun {
+        Ok(frame) => finish(frame).await,
+        Err(answer) => answer,
     }
 }
 

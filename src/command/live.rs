@@ -41,8 +41,7 @@ impl Order {
 #[derive(Default)]
 struct Queue {
     orders: VecDeque<Order>,
-    /// What is being rendered.
-    now: Option<Order>,
+    rendering: bool,
     ended: bool,
 }
 
@@ -53,7 +52,7 @@ struct Orders {
     stop: Arc<AtomicBool>,
 }
 
-/// Stops a frame for a newer one of the same figure.
+/// Stops a frame for a newer order.
 struct UntilNewer<'a>(&'a Orders);
 
 impl Watch for UntilNewer<'_> {
@@ -76,9 +75,8 @@ impl Orders {
         for line in stdin().lock().lines().map_while(std::result::Result::ok) {
             let Ok(order) = serde_json::from_str::<Order>(&line) else { continue };
             let mut queue = self.queue();
-            if queue.now.as_ref().is_some_and(|now| now.is_of(&order)) {
-                self.stop.store(true, Ordering::SeqCst);
-            }
+            // Whoever asked before has moved on, or looks at another figure now.
+            self.stop.store(queue.rendering, Ordering::SeqCst);
             queue.orders.push_back(order);
             self.arrived.notify_one();
         }
@@ -90,7 +88,7 @@ impl Orders {
     /// The next order, and the numbers of those of the same figure that a newer one has made needless.
     fn next(&self) -> Option<(Order, Vec<u64>)> {
         let mut queue = self.queue();
-        queue.now = None;
+        queue.rendering = false;
         while queue.orders.is_empty() && !queue.ended {
             queue = self.arrived.wait(queue).unwrap_or_else(PoisonError::into_inner);
         }
@@ -103,7 +101,7 @@ impl Orders {
         queue.orders.extend(others);
         same.insert(0, first);
         let newest = same.pop()?;
-        queue.now = Some(newest.clone());
+        queue.rendering = true;
         self.stop.store(false, Ordering::SeqCst);
         Some((newest, same.iter().map(|order| order.number).collect()))
     }
@@ -132,7 +130,7 @@ impl Figure {
 }
 
 /// Answers orders until the end of standard input: `NUMBER png LENGTH` and a PNG, `NUMBER error LENGTH` and a sentence, or
-/// `NUMBER newer 0` where a newer order of the same figure has come meanwhile.
+/// `NUMBER newer 0` where a newer order has come meanwhile.
 ///
 /// Errors: a value that is to be printed is not there, or standard output is closed.
 pub fn live(chapters: &[Chapter], asked: &LiveFigures, out: &mut dyn Write) -> Result {
