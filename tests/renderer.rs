@@ -18,7 +18,6 @@ mod order;
 mod plan;
 mod rasterisation;
 mod reprojection;
-mod reprojection;
 mod sampling;
 mod scenes;
 mod shapes;
