@@ -45,7 +45,6 @@ impl History {
         self.samples.iter().map(|&samples| f64::from(samples)).sum::<f64>() / self.samples.len().max(1) as f64
     }
 
-    // ANCHOR: with_earlier
     /// Adds what an earlier frame knows of the same surfaces; `raster_of` says where that frame had a point of world space.
     ///
     /// It is right where radiance depends on the place alone. Where it depends on the direction, as on what is shiny, or
@@ -92,7 +91,6 @@ impl History {
         let known = whole >= LEAST_PART;
         known.then(|| (sum.map(|sum| (sum / whole) as f32), MOST.min((samples / whole) as f32)))
     }
-    // ANCHOR_END: with_earlier
 
     /// The radiance, smoothed in so many levels.
     pub fn denoised(&self, levels: u32) -> [Vec<f32>; 3] {
