@@ -31,7 +31,7 @@ pub(super) type Radiance = [Vec<f32>; 3];
 /// A frame of a chapter, and what finds a point of the world in it.
 pub(super) struct Frame {
     pub history: History,
-    /// Whether a pixel shows something else than a mirror.
+    /// Whether a pixel shows nothing of a mirror.
     pub is_plain: Vec<bool>,
     projection: Projection,
     eye: DVec3,
@@ -52,12 +52,19 @@ impl Frame {
         let guides = Guides::of(&film.film).ok_or_else(unguided)?;
         let mut mirrors = scene.query_filtered::<(&Sphere, &Placement), With<Mirror>>();
         let mirrors: Vec<(f64, DVec3)> =
-            mirrors.iter(&scene).map(|(sphere, place)| (sphere.radius, place.position)).collect();
+            mirrors.iter(&scene).map(|(own, place)| (own.radius, place.position)).collect();
         let point = |at: usize| {
-            DVec3::from(guides.origin) + DVec3::from([0, 1, 2].map(|part| f64::from(guides.position[part][at])))
+            DVec3::from(guides.origin) + DVec3::from(guides.position.each_ref().map(|part| f64::from(part[at])))
         };
-        let is_plain = |at: usize| mirrors.iter().all(|(radius, centre)| (point(at) - centre).length() > 1.01 * radius);
-        let is_plain = (0..guides.normal[0].len()).map(is_plain).collect();
+        let is_on = |at: usize| mirrors.iter().any(|(radius, centre)| (point(at) - centre).length() < 1.01 * radius);
+        let on: Vec<bool> = (0..guides.normal[0].len()).map(is_on).collect();
+        // A pixel beside it may show both.
+        let (width, steps) = (size[0] as isize, [-1, 0, 1]);
+        let near = |at: usize| {
+            let offsets = steps.into_iter().flat_map(|down| steps.map(|right| down * width + right));
+            offsets.filter_map(|offset| on.get(at.checked_add_signed(offset)?)).any(|on| *on)
+        };
+        let is_plain = (0..on.len()).map(|at| !near(at)).collect();
         let census = Census::of(&scene);
         let history = History::of(&film.film).ok_or_else(unguided)?;
         Ok(Self { history, is_plain, projection: *census.table::<Projection>()?, eye: eye(&census)? })
