@@ -1,6 +1,6 @@
 //! The figures of chapter 35, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, denoising, real_time};
+use pinhole_lab::figure::{Figure, budget, denoising, real_time};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -10,6 +10,12 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             chapter,
             about: "what projection finds alone, and what each kind of ray adds to it",
             draw: real_time::draw_ingredients,
+        },
+        Figure {
+            name: "35_budget",
+            chapter,
+            about: "the milliseconds of one frame, by what its stages do",
+            draw: budget::draw_budget,
         },
         Figure {
             name: "35_accumulated",
@@ -34,6 +40,12 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             chapter,
             about: "one sample a pixel through more and more levels of the filter",
             draw: real_time::draw_denoised,
+        },
+        Figure {
+            name: "35_albedo",
+            chapter,
+            about: "the filter on radiance, and on radiance over albedo",
+            draw: real_time::draw_albedo,
         },
         Figure {
             name: "35_bias_and_variance",

@@ -11,6 +11,7 @@ pub mod acne;
 pub mod aliasing;
 pub mod boxes;
 pub mod broken_paths;
+pub mod budget;
 pub mod cameras;
 pub mod caustics;
 pub mod coverage;

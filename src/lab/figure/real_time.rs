@@ -7,7 +7,7 @@ use super::svg::Drawing;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{camera_entity, eye};
-use pinhole::film::{GUIDES, Guides, History};
+use pinhole::film::{GUIDES, Guides, History, denoise, denoise_radiance};
 use pinhole::plan::Census;
 use pinhole::rasterise::Projection;
 use pinhole::render::{Execution, Rendered, render};
@@ -295,4 +295,25 @@ pub fn draw_denoised(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let right = vec!["what it should be".into(), "128 samples".into()];
     exhibits.push(Exhibit { picture: painted(SMALL, &truth.mean())?, lines: right });
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SMALL)))
+}
+
+/// The light of one sample through the filter, with and without the albedo that it is divided by.
+pub fn draw_albedo(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    const LEVELS: u32 = 3;
+    let seed = |camera: &mut EntityWorldMut<'_>| {
+        if let Some(mut sampling) = camera.get_mut::<Sampling>() {
+            (sampling.samples, sampling.seed) = (1, 35);
+        }
+    };
+    let (_, Rendered { film, .. }) = shown(chapter, LARGE, false, None, seed)?;
+    let Some((guides, light)) = Guides::of(&film).zip(denoise(&film, 0)) else {
+        return Err(figure.unsuited("the layers that guide the filter"));
+    };
+    let plain = Guides { albedo: guides.albedo.each_ref().map(|part| vec![1.0; part.len()]), ..guides.clone() };
+    let exhibit = |what: &str, guides: &Guides| -> Result<Exhibit> {
+        let smooth = denoise_radiance(light.clone(), guides, LEVELS);
+        Ok(Exhibit { picture: painted(LARGE, &smooth)?, lines: vec![what.into(), format!("{LEVELS} levels")] })
+    };
+    let exhibits = [exhibit("radiance smoothed", &plain)?, exhibit("radiance over albedo smoothed", &guides)?];
+    Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, LARGE)))
 }
