@@ -1,6 +1,6 @@
 //! Together in real time: what the camera sees is projected, and a few rays a pixel do the rest.
 //! A shell on steps in a corner of two walls, a railing of thin bars, a mirror ball and a matte one, a lamp and the sky.
-//! New here: nothing. Paths of three segments, few samples, and the layers that a denoiser and a moving camera need.
+//! New here: no stage. Paths of three segments and few samples, from hits that were projected.
 
 #[path = "../28_meshes/seashell.rs"]
 mod seashell;
@@ -46,7 +46,6 @@ fn scene(world: &mut World) {
         Rasterisation,
         Integrator::Path { max_depth: 3, lights: LightStrategy::Mis, roulette: 0 },
         Sampling { samples: 4, seed: 35, sampler: Sampler::Independent, filter: Filter::Box { radius: 0.5 } },
-        Layers { kinds: vec![LayerKind::Position, LayerKind::ShadingNormal, LayerKind::Albedo] },
     ));
     let plaster = Matte { colour: Rgb::new(0.75, 0.7, 0.6) };
     let corner = [

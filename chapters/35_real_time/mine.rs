@@ -3,10 +3,13 @@
 use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole::film::{FilmTile, Guides, denoise, film_stage};
+use pinhole::Overrides;
+use pinhole::extract::camera_entity;
+use pinhole::film::{FilmTile, GUIDES, Guides, denoise, film_stage};
 use pinhole::plan::Column;
 use pinhole::rays::{PixelSamples, RasterPoints};
 use pinhole::render::{Execution, render};
+use pinhole::scene::{Layers, Sampling};
 use pinhole_lab::exercise::{Ask, Setting, StandIn};
 use pinhole_lab::naive::denoise::{LEVELS, denoised, image_of};
 
@@ -27,7 +30,14 @@ pub fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
 
 /// The chapter's own film, smoothed in plain code; none where the function cannot answer, or nothing is rendered.
 fn smoothed(ask: &Ask<Input, f64>, setting: &Setting<'_>) -> Option<Vec<[f32; 3]>> {
-    let rendered = render(setting.scene, &setting.chapter.stages(), &Execution::default(), &());
+    // The same scene again, with the layers that guide the filter.
+    let layers = Some(Layers { kinds: GUIDES.to_vec() });
+    let asked = Overrides { resolution: Some(setting.resolution()), layers, ..Overrides::default() };
+    let mut scene = setting.chapter.world(&asked);
+    if let (Ok(camera), Some(sampling)) = (camera_entity(&scene), setting.camera::<Sampling>()) {
+        scene.entity_mut(camera).insert(*sampling);
+    }
+    let rendered = render(&scene, &setting.chapter.stages(), &Execution::default(), &());
     let film = rendered.map_err(|error| ask.complain(error.to_string())).ok()?.film;
     let guides = Guides::of(&film)?;
     // Without levels the denoiser leaves a film as it is.

@@ -2,9 +2,9 @@
 
 use super::solutions::{ALL, chapter_05_pinhole};
 use super::{listed, pinhole as perspective, right, run, untouched};
-use ::pinhole::film::{Film, denoise};
+use ::pinhole::film::{Film, GUIDES, denoise};
 use ::pinhole::render::{Execution, render};
-use ::pinhole::scene::{Filter, Resolution, Sampling};
+use ::pinhole::scene::{Filter, Layers, Resolution, Sampling};
 use ::pinhole::{Chapter, Overrides, SamplingOverrides};
 use chapters::all;
 use pinhole_lab::exercise::{Exercise, Mine, end_at_panics};
@@ -48,10 +48,12 @@ fn film(chapter: &Chapter, asked: &Overrides) -> ::pinhole::Result<Film> {
 
 /// Pinhole's picture. The function of chapter 35 stands in the denoiser, so that is what its picture has gone through.
 fn kept(chapter: &Chapter) -> Film {
-    let film = film(chapter, &asked(chapter)).expect("renders");
+    let asked = asked(chapter);
     if !chapter.name.starts_with("35") {
-        return film;
+        return film(chapter, &asked).expect("renders");
     }
+    let layers = Some(Layers { kinds: GUIDES.to_vec() });
+    let film = film(chapter, &Overrides { layers, ..asked }).expect("renders");
     let smooth = denoise(&film, LEVELS).expect("its layers");
     let mut picture = Film::new(WIDTH, HEIGHT, film.tile_side);
     for tile in &mut picture.tiles {

@@ -2,7 +2,7 @@
 
 use super::Figure;
 use super::label::Label;
-use super::pen::{Fill, INK, Pen};
+use super::pen::{Fill, INK, Pen, WIDTH};
 use super::svg::{Drawing, Svg};
 use glam::DVec2;
 use pinhole::scene::{FileKind, read_file};
@@ -27,7 +27,7 @@ const PARTS: [(&str, &[&str]); 7] = [
     ),
     ("shadow rays", &["Clear shadow", "Trace shadow"]),
     ("lights and BSDFs", &["Sample", "Compute MIS", "Evaluate direct", "Add emission", "Add the gradient"]),
-    ("film and layers", &["Accumulate"]),
+    ("film", &["Accumulate"]),
 ];
 
 /// A stage and its nanoseconds for each sample of a pixel.
@@ -35,11 +35,12 @@ fn stages(text: &str) -> Option<Vec<(String, f64)>> {
     let (_, heading) = text.lines().next()?.split_once(": ")?;
     let mut numbers = heading.split_whitespace().filter_map(|word| word.parse::<f64>().ok());
     let samples: f64 = [numbers.next()?, numbers.next()?, numbers.next()?].iter().product();
+    // A name ends where the first whole number stands.
     let stage = |line: &str| {
-        let (name, rest) = line.split_once("  ")?;
-        let mut cells = rest.split_whitespace();
-        let (rows, each) = (cells.next()?.parse::<f64>().ok()?, cells.next()?.parse::<f64>().ok()?);
-        Some((name.to_owned(), rows * each / samples))
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let at = words.iter().position(|word| word.parse::<u64>().is_ok())?;
+        let (rows, each) = (words[at].parse::<f64>().ok()?, words.get(at + 1)?.parse::<f64>().ok()?);
+        Some((words[..at].join(" "), rows * each / samples))
     };
     Some(text.lines().skip(1).filter_map(stage).collect())
 }
@@ -50,6 +51,12 @@ fn parts(stages: &[(String, f64)]) -> Vec<(&'static str, f64)> {
     let of = |part: Option<usize>| stages.iter().filter(|(name, _)| part_of(name) == part).map(|(_, each)| each).sum();
     let named = PARTS.iter().enumerate().map(|(at, (name, _))| (*name, of(Some(at))));
     named.chain([("all others", of(None))]).collect()
+}
+
+/// Three digits, as a page has them.
+fn thousands(number: f64) -> String {
+    let rounded = (number / 100.0).round() as u64;
+    if rounded >= 10 { format!("{},{}00", rounded / 10, rounded % 10) } else { format!("{rounded}00") }
 }
 
 /// Each part's milliseconds, and the whole beside the time that a frame has.
@@ -67,7 +74,7 @@ pub fn draw_budget(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let most = bars.iter().map(|&(_, each)| milliseconds(each)).fold(MARKS[1].0, f64::max);
     let x = |time: f64| left + (right - left) * time / most;
     let bottom = top + height * bars.len() as f64;
-    let mut svg = Svg::new(figure.name, bottom + 44.0);
+    let mut svg = Svg::new(figure.name, bottom + 58.0);
     for (time, words) in MARKS {
         svg.quiet_line(
             DVec2::new(x(time), top - 6.0),
@@ -85,6 +92,11 @@ pub fn draw_budget(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         svg.label(Label::near(DVec2::new(left, middle), name, DVec2::NEG_X, 8.0).title(0.9));
         svg.label(Label::near(DVec2::new(x(time), middle), &format!("{time:.1} ms"), DVec2::X, 6.0).title(0.85));
     }
+    let whole = bars.last().map_or(f64::INFINITY, |(_, each)| *each);
+    let fitting = MARKS.map(|(time, _)| thousands(time * 1e6 / whole));
+    let words =
+        format!("one sample each of {} pixels fits a frame at 60 a second, of {} at 25", fitting[0], fitting[1]);
+    svg.label(Label::near(DVec2::new(0.5 * WIDTH, bottom + 4.0), &words, DVec2::Y, 0.0).title(0.9));
     let machine = text.lines().find_map(|line| line.strip_prefix("machine: ")).unwrap_or_default();
     let machine = machine.split(',').next().unwrap_or_default();
     let note = format!("one thread of {machine}, its costs.txt");
@@ -100,12 +112,12 @@ mod tests {
         let text = "cost of x: 20 x 10 pixels of 2 samples on one thread, 15 renders\nerrors: the worst of 3\n\
                     what ran    rows ns a row\nRasterise triangles   400    10.0   9 to 11   -\n\
                     Trace shadow rays: meshes   200   8.00    1 to 9   -\nClear light rays   0    -   -   -\n\
-                    Sum  800  0.5  -\nmachine: M, 2 threads\n";
+                    Sum up the paths 800 0.5  0.4 to 1   -\nmachine: M, 2 threads\n";
         let stages = stages(text).expect("costs");
         assert_eq!(stages.len(), 3, "{stages:?}");
         let parts = parts(&stages);
         let of = |name: &str| parts.iter().find(|(own, _)| *own == name).map(|(_, each)| *each);
         assert_eq!([of("projection"), of("shadow rays"), of("all others")], [Some(10.0), Some(4.0), Some(1.0)]);
-        assert_eq!(of("film and layers"), Some(0.0));
+        assert_eq!(of("film"), Some(0.0));
     }
 }
