@@ -129,8 +129,8 @@ pub(super) fn mean_over(counts: &[bool], of: impl Fn(usize) -> f64) -> f64 {
     kept.iter().map(|&at| of(at)).sum::<f64>() / kept.len().max(1) as f64
 }
 
-/// A chapter's scene with this camera, rendered by all stages, without those shadow rays if asked, and the layers of the
-/// denoiser kept.
+/// A chapter's scene with this camera, rendered by all stages, the layers of the denoiser kept; stages whose names begin
+/// so do nothing.
 fn shown(
     chapter: &Chapter,
     [width, height]: [u32; 2],
@@ -198,22 +198,20 @@ pub fn draw_ingredients(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
             }
         })?;
         let rows = |stage: &str| {
-            let found = plan.stages.iter().zip(&laps).find(|(own, _)| own.name == stage && without != Some(TRACE));
+            let found = plan.stages.iter().zip(&laps).find(|(own, _)| own.name == stage);
             found.map_or(0.0, |(_, lap)| lap.rows as f64 / f64::from(LARGE[0] * LARGE[1] * samples))
         };
         let pixels = (0..LARGE[1]).flat_map(|y| (0..LARGE[0]).map(move |x| [x, y]));
         let pixels: Vec<[f32; 3]> = pixels.map(|[x, y]| film.mean(x, y)).collect();
-        let rays = format!(
-            "{:.2} shadow rays and {:.2} others",
-            rows("Clear shadow hits"),
-            rows("Advance to the next bounce")
-        );
+        // A ray that is listed and not traced is none.
+        let shadow_rays = if without.is_some() { 0.0 } else { rows("Clear shadow hits") };
+        let rays = format!("{shadow_rays:.2} shadow rays and {:.2} others", rows("Advance to the next bounce"));
         Ok(Exhibit { picture: Picture::painted(LARGE, &pixels)?, lines: vec![what.into(), rays] })
     };
     const TRACE: &str = "Trace shadow rays";
     let path = Integrator::Path { max_depth: 3, lights: LightStrategy::Mis, roulette: 0 };
     let exhibits = [
-        of("projected and lit, no ray traced", Integrator::Distribution { max_depth: 2 }, Some(TRACE))?,
+        of("projected, and lit without shadow rays", Integrator::Distribution { max_depth: 2 }, Some(TRACE))?,
         of("with shadow rays", Integrator::Distribution { max_depth: 2 }, None)?,
         of("with reflected rays at the mirror", Integrator::Distribution { max_depth: 3 }, None)?,
         of("with a further ray everywhere", path, None)?,
