@@ -1,15 +1,18 @@
-//! First hits by projection and by rays; projection beside another rasteriser; frames of a moving camera.
+//! First hits by projection and by rays; projection beside another rasteriser; spheres by rays, in boxes and tessellated;
+//! frames of a moving camera.
 //!
-//! `cargo bench --bench rasterisation` measures all three; `-- curves`, `-- peer` or `-- frames` one of them.
+//! `cargo bench --bench rasterisation` measures all four; `-- curves`, `-- peer`, `-- curved` or `-- frames` one of them.
 //! `frames --mode 0` renders frames of the first mode alone, and says what its stages took.
 //! `--rounds 5` says how often each pair is timed, `--frames 1000` how many frames are rendered, `--most 1000000` where
-//! the curves end.
+//! the curves end, `--spheres 10000` where `curved` does.
 //! All but the frames run on one thread and are timed in processor time; frames take as many threads as there are
 //! processors, and are timed as the viewer makes them, from the camera's pose to the bytes of the pixels.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 #[path = "rasterisation/frames.rs"]
 mod frames;
+#[path = "rasterisation/curved.rs"]
+mod curved;
 #[allow(dead_code, reason = "a benchmark takes what it needs")]
 mod interval;
 
@@ -45,7 +48,7 @@ fn main() {
     let wanted = |part: &str| {
         let words: Vec<String> = std::env::args().collect();
         words.iter().any(|word| word == part)
-            || !["curves", "peer", "frames"].iter().any(|own| words.iter().any(|word| word == own))
+            || !["curves", "peer", "curved", "frames"].iter().any(|own| words.iter().any(|word| word == own))
     };
     let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     if wanted("curves") {
@@ -53,6 +56,9 @@ fn main() {
     }
     if wanted("peer") {
         single.install(peer);
+    }
+    if wanted("curved") {
+        single.install(curved::curved);
     }
     if wanted("frames") {
         frames::measure();

@@ -1,5 +1,6 @@
 //! All triangles of the scene in raster space, sorted into bins of the image.
 
+use super::bins::{Bins, Extent, bins_near, bins_of};
 use super::clip::{ClipPlanes, Polygon};
 use super::spaces::{ClipPoint, Projection};
 use super::triangle::{Edge, NearnessPlane, RasterTriangle, SUBPIXELS, edge_function, fixed};
@@ -13,8 +14,6 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// The side of a bin, in pixels.
-const BIN: u32 = 32;
 /// The fewest vertices or triangles that are worth a task of their own.
 const TASK: usize = 2048;
 /// The most pixels of a triangle that is tested at all of their centres before it is kept.
@@ -32,8 +31,6 @@ const ROOM: usize = 8 * LONGEST_RUN;
 #[derive(Clone, Debug, PartialEq)]
 pub struct RasterTriangles {
     runs: Vec<Run>,
-    /// Bins from left to right, and from top to bottom.
-    bins: [u32; 2],
     /// How far from a pixel's centre its samples may be, in 1/256 of a pixel.
     margin: i32,
 }
@@ -42,14 +39,8 @@ pub struct RasterTriangles {
 #[derive(Clone, Debug, PartialEq)]
 struct Run {
     triangles: Vec<RasterTriangle>,
-    /// Where the list of each bin starts, line by line, and where the last one ends.
-    starts: Vec<u32>,
-    /// The triangles of one bin after another, each list in ascending order.
-    lists: Vec<u32>,
+    bins: Bins,
 }
-
-/// The first and last pixel to the right and downward.
-type Extent = [[u32; 2]; 2];
 
 /// The triangles of a run before they are sorted into bins, and the pixels that each may cover.
 #[derive(Default)]
@@ -199,42 +190,17 @@ impl RasterTriangles {
     /// The bins that a tile overlaps, run by run: the triangles of the run, the number of the first of them, and which of
     /// them are in the bin; of two bins, each may hold the same triangle.
     pub fn lists_near(&self, tile: &Tile) -> impl Iterator<Item = (&[RasterTriangle], usize, &[u32])> {
-        let bins = |start: u32, count: u32| start / BIN..=(start + count.max(1) - 1) / BIN;
-        let (columns, lines, across) = (bins(tile.x, tile.width), bins(tile.y, tile.height), self.bins[0]);
+        let tile = *tile;
         self.runs.iter().enumerate().flat_map(move |(number, run)| {
-            let columns = columns.clone();
-            let bins = lines.clone().flat_map(move |line| columns.clone().map(move |column| line * across + column));
-            bins.map(move |bin| (&run.triangles[..], number * ROOM, run.list(bin as usize)))
+            bins_near(&tile).map(move |bin| (&run.triangles[..], number * ROOM, run.bins.list(bin)))
         })
     }
 }
 
 impl Run {
-    /// The triangles of a bin.
-    fn list(&self, bin: usize) -> &[u32] {
-        &self.lists[self.starts[bin] as usize..self.starts[bin + 1] as usize]
-    }
-
     /// Sorts triangles into bins, each of which keeps their order.
     fn binned(Unsorted { triangles, extents }: Unsorted, bins: [u32; 2]) -> Self {
-        let bins_of = |extent: &Extent| {
-            let [columns, lines] = extent.map(|[first, last]| first / BIN..=last / BIN);
-            lines.flat_map(move |line| columns.clone().map(move |column| (line * bins[0] + column) as usize))
-        };
-        let mut starts = vec![0_u32; (bins[0] * bins[1]) as usize + 1];
-        extents.iter().flat_map(bins_of).for_each(|bin| starts[bin + 1] += 1);
-        for bin in 1..starts.len() {
-            starts[bin] += starts[bin - 1];
-        }
-        let mut next = starts.clone();
-        let mut lists = vec![0; starts[starts.len() - 1] as usize];
-        for (place, extent) in extents.iter().enumerate() {
-            for bin in bins_of(extent) {
-                lists[next[bin] as usize] = place as u32;
-                next[bin] += 1;
-            }
-        }
-        Self { triangles, starts, lists }
+        Self { triangles, bins: Bins::sorted(&extents, bins) }
     }
 }
 
@@ -252,14 +218,12 @@ impl Table for RasterTriangles {
             false => 0,
         };
         let setup = Setup { projection: &projection, planes, margin };
-        let bins = [projection.size.x, projection.size.y].map(|pixels| (pixels as u32).div_ceil(BIN));
-        Ok(Self { runs: setup.runs(&Source::all(&setup, &triangles, &meshes), bins), bins, margin })
+        let bins = bins_of(projection.size);
+        Ok(Self { runs: setup.runs(&Source::all(&setup, &triangles, &meshes), bins), margin })
     }
 
     fn bytes(&self) -> usize {
-        let of_run =
-            |run: &Run| size_of_val(&run.triangles[..]) + size_of_val(&run.starts[..]) + size_of_val(&run.lists[..]);
-        self.runs.iter().map(of_run).sum()
+        self.runs.iter().map(|run| size_of_val(&run.triangles[..]) + run.bins.bytes()).sum()
     }
 }
 
