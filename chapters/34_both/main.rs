@@ -61,7 +61,7 @@ fn scene(world: &mut World) {
     let moon = MeshInstance { geometry: coiled(&MOON, 120, 28) };
     let behind = turned(DVec3::Y, 200.0, [-0.7, 1.0, 7.2]);
     world.spawn((Name::new("shell behind the camera"), moon, behind, Matte { colour: Rgb::new(0.75, 0.2, 0.1) }));
-    let silver = Mirror { colour: Rgb::grey(0.9) };
+    let silver = Mirror { colour: Rgb::grey(0.85) };
     let leaning = turned(DVec3::Y, -11.0, [1.15, 1.0, -1.0]);
     world.spawn((Name::new("mirror"), MeshInstance::new(board(0.95, 1.0)), leaning, silver));
 

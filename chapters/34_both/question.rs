@@ -125,7 +125,7 @@ fn asked() -> Vec<Probe<Input>> {
     asked
 }
 
-/// A sphere that is not wholly behind the eye, and whose outline is not seen under 90°, where the ends are not certain.
+/// A sphere that is not wholly behind the eye.
 fn drawn(index: u64) -> Input {
     let mut draws = Draws::new(3401, index);
     let (radius, half) = (draws.between(0.1, 2.0), draws.between(0.2, 2.0));

@@ -115,10 +115,11 @@ pub fn draw_alone(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 }
 
 fn told(apart: usize) -> String {
-    match 1000 * apart / (SIZE[0] * SIZE[1]) as usize {
-        0 => format!("{apart} pixels differ from rays alone"),
-        _ => format!("{} of the pixels differ from rays alone", percent(apart)),
+    if apart < 200 {
+        let (pixels, differ) = if apart == 1 { ("pixel", "differs") } else { ("pixels", "differ") };
+        return format!("{apart} {pixels} {differ} from rays alone");
     }
+    format!("{} of the pixels differ from rays alone", percent(apart))
 }
 
 /// What shadow rays, and reflected and refracted ones, add to projection; and where both classes together differ from
@@ -158,8 +159,8 @@ pub fn draw_difference(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         Exhibit {
             picture: Picture::painted(SIZE, &marks)?,
             lines: vec![
-                format!("both together against rays alone: {} pixels", apart.len()),
-                format!("{} see another triangle", seen.differ),
+                "both together against rays alone".into(),
+                format!("{} pixels differ in a bit, {} see another triangle", apart.len(), seen.differ),
                 format!("{explained} of these within the rounding"),
             ],
         },
@@ -250,9 +251,10 @@ pub fn draw_mirrored(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         Exhibit {
             picture: Picture::painted(SIZE, &painted)?,
             lines: vec![
-                format!("green: seen in the image, {}; light grey: sky, {}", part(Place::Shown), part(Place::Sky)),
-                format!("blue: in the image but hidden there, {}", part(Place::Hidden)),
-                format!("orange: beside the image, {}; black: behind the eye, {}", part(Place::Outside), part(Place::Behind)),
+                format!("grey: sky, {}; green: seen in the image, {}", part(Place::Sky), part(Place::Shown)),
+                format!("blue: hidden behind something, {}", part(Place::Hidden)),
+                format!("orange: beside the image, {}", part(Place::Outside)),
+                format!("black: behind the eye, {}", part(Place::Behind)),
             ],
         },
     ];

@@ -133,7 +133,7 @@ pub fn draw_rectangle(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 pub fn draw_refused(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     const SIZE: [u32; 2] = [300, 200];
     /// Letters of a line below a picture.
-    const LETTERS: usize = 36;
+    const LETTERS: usize = 28;
     let distance = {
         let scene = chapter.world(&Overrides::default());
         eye(&Census::of(&scene))?.distance(ball(chapter, figure)?.centre)

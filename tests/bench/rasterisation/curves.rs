@@ -147,7 +147,7 @@ fn lit(count: u32, casts_shadows: bool, projects: bool) -> World {
     for _ in 0..count {
         let direction = draws.unit_vector();
         let at = Placement::at(9.0 * direction.x, 4.0 + 9.0 * direction.y.abs(), 9.0 * direction.z);
-        let intensity = Rgb::grey((900.0 / f64::from(count)) as f32);
+        let intensity = Rgb::grey(900.0 / f64::from(count));
         world.spawn((PointLight { intensity, casts_shadows }, at));
     }
     world
