@@ -107,19 +107,19 @@ pub fn draw_first_hits_by_triangles(chapter: &Chapter, figure: &Figure) -> Resul
 
 /// First hits by both classes.
 pub fn draw_first_hits_by_pixels(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let shown = [
-        ("rays", "rays", Pen::new(BLUE, 2.2)),
-        ("projection", "projection", Pen::new(ORANGE, 2.2)),
-    ];
+    let shown = [("rays", "rays", Pen::new(BLUE, 2.2)), ("projection", "projection", Pen::new(ORANGE, 2.2))];
     draw(chapter, figure, Axes { across: "pixels", ..OF_PICTURES }, &shown)
 }
 
 /// A lit picture, with shadows and without.
 pub fn draw_by_lights(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let shown = [
-        ("rays, shadow rays", "rays and shadow rays", Pen::new(BLUE, 2.2)),
-        ("projection, shadow rays", "with shadow rays", Pen::new(ORANGE, 2.2)),
-        ("projection, no shadows", "without shadows", Pen::new(ORANGE, 1.8).dashed("5 4")),
+        ("rays, each light", "rays, each light", Pen::new(BLUE, 2.2)),
+        ("projection, each light", "projection", Pen::new(ORANGE, 2.2)),
+        ("without shadows", "without shadows", Pen::new(ORANGE, 1.8).dashed("5 4")),
+        ("rays, one light", "rays, one chosen", Pen::new(BLUE, 2.2)),
+        ("projection, one light", "projection", Pen::new(ORANGE, 2.2)),
+        ("one, without shadows", "without shadows", Pen::new(ORANGE, 1.8).dashed("5 4")),
     ];
     draw(chapter, figure, Axes { across: "lights", ..OF_PICTURES }, &shown)
 }

@@ -123,7 +123,9 @@ pub fn draw_rectangle(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     svg.polygon(&rectangle(naive[0], naive[1]), None, Some(Pen::new("#ff5a1f", 2.0).dashed("6 4")));
     svg.polygon(&rectangle(whole[0], whole[1]), None, Some(Pen::new("#ffffff", 2.4)));
     let below = |part: f64| DVec2::new(low.x + part * size.x, low.y + size.y);
-    for (part, text) in [(0.27, "dashed: a disk at the depth of the centre"), (0.76, "unbroken: the sphere's rectangle")] {
+    for (part, text) in
+        [(0.27, "dashed: a disk at the depth of the centre"), (0.76, "unbroken: the sphere's rectangle")]
+    {
         svg.label(Label::near(below(part), text, DVec2::Y, 10.0).title(0.92));
     }
     Ok(svg.finish(figure.about, &figure.stamp(SIZE, "")))

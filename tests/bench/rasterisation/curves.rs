@@ -22,10 +22,12 @@ const BESIDE: [&str; 3] =
 const KNOT: [u32; 2] = KNOTS[3];
 /// Pictures 16 wide and 9 high, so many times, for 10⁴ to 2·10⁶ pixels.
 const SCALES: [u32; 6] = [8, 15, 26, 47, 83, 120];
-const LIGHTS: [u32; 7] = [1, 3, 10, 32, 100, 316, 1000];
+/// So many lights are summed at every surface; of more than those, one is chosen at random.
+const SUMMED: [u32; 5] = [1, 4, 16, 32, 64];
+const CHOSEN: [u32; 4] = [65, 128, 316, 1000];
 const LIT_SIZE: [u32; 2] = [320, 180];
 
-/// A table of milliseconds, a row for each count.
+/// A table of milliseconds, a row for each count; NaN is not measured.
 struct Curve {
     title: &'static str,
     columns: Vec<String>,
@@ -47,7 +49,8 @@ impl Curve {
         for (count, row) in &self.rows {
             _ = write!(text, "\n{count:>9}");
             for (value, name) in row.iter().zip(&self.columns) {
-                _ = write!(text, "  {value:>width$.2}", width = name.chars().count().max(9));
+                let number = if value.is_nan() { "-".into() } else { format!("{value:.2}") };
+                _ = write!(text, "  {number:>width$}", width = name.chars().count().max(9));
             }
         }
         text + "\n" + &self.told
@@ -93,10 +96,10 @@ fn crossing(rows: &[(u32, Vec<f64>)], [one, other]: [usize; 2]) -> Option<f64> {
 /// Which of two columns is the less, and up to where.
 fn told(what: &str, rows: &[(u32, Vec<f64>)], [rays, projection]: [usize; 2]) -> String {
     let first = rows.first().is_some_and(|(_, row)| row[projection] < row[rays]);
-    let [winner, loser] = if first { ["projection", "rays"] } else { ["rays", "projection"] };
+    let [faster, slower] = if first { ["projection", "rays"] } else { ["rays", "projection"] };
     match crossing(rows, [rays, projection]) {
-        Some(count) => format!("{winner} takes less time than {loser} up to {} {what}", rounded(count)),
-        None => format!("{winner} takes less time than {loser} throughout"),
+        Some(count) => format!("{faster} before {slower} up to {} {what}", rounded(count)),
+        None => format!("{faster} before {slower} throughout"),
     }
 }
 
@@ -126,7 +129,8 @@ fn by_triangles() -> Curve {
 }
 
 fn by_pixels() -> Curve {
-    let mut curve = Curve::new("pixels, first hits of 102,400 triangles", ["rays", "projection"].map(Into::into).into());
+    let mut curve =
+        Curve::new("pixels, first hits of 102,400 triangles", ["rays", "projection"].map(Into::into).into());
     for scale in SCALES {
         let size = [16 * scale, 9 * scale];
         let count = size[0] * size[1];
@@ -154,14 +158,17 @@ fn lit(count: u32, casts_shadows: bool, projects: bool) -> World {
 }
 
 fn by_lights() -> Curve {
-    let columns = ["rays, shadow rays", "projection, shadow rays", "projection, no shadows"].map(Into::into);
-    let mut curve = Curve::new("lights, lit picture of 102,400 triangles at 320 × 180", columns.into());
-    for count in LIGHTS {
-        let [rays, projection] =
-            pair(&format!("{count:4} lights, rays and projection"), [&lit(count, true, false), &lit(count, true, true)]);
-        let name = format!("{count:4} lights, shadow rays and none");
-        let [_, none] = pair(&name, [&lit(count, true, true), &lit(count, false, true)]);
-        curve.rows.push((count, vec![rays, projection, none]));
+    let columns = ["rays, each light", "projection, each light", "without shadows", "rays, one light"];
+    let columns = columns.into_iter().chain(["projection, one light", "one, without shadows"]);
+    let columns = columns.map(Into::into).collect();
+    let mut curve = Curve::new("lights, lit picture of 102,400 triangles at 320 × 180", columns);
+    for count in SUMMED.into_iter().chain(CHOSEN) {
+        let shadowed = [&lit(count, true, false), &lit(count, true, true)];
+        let [rays, projection] = pair(&format!("{count:4} lights, rays and projection"), shadowed);
+        let [_, none] = pair(&format!("{count:4} lights, shadows and none"), [shadowed[1], &lit(count, false, true)]);
+        let (times, missing) = ([rays, projection, none], [f64::NAN; 3]);
+        let row = if SUMMED.contains(&count) { [times, missing] } else { [missing, times] };
+        curve.rows.push((count, row.concat()));
     }
     curve
 }
