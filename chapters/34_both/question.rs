@@ -48,9 +48,10 @@ fn question() -> Question<Input, [f64; 2]> {
                  looks wider, and its centre is not in the middle",
                 |&[right, ahead, radius, half]| cut(as_if_ahead(right, ahead, radius), half),
             ),
-            Mistake::new("the sphere is on the wrong side: to the right is positive", |&[right, ahead, radius, half]| {
-                sphere_interval(-right, ahead, radius, half)
-            }),
+            Mistake::new(
+                "the sphere is on the wrong side: to the right is positive",
+                |&[right, ahead, radius, half]| sphere_interval(-right, ahead, radius, half),
+            ),
             Mistake::new(
                 "the radius over the distance is the sine of the angle between centre and outline, not its tangent",
                 |&[right, ahead, radius, half]| by_the_tangent(right, ahead, radius, half),
@@ -113,11 +114,10 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("to the side", [[3.0, 4.0, 3.0, 4.0], [-3.0, 4.0, 3.0, 4.0], [1.0, 6.0, 0.75, 0.5]]));
     asked.extend(probes("across an edge of the image", [[2.0, 4.0, 1.0, 0.5], [-2.0, 4.0, 1.0, 0.5]]));
     asked.extend(probes("beside the image", [[5.0, 4.0, 1.0, 0.5], [-5.0, 4.0, 1.0, 0.5]]));
-    asked.extend(probes("as near as it is large, so that it reaches behind the eye", [
-        [1.5, 0.5, 1.0, 2.0],
-        [-1.5, 0.5, 1.0, 2.0],
-        [3.0, 1.0, 2.0, 1.0],
-    ]));
+    asked.extend(probes(
+        "as near as it is large, so that it reaches behind the eye",
+        [[1.5, 0.5, 1.0, 2.0], [-1.5, 0.5, 1.0, 2.0], [3.0, 1.0, 2.0, 1.0]],
+    ));
     asked.extend(probes("its centre is behind the eye", [[2.0, -0.5, 1.5, 3.0], [-1.2, -0.3, 1.0, 3.0]]));
     // Seen from above the eye is inside the disk; the sphere may be higher or lower than the eye.
     asked.extend(probes("the eye is above it", [[0.5, 0.5, 1.0, 1.0], [0.0, -0.25, 1.0, 0.75]]));

@@ -242,7 +242,7 @@ fn crossing(sizes: &[(f64, f64)], size: f64) -> Option<f64> {
 
 fn machine(text: &str) -> Option<String> {
     let (_, rest) = text.split_once("machine: ")?;
-    rest.split(';').next().map(str::to_owned)
+    rest.split([';', '\n']).next().map(str::to_owned)
 }
 
 #[cfg(test)]
@@ -262,6 +262,7 @@ mod tests {
         assert_eq!(Kept::of(TEXT, "cubes"), None);
         assert_eq!(caches(TEXT), [("L1".to_owned(), 32.0), ("L2".to_owned(), 1024.0)]);
         assert_eq!(machine(TEXT).as_deref(), Some("M"));
+        assert_eq!(machine("machine: M\nmade from 1").as_deref(), Some("M"));
         let count = crossing(&kept.column("hierarchy KiB"), 80.0).expect("it comes to that");
         assert!((count - 1000.0).abs() < 1e-9 && crossing(&kept.column("hierarchy KiB"), 90.0).is_none());
         assert_eq!(

@@ -122,10 +122,10 @@ pub fn draw_rectangle(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let whole = [0, 1].map(|axis| sphere_interval([right, up][axis], ahead, ball.radius, half[axis]));
     svg.polygon(&rectangle(naive[0], naive[1]), None, Some(Pen::new("#ff5a1f", 2.0).dashed("6 4")));
     svg.polygon(&rectangle(whole[0], whole[1]), None, Some(Pen::new("#ffffff", 2.4)));
+    svg.dot(raster(right / ahead, up / ahead), 3.0, "#103a66");
     let below = |part: f64| DVec2::new(low.x + part * size.x, low.y + size.y);
-    for (part, text) in
-        [(0.27, "dashed: a disk at the depth of the centre"), (0.76, "unbroken: the sphere's rectangle")]
-    {
+    let told = ["dashed: a disk at the depth of the centre", "unbroken: the sphere's own", "dot: its centre"];
+    for (part, text) in [0.2, 0.6, 0.87].into_iter().zip(told) {
         svg.label(Label::near(below(part), text, DVec2::Y, 10.0).title(0.92));
     }
     Ok(svg.finish(figure.about, &figure.stamp(SIZE, "")))
