@@ -93,13 +93,13 @@ fn crossing(rows: &[(u32, Vec<f64>)], [one, other]: [usize; 2]) -> Option<f64> {
     Some((from + (to - from) * before / (before - behind)).exp())
 }
 
-/// Which of two columns is the less, and up to where.
+/// Which of two columns takes less time, and up to where.
 fn told(what: &str, rows: &[(u32, Vec<f64>)], [rays, projection]: [usize; 2]) -> String {
     let first = rows.first().is_some_and(|(_, row)| row[projection] < row[rays]);
-    let [faster, slower] = if first { ["projection", "rays"] } else { ["rays", "projection"] };
+    let faster = if first { "projection is faster than rays" } else { "rays are faster than projection" };
     match crossing(rows, [rays, projection]) {
-        Some(count) => format!("{faster} before {slower} up to {} {what}", rounded(count)),
-        None => format!("{faster} before {slower} throughout"),
+        Some(count) => format!("{faster} up to {} {what}", rounded(count)),
+        None => format!("{faster} throughout"),
     }
 }
 
