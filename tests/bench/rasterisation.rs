@@ -1,18 +1,21 @@
-//! First hits by projection and by rays; projection beside another rasteriser; spheres by rays, in boxes and tessellated;
-//! frames of a moving camera.
+//! Pictures by projection and by rays; projection beside another rasteriser; spheres by rays, in boxes and
+//! tessellated; frames of a moving camera.
 //!
 //! `cargo bench --bench rasterisation` measures all four; `-- curves`, `-- peer`, `-- curved` or `-- frames` one of them.
 //! `frames --mode 0` renders frames of the first mode alone, and says what its stages took.
 //! `--rounds 5` says how often each pair is timed, `--frames 1000` how many frames are rendered, `--most 1000000` where
-//! the curves end, `--spheres 10000` where `curved` does.
+//! the curve against triangles ends, `--spheres 10000` where `curved` does; `curves --write` keeps the curves beside
+//! chapter 34.
 //! All but the frames run on one thread and are timed in processor time; frames take as many threads as there are
 //! processors, and are timed as the viewer makes them, from the camera's pose to the bytes of the pixels.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
-#[path = "rasterisation/frames.rs"]
-mod frames;
 #[path = "rasterisation/curved.rs"]
 mod curved;
+#[path = "rasterisation/curves.rs"]
+mod curves;
+#[path = "rasterisation/frames.rs"]
+mod frames;
 #[allow(dead_code, reason = "a benchmark takes what it needs")]
 mod interval;
 
@@ -52,7 +55,7 @@ fn main() {
     };
     let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     if wanted("curves") {
-        single.install(curves);
+        single.install(curves::measure);
     }
     if wanted("peer") {
         single.install(peer);
@@ -86,36 +89,6 @@ fn stages_of() -> Vec<Stage> {
     let mut offer = stages::all();
     offer.push(pinhole::look::view_stage(&offer));
     offer
-}
-
-/// The cost of a picture of the first hits, by projection and by rays.
-fn curves() {
-    let (rounds, most) = (after("--rounds", 5), after("--most", 2_000_000_u32));
-    println!("first hits, one thread, processor time a frame; the hierarchy is built once, before");
-    for knot in KNOTS.into_iter().filter(|[along, around]| 2 * along * around <= most) {
-        for size in SIZES {
-            let (mut by_rays, camera) = scene(knot, size);
-            by_rays.entity_mut(camera).insert(View { column: "hit".into() });
-            let (mut projected, camera) = scene(knot, size);
-            projected.entity_mut(camera).insert((View { column: "hit".into() }, Rasterisation));
-            rendered(&by_rays, Some(1));
-            let (mut logs, mut times) = (Vec::new(), [f64::INFINITY; 2]);
-            for _ in 0..rounds {
-                let pair = [&by_rays, &projected].map(|world| cpu(&|| rendered(world, Some(1))).as_secs_f64());
-                times = [0, 1].map(|which| times[which].min(pair[which]));
-                logs.push((pair[0] / pair[1]).ln());
-            }
-            let (low, middle, high) = interval(&logs);
-            println!(
-                "{:8} triangles, {:4} × {:4}: by rays {:8.2} ms, projected {:8.2} ms; {middle:.2} [{low:.2}, {high:.2}] times as fast projected",
-                2 * knot[0] * knot[1],
-                size[0],
-                size[1],
-                1e3 * times[0],
-                1e3 * times[1],
-            );
-        }
-    }
 }
 
 /// The same mesh, projected by euc: what is nearest at each pixel, as a number made of its place.

@@ -9,6 +9,7 @@
 
 pub mod acne;
 pub mod aliasing;
+pub mod both;
 pub mod boxes;
 pub mod broken_paths;
 pub mod budget;
@@ -57,6 +58,7 @@ mod sketch;
 pub mod slabs;
 mod subject;
 mod svg;
+pub mod told;
 pub mod tree;
 #[cfg(test)]
 mod trial;

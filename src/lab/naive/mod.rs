@@ -4,6 +4,7 @@
 //! textbook would. No chapter's render uses anything from here; figures show what would have come of it.
 
 pub mod adaptive;
+pub mod both;
 pub mod boxes;
 pub mod camera;
 pub mod caustics;
