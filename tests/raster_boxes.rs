@@ -2,13 +2,14 @@
 
 use crate::scenes::{self, EYES, FilmBits, Setup, named, offer, one_world};
 use bevy_ecs::prelude::*;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
+use pinhole::extract::CuboidTable;
 use pinhole::intersect::{Hits, NO_SHAPE};
-use pinhole::plan::Column;
+use pinhole::plan::{Census, Column};
 use pinhole::rays::{WorldRays, camera_ray_orthographic, camera_ray_perspective};
 use pinhole::render::{first_bounce_only, inspect, render};
 use pinhole::scene::*;
-use pinhole::shapes::{Listed, ShapeVisitor, visit_shapes};
+use pinhole::shapes::{Bounds, Listed, Shape, ShapeVisitor, visit_shapes};
 use pinhole_lab::measure::raster_boxes::{WHEREABOUTS, box_picture};
 use pinhole_lab::measure::ray_aim::Draws;
 
@@ -66,24 +67,28 @@ fn hits(world: &World) -> Vec<u32> {
     tile.get::<Hits>().expect("hits").shape.clone()
 }
 
-/// How far each ray of an image has been rounded, as the place where it should pass and the place where it does: of the
-/// image plane at distance 1, or of the window.
-fn rounding(world: &World, size: u32, is_upright: bool, is_perspective: bool) -> Vec<[f64; 2]> {
+/// Half the height of the image plane at distance 1, and of the window.
+const HALF_HEIGHTS: [f64; 2] = [1.0, 1.0 / 3.0];
+
+/// Where each ray of the image should pass, and where it does since it has been rounded: on the image plane at distance
+/// 1, or on the window.
+fn places(world: &World, size: u32, is_upright: bool, is_perspective: bool) -> Vec<[f64; 2]> {
     let inspection = inspect(world, &first_bounce_only(&offer()), u32::MAX).expect("inspects");
     let rays = inspection.world.entity(inspection.tiles[0]).get::<WorldRays>().expect("rays");
     let place = |row: usize| {
         let ndc = (row as f64 + 0.5) / f64::from(size);
-        let aspect = if is_upright { 1.0 } else { f64::from(size) };
-        let screen = glam::DVec2::X * (2.0 * ndc - 1.0) * aspect;
-        let screen = if is_upright { glam::DVec2::new(0.0, -screen.x) } else { screen };
-        let axis = usize::from(is_upright);
+        let screen = match is_upright {
+            true => DVec2::new(0.0, 1.0 - 2.0 * ndc),
+            false => DVec2::new((2.0 * ndc - 1.0) * f64::from(size), 0.0),
+        };
         let (exact, rounded) = match is_perspective {
             true => {
-                let (exact, rounded) = (camera_ray_perspective(screen, 1.0), rays.direction_of(row));
+                let (exact, rounded) = (camera_ray_perspective(screen, HALF_HEIGHTS[0]), rays.direction_of(row));
                 (exact / -exact.z, rounded / -rounded.z)
             }
-            false => (camera_ray_orthographic(screen, 1.0), rays.origin_of(row)),
+            false => (camera_ray_orthographic(screen, HALF_HEIGHTS[1]), rays.origin_of(row)),
         };
+        let axis = usize::from(is_upright);
         [exact[axis], rounded[axis]]
     };
     (0..rays.rows()).map(place).collect()
@@ -101,35 +106,46 @@ fn what_only_the_rounded_ray_hits_is_in_its_box() {
             let mut camera = world.spawn((Resolution { width, height }, Integrator::RayCasting));
             match is_perspective {
                 true => camera.insert(PerspectiveCamera { fov: Degrees(90.0), axis: FovAxis::Vertical }),
-                false => camera.insert(OrthographicCamera { view_height: 2.0 }),
+                false => camera.insert(OrthographicCamera { view_height: 2.0 * HALF_HEIGHTS[1] }),
             };
             let camera = camera.id();
             let mut draws = Draws::new(3303, u64::from(size));
             // Something to see, so that there are rays, far behind everything else.
             world.spawn((Sphere::default(), Placement::at(0.0, 0.0, -1e9), Matte::default()));
-            let mut expected = 0;
-            for [exact, rounded] in rounding(&world, size, is_upright, is_perspective) {
+            let mut passed_by = Vec::new();
+            for [exact, rounded] in places(&world, size, is_upright, is_perspective) {
                 if rounded.abs() >= exact.abs() {
                     continue;
                 }
-                // A cuboid whose silhouette is between the two, as small against its place as f32 knows it.
+                // A small cube whose outer edge is between the two.
                 let (depth, edge) = (draws.between(1.0, 3.0), exact.abs() * 1e-4);
                 let across = 0.5 * (exact.abs() + rounded.abs()) * if is_perspective { depth } else { 1.0 };
                 let centre = exact.signum() * (across - 0.5 * edge);
                 let [x, y] = if is_upright { [0.0, centre] } else { [centre, 0.0] };
-                let long = if is_upright { DVec3::new(1.0, edge, edge) } else { DVec3::new(edge, 1.0, edge) };
-                let cuboid = Cuboid { size: long };
-                world.spawn((cuboid, Placement::at(x, y, -depth - 0.5 * edge), Matte::default()));
-                expected += 1;
+                let cube = Cuboid { size: DVec3::splat(edge) };
+                world.spawn((cube, Placement::at(x, y, -depth - 0.5 * edge), Matte::default()));
+                passed_by.push(exact.abs());
             }
             let by_rays = hits(&world);
+            let cubes = Census::of(&world).table::<CuboidTable>().expect("cubes");
             world.entity_mut(camera).insert(Rasterisation);
             let in_boxes = hits(&world);
-            assert_eq!(in_boxes, by_rays, "upright {is_upright}, perspective {is_perspective}, {size} pixels");
+            let what = format!("upright {is_upright}, perspective {is_perspective}, {size} pixels");
+            assert_eq!(in_boxes, by_rays, "{what}");
+            // The image of most boxes, as such, does not reach the sample.
+            let reach = |bounds: Bounds| {
+                let axis = usize::from(is_upright);
+                bounds.least[axis].abs().max(bounds.most[axis].abs())
+                    / if is_perspective { -bounds.most.z } else { 1.0 }
+            };
+            let bounds = cubes.row.iter().map(|cube| cube.bounds().expect("a box"));
+            let beside = bounds.zip(&passed_by).filter(|&(bounds, &sample)| reach(bounds) < sample).count();
             let hit = by_rays.iter().filter(|&&shape| shape != NO_SHAPE && shape > 0).count();
-            assert!(hit > size as usize / 4 && 10 * hit >= 9 * expected, "{hit} of {expected}");
+            let all = passed_by.len();
+            assert!(10 * hit >= 9 * all && 10 * beside >= 9 * all, "{what}: {hit} hit, {beside} beside, of {all}");
+            assert!(4 * all > size as usize, "{what}: {all} rays are rounded towards the axis");
             tried += hit;
         }
     }
-    eprintln!("{tried} cuboids are hit by rounded rays alone: all are in their boxes");
+    eprintln!("{tried} cubes are hit by rounded rays alone: all are in their boxes");
 }

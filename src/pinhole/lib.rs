@@ -57,7 +57,7 @@
 //! 10. [`sample`]: samplers and random numbers.
 //! 11. [`rays`]: raster → NDC → screen → camera → world.
 //! 12. [`intersect`]: rays → the closest hit and its surface.
-//! 13. [`rasterise`]: triangles → the same hits, in the other order.
+//! 13. [`rasterise`]: triangles and boxes → the same hits, in the other order.
 //! 14. [`shade`]: surfaces → textures, lights and shadow rays.
 //! 15. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
 //! 16. [`film`]: radiance → pixels → files.

@@ -93,9 +93,9 @@ const LIST: &[Part] = &[Part(&[
 ], intersections), Part(&[
     (Motion, intersect::moving_stage),
 
-    // Or triangles are projected onto the image, where a camera asks for it, and so are the boxes of other shapes.
-    (Rasterisation, rasterise::rasterise_stage),
+    // Or, where a camera asks for it, triangles are projected onto the image, and the boxes of other shapes.
 ], raster_boxes), Part(&[
+    (Rasterisation, rasterise::rasterise_stage),
 
     // What rays were tested against is counted, where a view asks for it.
     (Intersection, intersect::count_stage),

@@ -1,4 +1,4 @@
-//! The rectangle of the image that a box covers, with room for the rounding of rays.
+//! The rectangle of the image that a box covers, and how near it is, with room for the rounding of rays.
 
 use super::bins::Extent;
 use super::clip::crossing;
@@ -12,6 +12,15 @@ const NEAR: f64 = 1.0 / (1_u64 << 20) as f64;
 
 /// The greatest n for which the bound of a ray's rounding holds, with room to spare.
 const LONGEST: f64 = (1_u32 << 22) as f64;
+
+/// What is certain of a shape because of a box around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct BoxExtent {
+    /// No sample's ray hits it in another pixel.
+    pub pixels: Extent,
+    /// No ray hits it at a smaller t.
+    pub nearest: f64,
+}
 
 /// What boxes are projected by.
 pub(super) struct BoxExtents<'s> {
@@ -33,24 +42,27 @@ impl<'s> BoxExtents<'s> {
         Self { projection, margin, per_unit: (size / (2.0 * half)).max_element(), greatest }
     }
 
-    /// The pixels of which a sample's ray may hit a shape; none where no ray does.
+    /// That of a shape; none where no ray hits it.
     ///
     /// A box along the axes of the world, and one along the camera's about a sphere around the shape: each encloses it,
     /// and whichever is narrower limits the rectangle on that side.
-    pub fn of_shape(&self, shape: &impl Shape) -> Option<Extent> {
+    pub fn of_shape(&self, shape: &impl Shape) -> Option<BoxExtent> {
         let camera_from_world = self.projection.camera_from_world;
-        let whole = [self.projection.size.x, self.projection.size.y].map(|pixels| [0, pixels as u32 - 1]);
-        let Some(bounds) = shape.bounds() else { return Some(whole) };
+        let Some(bounds) = shape.bounds() else {
+            return Some(BoxExtent { pixels: self.pixels(&Seen::ALL)?, nearest: 0.0 });
+        };
         let mut extent = self.of_box(&bounds, |corner| camera_from_world * corner)?;
         if let Some((centre, radius)) = shape.bounding_sphere() {
             let around = Bounds::about(camera_from_world * centre, DVec3::splat(radius));
-            extent = both(extent, self.of_box(&around, |corner| corner)?)?;
+            let around = self.of_box(&around, |corner| corner)?;
+            let nearest = extent.nearest.max(around.nearest);
+            extent = BoxExtent { pixels: both(extent.pixels, around.pixels)?, nearest };
         }
         Some(extent)
     }
 
-    /// The pixels of which a sample's ray may hit something in a box, whose corners are taken to camera space.
-    fn of_box(&self, bounds: &Bounds, to_camera: impl Fn(DVec3) -> DVec3) -> Option<Extent> {
+    /// That of anything in a box, whose corners are taken to camera space.
+    fn of_box(&self, bounds: &Bounds, to_camera: impl Fn(DVec3) -> DVec3) -> Option<BoxExtent> {
         let Bounds { least, most } = *bounds;
         let Projection { half, is_perspective, .. } = *self.projection;
         let farthest = least.abs().max(most.abs()).length();
@@ -61,19 +73,26 @@ impl<'s> BoxExtents<'s> {
         let corners: [ClipPoint; 8] = std::array::from_fn(corner);
         let mut seen = Seen { least: DVec2::INFINITY, most: DVec2::NEG_INFINITY };
         let finite = corners.iter().all(|corner| (corner.x + corner.y + corner.depth).is_finite());
-        let near = NEAR * farthest;
+        let (near, closest) = (NEAR * farthest, DVec3::ZERO.max(least).min(most).length());
         // What a ray of the image hits before the near plane is closer to the eye than half of that.
-        let is_close = DVec3::ZERO.max(least).min(most).length() <= 2.0 * self.greatest * near;
+        let is_close = closest <= 2.0 * self.greatest * near;
         if !finite || (is_perspective && (is_close || near < f64::MIN_POSITIVE || self.greatest > LONGEST)) {
-            return self.pixels(&Seen::ALL);
+            return Some(BoxExtent { pixels: self.pixels(&Seen::ALL)?, nearest: 0.0 });
         }
-        if is_perspective {
+        let rounding = self.rounding(farthest);
+        let nearest = if is_perspective {
             seen.add_in_front(self.projection, &corners, near);
-        } else if corners.iter().any(|corner| corner.depth >= -self.rounding(farthest)) {
-            corners.iter().for_each(|&corner| seen.add(self.projection.raster(corner)));
-        }
-        let room = DVec2::splat(self.rounding(farthest) * self.per_unit + self.margin);
-        self.pixels(&Seen { least: seen.least - room, most: seen.most + room })
+            closest * (1.0 - NEAR)
+        } else {
+            let depth = corners.iter().fold(f64::INFINITY, |least, corner| least.min(corner.depth));
+            if corners.iter().any(|corner| corner.depth >= -rounding) {
+                corners.iter().for_each(|&corner| seen.add(self.projection.raster(corner)));
+            }
+            depth - 2.0 * rounding
+        };
+        let room = DVec2::splat(rounding * self.per_unit + self.margin);
+        let pixels = self.pixels(&Seen { least: seen.least - room, most: seen.most + room })?;
+        Some(BoxExtent { pixels, nearest })
     }
 
     // ANCHOR: rounding
@@ -91,6 +110,9 @@ impl<'s> BoxExtents<'s> {
     /// less than u (|P| + 2 |o|), which is doubled.
     ///
     /// That leaves u for what is computed in f64: 2⁻⁵⁰ of the same lengths, or 2⁻³⁰ for a corner at the near plane.
+    ///
+    /// The smallest t is off by 2u of itself for the length of the direction and by 2u for the kernel, which is less than
+    /// 2⁻²⁰; of an orthographic camera by u |o| besides, which together is less than twice this distance.
     fn rounding(&self, farthest: f64) -> f64 {
         const TWO_U: f64 = 1.0 / (1_u64 << 23) as f64;
         match self.projection.is_perspective {

@@ -1,7 +1,7 @@
 //! Shapes that are not made of triangles: the rectangle of pixels that each may cover, and its own kernel inside.
 
 use super::bins::{BIN, Bins, Extent, bins_near, bins_of};
-use super::box_extent::BoxExtents;
+use super::box_extent::{BoxExtent, BoxExtents};
 use super::spaces::Projection;
 use crate::extract::{FilterTable, ShapesOf, box_evidence, radius_of};
 use crate::intersect::{HitColumn, HitPrimitives, Hits, RayColumn};
@@ -17,38 +17,38 @@ use std::slice::from_ref;
 
 /// The fewest shapes that are worth a task of their own.
 const TASK: usize = 512;
+/// The lines of a tile whose rays are intersected with a shape together, where it covers them from end to end.
+const LINES: usize = 4;
 
 /// The pixels that each shape of a kind may cover, sorted into bins of the image.
 ///
 /// No sample whose camera ray hits a shape is outside the rectangle of that shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RasterBoxes<S: Listed> {
-    /// Those of the shapes that may be in the image, in the order of their table.
-    extents: Vec<Extent>,
-    /// Their rows there.
-    rows: Vec<u32>,
+    /// Those of the shapes that may be in the image, from the nearest to the farthest, and their rows.
+    boxes: Vec<(BoxExtent, u32)>,
     bins: Bins,
     of: PhantomData<fn() -> S>,
 }
 
 impl<S: Listed> RasterBoxes<S> {
-    /// Calls a function for each rectangle of the tile's pixels that a shape may cover, with the shape's row: the first
-    /// and last pixel to the right and downward, counted from the tile's corner.
+    /// Calls a function for each rectangle of the tile's pixels that a shape may cover: the first and last pixel to the
+    /// right and downward, counted from the tile's corner, the smallest t there may be, and the shape's row.
     ///
     /// A shape that is in several bins is given once for each of them, with other pixels.
     #[inline(always)]
-    fn for_each_near(&self, tile: &Tile, mut keep: impl FnMut(usize, [[usize; 2]; 2])) {
+    fn for_each_near(&self, tile: &Tile, mut keep: impl FnMut([[usize; 2]; 2], f64, usize)) {
         for bin in bins_near(tile) {
             let area = [(bin[0], tile.x, tile.width), (bin[1], tile.y, tile.height)]
                 .map(|(bin, start, count)| [start.max(bin * BIN), (start + count).min((bin + 1) * BIN) - 1]);
             for &place in self.bins.list(bin) {
-                let extent = self.extents[place as usize];
+                let (BoxExtent { pixels, nearest }, row) = self.boxes[place as usize];
                 let own = |axis: usize, start: u32| {
-                    let [first, last] = [extent[axis][0].max(area[axis][0]), extent[axis][1].min(area[axis][1])];
+                    let [first, last] = [pixels[axis][0].max(area[axis][0]), pixels[axis][1].min(area[axis][1])];
                     (first <= last).then(|| [(first - start) as usize, (last - start) as usize])
                 };
                 if let (Some(across), Some(down)) = (own(0, tile.x), own(1, tile.y)) {
-                    keep(self.rows[place as usize] as usize, [across, down]);
+                    keep([across, down], nearest, row as usize);
                 }
             }
         }
@@ -64,17 +64,18 @@ impl<S: Listed> Table for RasterBoxes<S> {
             true => radius_of(scene.table::<FilterTable>()?.filter),
             false => 0.0,
         };
-        let boxes = BoxExtents::new(&projection, margin);
-        let extents: Vec<Option<Extent>> =
-            shapes.row.par_iter().with_min_len(TASK).map(|shape| boxes.of_shape(shape)).collect();
-        let (rows, extents): (Vec<u32>, Vec<Extent>) =
-            (0..).zip(extents).filter_map(|(row, extent)| Some((row, extent?))).unzip();
-        let bins = Bins::sorted(&extents, bins_of(projection.size));
-        Ok(Self { extents, rows, bins, of: PhantomData })
+        let extents = BoxExtents::new(&projection, margin);
+        let each = shapes.row.par_iter().with_min_len(TASK).enumerate();
+        let mut boxes: Vec<(BoxExtent, u32)> =
+            each.filter_map(|(row, shape)| Some((extents.of_shape(shape)?, row as u32))).collect();
+        boxes.sort_by(|(one, _), (other, _)| one.nearest.total_cmp(&other.nearest));
+        let pixels: Vec<Extent> = boxes.iter().map(|(extent, _)| extent.pixels).collect();
+        let bins = Bins::sorted(&pixels, bins_of(projection.size));
+        Ok(Self { boxes, bins, of: PhantomData })
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(&self.extents[..]) + size_of_val(&self.rows[..]) + self.bins.bytes()
+        size_of_val(&self.boxes[..]) + self.bins.bytes()
     }
 }
 
@@ -120,18 +121,17 @@ fn keep_closest<S: Listed>(
         }
         None => pixels,
     };
-    boxes.for_each_near(tile, |row, [[left, right], [top, bottom]]| {
+    boxes.for_each_near(tile, |[[left, right], [top, bottom]], nearest, row| {
         let (shape, number) = (from_ref(&shapes.row[row]), from_ref(&shapes.shape[row]));
-        let mut keep = |rows: Range<usize>| {
-            if !rows.is_empty() {
+        // Lines of a tile that are covered from end to end are one range of rows.
+        let lines = if right - left + 1 == width { LINES } else { 1 };
+        for first in (top..=bottom).step_by(lines) {
+            let last = bottom.min(first + lines - 1);
+            let rows = rows_of(first * width + left..last * width + right + 1);
+            // Nothing is closer where every ray has hit something in front of the box.
+            if hits.t[rows.clone()].iter().any(|&t| t >= nearest) {
                 S::keep_closest(shape, number, rays.part(rows.clone()), hits.part(rows));
             }
-        };
-        // Lines of a tile that are covered from end to end are one range of rows.
-        if right - left + 1 == width {
-            keep(rows_of(top * width..(bottom + 1) * width));
-        } else {
-            (top..=bottom).for_each(|line| keep(rows_of(line * width + left..line * width + right + 1)));
         }
     });
 }

@@ -1,13 +1,17 @@
 //! First hits of spheres: by rays, in their rasterised boxes, and tessellated to a stated error.
+//!
+//! Spheres in a ball, all of them in view; from among them; and such that hundreds are one behind the other.
 
-use super::interval::interval;
+use super::interval::{cpu, interval};
 use super::{EYE, FOV, after, stages_of};
 use bevy_ecs::prelude::*;
 use cpu_time::ProcessTime;
 use glam::DVec3;
-use pinhole::plan::Census;
+use pinhole::extract::{HierarchyOf, ShapesOf, hierarchy_evidence};
+use pinhole::plan::{Census, Table};
 use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::*;
+use pinhole::shapes::PlacedSphere;
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::measure::tessellated_sphere::tessellated_sphere;
 
@@ -22,7 +26,16 @@ const REACH: f64 = 3.0;
 /// How far the eye is from the origin where it is close.
 const CLOSE: f64 = 1.4;
 
-/// How spheres are found: the name, and what the scene of it is.
+/// Where the camera is, and how large the spheres are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum View {
+    Outside,
+    Close,
+    /// No sphere is smaller for there being more of them.
+    Overlapping,
+}
+
+/// How spheres are found.
 #[derive(Clone, Copy)]
 enum Method {
     Rays,
@@ -30,25 +43,27 @@ enum Method {
     Triangles(f64),
 }
 
-/// Spheres in a ball about the origin; as many times smaller as there are more of them by volume.
-fn spheres(count: u32) -> (Vec<DVec3>, f64) {
+/// The centres of spheres in a ball about the origin, and their radius; together they always have the same volume, unless
+/// they overlap.
+fn spheres(count: u32, view: View) -> (Vec<DVec3>, f64) {
     let mut draws = Draws::new(3301, u64::from(count));
     let places = (0..count).map(|sphere| {
         let away = if sphere == 0 { 0.0 } else { REACH * libm::cbrt(draws.unit()) };
         draws.unit_vector() * away
     });
-    (places.collect(), 1.2 / libm::cbrt(f64::from(count)))
+    let smaller = if view == View::Overlapping { 1.0 } else { libm::cbrt(f64::from(count)) };
+    (places.collect(), 1.2 / smaller)
 }
 
 /// The scene of a method, and how many triangles it has; none where they are too many.
-fn scene(method: Method, count: u32, distance: f64, [width, height]: [u32; 2]) -> Option<(World, usize)> {
-    let (places, radius) = spheres(count);
-    let eye = EYE.normalize() * distance;
+fn scene(method: Method, count: u32, view: View, [width, height]: [u32; 2]) -> Option<(World, usize)> {
+    let (places, radius) = spheres(count, view);
+    let eye = if view == View::Close { EYE.normalize() * CLOSE } else { EYE };
     let mut world = World::new();
     let projection = PerspectiveCamera { fov: Degrees(FOV), axis: FovAxis::Vertical };
     let look = LookAt { eye, target: DVec3::ZERO, ..LookAt::default() };
-    let (size, view) = (Resolution { width, height }, View { column: "hit".into() });
-    let mut camera = world.spawn((projection, look, size, view, Integrator::RayCasting));
+    let painted = pinhole::scene::View { column: "hit".into() };
+    let mut camera = world.spawn((projection, look, Resolution { width, height }, painted, Integrator::RayCasting));
     if !matches!(method, Method::Rays) {
         camera.insert(Rasterisation);
     }
@@ -85,8 +100,8 @@ struct Frames {
 }
 
 impl Frames {
-    fn of(method: Method, count: u32, distance: f64, size: [u32; 2]) -> Option<Self> {
-        let (world, triangles) = scene(method, count, distance, size)?;
+    fn of(method: Method, count: u32, view: View, size: [u32; 2]) -> Option<Self> {
+        let (world, triangles) = scene(method, count, view, size)?;
         let execution = Execution { threads: Some(1), ..Execution::default() };
         let render = RenderInProgress::begin(&Census::of(&world), &stages_of(), &execution).expect("begins");
         let mut frames = Self { world, render, triangles, least: [f64::INFINITY; 2] };
@@ -106,6 +121,16 @@ impl Frames {
         times
     }
 
+    /// The processor time in which the hierarchy over the spheres is built; none where they are tested one by one.
+    fn building(&self) -> f64 {
+        let census = Census::of(&self.world);
+        if !hierarchy_evidence::<PlacedSphere>(&census).needed {
+            return 0.0;
+        }
+        census.table::<ShapesOf<PlacedSphere>>().expect("spheres");
+        cpu(&|| HierarchyOf::<PlacedSphere>::extract(&census)).as_secs_f64()
+    }
+
     fn printed(&self) -> String {
         format!("{:7.2} + {:8.2}", 1e3 * self.least[0], 1e3 * self.least[1])
     }
@@ -115,27 +140,28 @@ impl Frames {
 pub fn curved() {
     let (rounds, most) = (after("--rounds", 15), after("--spheres", COUNTS[COUNTS.len() - 1]));
     println!("first hits of spheres, one thread, processor time a frame in ms: tables made anew + the picture");
-    println!("how many times as fast in boxes: as by rays, as by rays whose tables are kept, as tessellated");
-    for close in [false, true] {
-        let distance = if close { CLOSE } else { EYE.length() };
-        for count in COUNTS.into_iter().filter(|&count| count <= if close { 10 } else { most }) {
+    println!("boxes are so many times as fast as rays; as rays whose hierarchy is kept; as triangles");
+    for view in [View::Outside, View::Close, View::Overlapping] {
+        // Neither one sphere nor ten overlap more than others.
+        for count in COUNTS.into_iter().filter(|&count| count <= most && (view != View::Overlapping || count > 10)) {
             for size in SIZES {
-                compare(count, distance, size, rounds);
+                compare(count, view, size, rounds);
             }
         }
     }
 }
 
-fn compare(count: u32, distance: f64, size: [u32; 2], rounds: usize) {
-    let of = |method| Frames::of(method, count, distance, size);
+fn compare(count: u32, view: View, size: [u32; 2], rounds: usize) {
+    let of = |method| Frames::of(method, count, view, size);
     let (Some(mut rays), Some(mut boxes)) = (of(Method::Rays), of(Method::Boxes)) else { return };
     let mut tessellated = ERRORS.map(|error| of(Method::Triangles(error)));
-    let mut logs = [(); 4].map(|()| Vec::new());
+    let (mut logs, mut building) = ([(); 4].map(|()| Vec::new()), f64::INFINITY);
     for _ in 0..rounds {
-        let (own, other) = (boxes.next(), rays.next());
-        let own: f64 = own.iter().sum();
-        logs[0].push(((other[0] + other[1]) / own).ln());
-        logs[1].push((other[1] / own).ln());
+        let [own, other] = [&mut boxes, &mut rays].map(|frames| frames.next().iter().sum::<f64>());
+        let built = rays.building();
+        building = building.min(built);
+        logs[0].push((other / own).ln());
+        logs[1].push(((other - built) / own).ln());
         for (frames, logs) in tessellated.iter_mut().zip(&mut logs[2..]) {
             if let Some(frames) = frames {
                 logs.push((frames.next().iter().sum::<f64>() / own).ln());
@@ -147,11 +173,11 @@ fn compare(count: u32, distance: f64, size: [u32; 2], rounds: usize) {
         format!("{middle:.2} [{low:.2}, {high:.2}]")
     };
     println!(
-        "{count} spheres{}, {} × {}: rays {}; boxes {}; boxes are {} and {} times as fast as rays",
-        if distance < EYE.length() { " close to the camera" } else { "" },
+        "{count} spheres, {view:?}, {} × {}: rays {} (hierarchy {:.2}); boxes {}: {}; {}",
         size[0],
         size[1],
         rays.printed(),
+        1e3 * building,
         boxes.printed(),
         ratio(&logs[0]),
         ratio(&logs[1]),
@@ -159,7 +185,7 @@ fn compare(count: u32, distance: f64, size: [u32; 2], rounds: usize) {
     for ((error, frames), logs) in ERRORS.iter().zip(&tessellated).zip(&logs[2..]) {
         match frames {
             Some(frames) => println!(
-                "    within 1/{} pixel, {} triangles: {}; boxes are {} times as fast",
+                "    within 1/{} pixel, {} triangles: {}: {}",
                 1.0 / error,
                 frames.triangles,
                 frames.printed(),
