@@ -22,6 +22,7 @@ fn rasterisation_sees_what_rays_see_and_every_sample_is_in_one_triangle() {
         assert!(case.held(), "{case}");
         assert!(case.rays >= TRIED / 100 && 3 * case.hits > case.rays, "{}: {} of {}", case.name, case.hits, case.rays);
     }
+    assert_eq!(cases.iter().filter(|case| case.name.contains("in boxes")).count(), 8, "a case for each such shape");
 }
 
 /// A knot over a ground, with a mirror ball and a light.
@@ -34,7 +35,7 @@ fn knot(integrator: Integrator) -> World {
     world.spawn((Name::new("knot"), MeshInstance { geometry }, Matte { colour: Rgb::grey(0.6) }));
     let ground = [DVec3::new(-20.0, -1.6, -20.0), DVec3::new(0.0, -1.6, 20.0), DVec3::new(20.0, -1.6, -20.0)];
     world.spawn((Triangle { vertices: ground, ..Triangle::default() }, Matte::default()));
-    world.spawn((Sphere { radius: 0.7 }, Placement::at(0.0, 1.2, 0.0), Mirror::default()));
+    world.spawn((Name::new("ball"), Sphere { radius: 0.7 }, Placement::at(0.0, 1.2, 0.0), Mirror::default()));
     world.spawn((PointLight { intensity: Rgb::grey(900.0), ..PointLight::default() }, Placement::at(4.0, 9.0, 6.0)));
     world
 }
@@ -107,16 +108,27 @@ fn the_plan_says_which_stages_rasterisation_replaces() {
         let camera = named(&mut world, "camera");
         world.entity_mut(camera).insert(Rasterisation);
         let plan = plan(&Census::of(&world), &offer()).expect("a plan");
-        ["Rasterise triangles", "Intersect meshes", "Intersect spheres"].map(|stage| {
+        let stages = [
+            "Rasterise triangles",
+            "Intersect meshes",
+            "Rasterise boxes: spheres",
+            "Intersect spheres",
+            "Rasterise boxes: tori",
+        ];
+        stages.map(|stage| {
             let row = plan.rows.iter().find(|row| row.stage == stage).expect("offered");
             (row.kept, row.reason.clone())
         })
     };
-    let [rasterise, meshes, spheres] = rows(Integrator::RayCasting);
-    assert!(rasterise.0 && !meshes.0 && spheres.0, "{rasterise:?} {meshes:?} {spheres:?}");
-    assert_eq!(meshes.1, "1 rasterising camera: \"camera\"");
-    let [_, meshes, _] = rows(Integrator::PATH);
-    assert_eq!(meshes, (true, "1 mesh: \"knot\"; from the second bounce on: 1 rasterising camera: \"camera\"".into()));
+    let camera = "1 rasterising camera: \"camera\"";
+    let [rasterise, meshes, boxes, spheres, tori] = rows(Integrator::RayCasting);
+    assert!(rasterise.0 && boxes.0, "{rasterise:?} {boxes:?}");
+    assert_eq!([meshes, spheres], [(); 2].map(|()| (false, camera.to_string())));
+    assert_eq!(boxes.1, format!("{camera}; 1 sphere: \"ball\""));
+    assert_eq!(tori, (false, "0 toruses".into()));
+    let [_, meshes, _, spheres, _] = rows(Integrator::PATH);
+    assert_eq!(meshes, (true, format!("1 mesh: \"knot\"; from the second bounce on: {camera}")));
+    assert_eq!(spheres, (true, format!("1 sphere: \"ball\"; from the second bounce on: {camera}")));
 }
 
 #[test]
@@ -148,7 +160,8 @@ fn a_camera_that_cannot_rasterise_is_refused_in_one_sentence() {
 fn a_camera_that_traces_rays_pays_nothing() {
     let world = knot(Integrator::RayCasting);
     let plan = plan(&Census::of(&world), &offer()).expect("a plan");
-    assert!(plan.tables.iter().all(|table| table.name != "raster triangles" && table.name != "projection"));
+    assert!(plan.tables.iter().all(|table| !table.name.starts_with("raster ") && table.name != "projection"));
+    assert!(plan.stages.iter().all(|stage| !stage.name.starts_with("Rasterise")));
     assert!(plan.stages.iter().all(|stage| !stage.from_second_bounce));
     let mut other = knot(Integrator::RayCasting);
     let camera = named(&mut other, "camera");

@@ -16,6 +16,7 @@ mod meshes;
 mod motion;
 mod order;
 mod plan;
+mod raster_boxes;
 mod rasterisation;
 mod reprojection;
 mod sampling;

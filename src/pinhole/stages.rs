@@ -18,7 +18,7 @@ use crate::plan::Stage;
 use crate::{film, follow, intersect, rasterise, rays, shade};
 use registered::{
     bsdf_rows, bsdf_samples, direct_light_of_bsdfs, image_masks, image_plane_rays, intersections, light_samples,
-    shadow_rays, surface_points, wide_rays,
+    raster_boxes, shadow_rays, surface_points, wide_rays,
 };
 use std::any::TypeId;
 use std::collections::BTreeMap;
@@ -93,8 +93,9 @@ const LIST: &[Part] = &[Part(&[
 ], intersections), Part(&[
     (Motion, intersect::moving_stage),
 
-    // Or triangles are projected onto the image, where a camera asks for it.
+    // Or triangles are projected onto the image, where a camera asks for it, and so are the boxes of other shapes.
     (Rasterisation, rasterise::rasterise_stage),
+], raster_boxes), Part(&[
 
     // What rays were tested against is counted, where a view asks for it.
     (Intersection, intersect::count_stage),
@@ -236,7 +237,7 @@ pub fn intersection() -> Vec<Stage> {
     of(Intersection)
 }
 
-/// Triangles and meshes projected onto the image, in place of camera rays.
+/// Triangles, meshes and the boxes of other shapes projected onto the image, so that no camera ray has to look for them.
 #[doc(hidden)]
 pub fn rasterisation() -> Vec<Stage> {
     of(Rasterisation)

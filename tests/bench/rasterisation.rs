@@ -1,15 +1,21 @@
-//! Pictures by projection and by rays; projection beside another rasteriser; frames of a moving camera.
+//! Pictures by projection and by rays; projection beside another rasteriser; spheres by rays, in boxes and
+//! tessellated; frames of a moving camera.
 //!
-//! `cargo bench --bench rasterisation` measures all three; `-- curves`, `-- peer` or `-- frames` one of them.
-//! `frames --mode 0` renders frames of the first mode alone.
+//! `cargo bench --bench rasterisation` measures all four; `-- curves`, `-- peer`, `-- curved` or `-- frames` one of them.
+//! `frames --mode 0` renders frames of the first mode alone, and says what its stages took.
 //! `--rounds 5` says how often each pair is timed, `--frames 1000` how many frames are rendered, `--most 1000000` where
-//! the curve against triangles ends; `curves --write` keeps the curves beside chapter 34.
+//! the curve against triangles ends, `--spheres 10000` where `curved` does; `curves --write` keeps the curves beside
+//! chapter 34.
 //! All but the frames run on one thread and are timed in processor time; frames take as many threads as there are
-//! processors, and are timed from the camera's pose to the pixels.
+//! processors, and are timed as the viewer makes them, from the camera's pose to the bytes of the pixels.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
+#[path = "rasterisation/curved.rs"]
+mod curved;
 #[path = "rasterisation/curves.rs"]
 mod curves;
+#[path = "rasterisation/frames.rs"]
+mod frames;
 #[allow(dead_code, reason = "a benchmark takes what it needs")]
 mod interval;
 
@@ -26,7 +32,6 @@ use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::*;
 use pinhole::stages;
 use pinhole_lab::measure::torus_knot::torus_knot;
-use std::time::Instant;
 
 const EYE: DVec3 = DVec3::new(0.0, 5.0, 8.0);
 const TARGET: DVec3 = DVec3::new(0.0, -0.3, 0.0);
@@ -46,7 +51,7 @@ fn main() {
     let wanted = |part: &str| {
         let words: Vec<String> = std::env::args().collect();
         words.iter().any(|word| word == part)
-            || !["curves", "peer", "frames"].iter().any(|own| words.iter().any(|word| word == own))
+            || !["curves", "peer", "curved", "frames"].iter().any(|own| words.iter().any(|word| word == own))
     };
     let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     if wanted("curves") {
@@ -55,8 +60,11 @@ fn main() {
     if wanted("peer") {
         single.install(peer);
     }
+    if wanted("curved") {
+        single.install(curved::curved);
+    }
     if wanted("frames") {
-        frames();
+        frames::measure();
     }
 }
 
@@ -194,62 +202,4 @@ fn tiles([width, height]: [u32; 2]) -> Vec<(Tile, RasterPoints)> {
         .collect();
     world.run_system_cached(fill_raster).expect("raster points");
     tiles.into_iter().map(|tile| world.entity_mut(tile).take::<(Tile, RasterPoints)>().expect("both")).collect()
-}
-
-/// What a moving camera's frames consist of.
-type Mode = (&'static str, fn(&mut EntityWorldMut<'_>));
-
-const MODES: [Mode; 4] = [
-    ("projected and lit, no shadows", |camera| _ = camera.insert(Rasterisation)),
-    ("projected, with traced shadows", |camera| _ = camera.insert(Rasterisation)),
-    ("rays, with traced shadows", |_| ()),
-    ("projected, shadows and one reflection", |camera| {
-        _ = camera.insert((Rasterisation, Integrator::Whitted { max_depth: 3 }));
-    }),
-];
-
-/// Frames of a camera that goes round a mesh of 102,400 triangles, at 640 × 360.
-fn frames() {
-    let frames = after("--frames", 1000_u32);
-    let only = after("--mode", MODES.len());
-    let wanted = |mode: &usize| only == *mode || only == MODES.len();
-    for mode in (0..MODES.len()).filter(wanted) {
-        let (name, change) = MODES[mode];
-        let (mut world, camera) = scene([800, 64], [640, 360]);
-        change(&mut world.entity_mut(camera));
-        let ground = [DVec3::new(-20.0, -1.6, -20.0), DVec3::new(0.0, -1.6, 20.0), DVec3::new(20.0, -1.6, -20.0)];
-        let floor = world.spawn(Triangle { vertices: ground, ..Triangle::default() }).id();
-        match mode {
-            3 => world.entity_mut(floor).insert(Mirror::default()),
-            _ => world.entity_mut(floor).insert(Matte::default()),
-        };
-        let intensity = Rgb::grey(900.0);
-        world.spawn((PointLight { intensity, casts_shadows: mode > 0 }, Placement::at(4.0, 9.0, 6.0)));
-        let offer = stages_of();
-        let begun = RenderInProgress::begin(&Census::of(&world), &offer, &Execution::default());
-        let mut render = begun.expect("begins");
-        let mut extracted = 0.0;
-        let mut times: Vec<f64> = (0..frames)
-            .map(|frame| {
-                let angle = f64::from(frame) * 0.01;
-                let eye = DVec3::new(8.0 * libm::sin(angle), 5.0, 8.0 * libm::cos(angle));
-                let started = Instant::now();
-                world.entity_mut(camera).insert(LookAt { eye, target: TARGET, ..LookAt::default() });
-                render.begin_frame(&Census::of(&world), &offer).expect("a frame");
-                extracted += started.elapsed().as_secs_f64();
-                render.advance(render.steps(), &()).expect("renders");
-                std::hint::black_box(render.film.mean(320, 180));
-                started.elapsed().as_secs_f64()
-            })
-            .collect();
-        times.sort_by(f64::total_cmp);
-        let at = |part: f64| times[((times.len() - 1) as f64 * part) as usize];
-        println!(
-            "{name}: median {:.1} ms ({:.0} frames a second), 99 % below {:.1} ms, {frames} frames; until all tables are extracted {:.1} ms on average",
-            1e3 * at(0.5),
-            1.0 / at(0.5),
-            1e3 * at(0.99),
-            1e3 * extracted / f64::from(frames),
-        );
-    }
 }

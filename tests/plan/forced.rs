@@ -188,8 +188,7 @@ fn maps() -> World {
     world
 }
 
-fn rasterised() -> World {
-    let mut world = a_mesh();
+fn rasterised(mut world: World) -> World {
     let camera = pinhole::extract::camera_entity(&world).expect("a camera");
     world.entity_mut(camera).insert(Rasterisation);
     world
@@ -248,7 +247,10 @@ fn forcing_a_needed_stage_off_shows() {
         ("bumps", bumps()),
         ("maps", maps()),
         ("a mesh", a_mesh()),
-        ("a rasterised mesh", rasterised()),
+        ("a rasterised mesh", rasterised(a_mesh())),
+        ("rasterised shapes", rasterised(shapes_of_all_kinds(Setup { size, ..Setup::default() }))),
+        ("rasterised ellipsoids", rasterised(stretched(Setup { size, ..Setup::default() }))),
+        ("rasterised spheres", rasterised(shining(Setup { size, ..Setup::default() }))),
         ("many lights", scenes::many::many_lights(Setup { size, ..Setup::default() })),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];

@@ -10,6 +10,7 @@ pub mod camera;
 pub mod caustics;
 pub mod coverage;
 pub mod cuboid;
+pub mod denoise;
 pub mod ellipsoid;
 pub mod emitter;
 pub mod entity_per_ray;

@@ -3,7 +3,7 @@ use super::shape_kind::kind_evidence;
 use super::{camera_moves_evidence, lens_evidence};
 use crate::plan::{Census, Evidence};
 use crate::scene::{Rasterisation, SceneError};
-use crate::shapes::{PlacedMesh, TriangleRow};
+use crate::shapes::{Listed, PlacedMesh, TriangleRow};
 
 /// Checks that the scene's camera can rasterise, if it is asked to.
 pub(super) fn check_rasterisation(scene: &Census<'_>) -> Result<(), SceneError> {
@@ -37,6 +37,11 @@ pub fn no_plane_to_rasterise<T>(scene: &Census<'_>) -> Result<T, SceneError> {
 /// Evidence that the camera rasterises, and that there is something to rasterise.
 pub fn rasterisation_evidence(scene: &Census<'_>) -> Evidence {
     rasterising_camera(scene).and(|| kind_evidence::<TriangleRow>(scene).or(kind_evidence::<PlacedMesh>(scene)))
+}
+
+/// Evidence that the camera rasterises, and that there are shapes of this kind whose boxes are rasterised.
+pub fn box_evidence<S: Listed>(scene: &Census<'_>) -> Evidence {
+    rasterising_camera(scene).and(|| kind_evidence::<S>(scene))
 }
 
 /// Evidence that the camera rasterises.

@@ -102,7 +102,7 @@ pub fn intersect_stage<S: Listed>() -> Stage {
     } else {
         Stage::new(name, set, intersect_shapes::<S, WorldRays, Hits>)
     };
-    let stage = if S::IS_TRIANGULAR { stage.spared_first_where(rasterising_camera) } else { stage };
+    let stage = if S::IS_BOUNDED { stage.spared_first_where(rasterising_camera) } else { stage };
     stage.table_where::<HierarchyOf<S>>(hierarchy_evidence::<S>).when(kind_evidence::<S>)
 }
 

@@ -109,7 +109,7 @@ fn clipped(polygon: &Polygon, side: impl Fn(ClipPoint) -> f64) -> Polygon {
 // ANCHOR_END: clipped
 
 /// Where the function is 0 between a vertex at which it is positive and one at which it is negative.
-fn crossing(inside: ClipPoint, at_inside: f64, outside: ClipPoint, at_outside: f64) -> ClipPoint {
+pub(super) fn crossing(inside: ClipPoint, at_inside: f64, outside: ClipPoint, at_outside: f64) -> ClipPoint {
     let t = at_inside / (at_inside - at_outside);
     let mix = |from: f64, to: f64| from + t * (to - from);
     ClipPoint {

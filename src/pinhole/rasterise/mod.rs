@@ -1,9 +1,12 @@
-//! Triangles → the pixels that they cover: the same hits as those of camera rays, found in object order.
+//! Shapes → the pixels that they may cover: the same hits as those of camera rays, found in object order.
 //!
-//! Reads: the tables of triangles and meshes, and raster points.
+//! Reads: the tables of all shapes that have a bounding box, and raster points.
 //! Writes: [`Hits`](crate::intersect::Hits), as the stages do that intersect camera rays.
 //! Space: world → camera → clip → NDC → raster, the inverse of what camera rays are made by; then the samples of each tile are
 //! tested against the triangles of its bins.
+//!
+//! Of other shapes the bounding boxes are projected, and the camera rays of the pixels that a box may cover are intersected
+//! with its shape; a plane has no box, so all camera rays are intersected with it.
 //!
 //! ```
 //! use pinhole::rasterise::{clip_from_camera, ndc_from_clip, raster_from_ndc};
@@ -15,6 +18,9 @@
 //! assert_eq!(raster_from_ndc(ndc_from_clip(clip), DVec2::splat(200.0)), DVec2::new(150.0, 50.0));
 //! ```
 
+mod bins;
+mod box_extent;
+mod boxes;
 mod clip;
 mod cover;
 mod spaces;
@@ -22,6 +28,7 @@ mod stage;
 mod table;
 mod triangle;
 
+pub use boxes::{RasterBoxes, box_stage, box_stages, rasterise_boxes};
 pub use clip::{ClipPlanes, Polygon};
 pub use cover::Cover;
 pub use spaces::{ClipPoint, Projection, clip_from_camera, ndc_from_clip, raster_from_ndc};

@@ -1,8 +1,9 @@
 //! All triangles of the scene in raster space, sorted into bins of the image.
 
+use super::bins::{Bins, Extent, bins_near, bins_of};
 use super::clip::{ClipPlanes, Polygon};
 use super::spaces::{ClipPoint, Projection};
-use super::triangle::{NearnessPlane, RasterTriangle, SUBPIXELS, edge_function, fixed};
+use super::triangle::{Edge, NearnessPlane, RasterTriangle, SUBPIXELS, edge_function, fixed};
 use crate::extract::{FilterTable, MeshTable, TriangleTable, radius_of};
 use crate::intersect::NO_PRIMITIVE;
 use crate::plan::{Census, Table};
@@ -13,10 +14,10 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// The side of a bin, in pixels.
-const BIN: u32 = 32;
 /// The fewest vertices or triangles that are worth a task of their own.
 const TASK: usize = 2048;
+/// The most pixels of a triangle that is tested at all of their centres before it is kept.
+const FEW: u32 = 4;
 /// How many runs a scene of many triangles is divided into; more would cost each tile more lists.
 const RUNS: usize = 64;
 /// The most triangles of a run, and the room for what clipping makes of them: eight of each at most.
@@ -30,8 +31,6 @@ const ROOM: usize = 8 * LONGEST_RUN;
 #[derive(Clone, Debug, PartialEq)]
 pub struct RasterTriangles {
     runs: Vec<Run>,
-    /// Bins from left to right, and from top to bottom.
-    bins: [u32; 2],
     /// How far from a pixel's centre its samples may be, in 1/256 of a pixel.
     margin: i32,
 }
@@ -40,14 +39,8 @@ pub struct RasterTriangles {
 #[derive(Clone, Debug, PartialEq)]
 struct Run {
     triangles: Vec<RasterTriangle>,
-    /// Where the list of each bin starts, line by line, and where the last one ends.
-    starts: Vec<u32>,
-    /// The triangles of one bin after another, each list in ascending order.
-    lists: Vec<u32>,
+    bins: Bins,
 }
-
-/// The first and last pixel to the right and downward.
-type Extent = [[u32; 2]; 2];
 
 /// The triangles of a run before they are sorted into bins, and the pixels that each may cover.
 #[derive(Default)]
@@ -63,10 +56,11 @@ struct Setup<'s> {
     margin: i32,
 }
 
-/// A vertex in clip space, and in 1/256 of a pixel where it needs no clipping.
+/// A vertex in clip space, how near it is, and in 1/256 of a pixel where it needs no clipping.
 #[derive(Clone, Copy)]
 struct Vertex {
     clip: ClipPoint,
+    nearness: f64,
     raster: Option<[i32; 2]>,
 }
 
@@ -82,7 +76,7 @@ impl Setup<'_> {
     #[inline(always)]
     fn vertex(&self, clip: ClipPoint) -> Vertex {
         let raster = self.planes.contain(clip).then(|| fixed(self.projection.raster(clip)));
-        Vertex { clip, raster }
+        Vertex { clip, nearness: self.projection.nearness(clip), raster }
     }
 
     /// Appends a triangle, or the triangles that clipping leaves of it.
@@ -91,7 +85,9 @@ impl Setup<'_> {
         let clip = corners.map(|corner| corner.clip);
         match corners.map(|corner| corner.raster) {
             [Some(a), Some(b), Some(c)] => {
-                self.push_unclipped([a, b, c], || NearnessPlane::through(self.projection, clip), whose, into);
+                let nearness = corners.map(|corner| corner.nearness);
+                let plane = || NearnessPlane::of_nearness(self.projection, clip, nearness);
+                self.push_unclipped([a, b, c], plane, whose, into);
             }
             _ => self.push_clipped(clip, whose, into),
         }
@@ -127,11 +123,28 @@ impl Setup<'_> {
         if area < 0 {
             corners.swap(1, 2);
         }
+        if !self.may_cover(&corners, extent) {
+            return;
+        }
         let Whose { shape, primitive, row } = whose;
         if let Some(plane) = plane() {
             into.triangles.push(RasterTriangle { corners, shape, primitive, row, plane });
             into.extents.push(extent);
         }
+    }
+
+    /// Whether a sample may be inside; only a triangle of few pixels is tested, for a large one covers some.
+    #[inline(always)]
+    fn may_cover(&self, &[a, b, c]: &[[i32; 2]; 3], [[left, right], [top, bottom]]: Extent) -> bool {
+        if self.margin > 0 || (right - left + 1) * (bottom - top + 1) > FEW {
+            return true;
+        }
+        let corner = [left, top].map(|pixels| pixels as i32 * SUBPIXELS as i32);
+        let edges = [Edge::new(a, b, corner), Edge::new(b, c, corner), Edge::new(c, a, corner)];
+        let centre = |pixels: u32| (f64::from(pixels) + 0.5) * SUBPIXELS;
+        (0..=bottom - top).any(|down| {
+            (0..=right - left).any(|across| edges.iter().all(|edge| edge.at(centre(across), centre(down)) >= 0.0))
+        })
     }
 
     /// The pixels that a sample inside the triangle may belong to.
@@ -177,42 +190,17 @@ impl RasterTriangles {
     /// The bins that a tile overlaps, run by run: the triangles of the run, the number of the first of them, and which of
     /// them are in the bin; of two bins, each may hold the same triangle.
     pub fn lists_near(&self, tile: &Tile) -> impl Iterator<Item = (&[RasterTriangle], usize, &[u32])> {
-        let bins = |start: u32, count: u32| start / BIN..=(start + count.max(1) - 1) / BIN;
-        let (columns, lines, across) = (bins(tile.x, tile.width), bins(tile.y, tile.height), self.bins[0]);
+        let tile = *tile;
         self.runs.iter().enumerate().flat_map(move |(number, run)| {
-            let columns = columns.clone();
-            let bins = lines.clone().flat_map(move |line| columns.clone().map(move |column| line * across + column));
-            bins.map(move |bin| (&run.triangles[..], number * ROOM, run.list(bin as usize)))
+            bins_near(&tile).map(move |bin| (&run.triangles[..], number * ROOM, run.bins.list(bin)))
         })
     }
 }
 
 impl Run {
-    /// The triangles of a bin.
-    fn list(&self, bin: usize) -> &[u32] {
-        &self.lists[self.starts[bin] as usize..self.starts[bin + 1] as usize]
-    }
-
     /// Sorts triangles into bins, each of which keeps their order.
     fn binned(Unsorted { triangles, extents }: Unsorted, bins: [u32; 2]) -> Self {
-        let bins_of = |extent: &Extent| {
-            let [columns, lines] = extent.map(|[first, last]| first / BIN..=last / BIN);
-            lines.flat_map(move |line| columns.clone().map(move |column| (line * bins[0] + column) as usize))
-        };
-        let mut starts = vec![0_u32; (bins[0] * bins[1]) as usize + 1];
-        extents.iter().flat_map(bins_of).for_each(|bin| starts[bin + 1] += 1);
-        for bin in 1..starts.len() {
-            starts[bin] += starts[bin - 1];
-        }
-        let mut next = starts.clone();
-        let mut lists = vec![0; starts[starts.len() - 1] as usize];
-        for (place, extent) in extents.iter().enumerate() {
-            for bin in bins_of(extent) {
-                lists[next[bin] as usize] = place as u32;
-                next[bin] += 1;
-            }
-        }
-        Self { triangles, starts, lists }
+        Self { triangles, bins: Bins::sorted(&extents, bins) }
     }
 }
 
@@ -230,14 +218,12 @@ impl Table for RasterTriangles {
             false => 0,
         };
         let setup = Setup { projection: &projection, planes, margin };
-        let bins = [projection.size.x, projection.size.y].map(|pixels| (pixels as u32).div_ceil(BIN));
-        Ok(Self { runs: setup.runs(&Source::all(&setup, &triangles, &meshes), bins), bins, margin })
+        let bins = bins_of(projection.size);
+        Ok(Self { runs: setup.runs(&Source::all(&setup, &triangles, &meshes), bins), margin })
     }
 
     fn bytes(&self) -> usize {
-        let of_run =
-            |run: &Run| size_of_val(&run.triangles[..]) + size_of_val(&run.starts[..]) + size_of_val(&run.lists[..]);
-        self.runs.iter().map(of_run).sum()
+        self.runs.iter().map(|run| size_of_val(&run.triangles[..]) + run.bins.bytes()).sum()
     }
 }
 

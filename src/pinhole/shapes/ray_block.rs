@@ -2,6 +2,7 @@ use super::shape::Shape;
 use crate::bvh::by_axis;
 use glam::DVec3;
 use multiversion::multiversion;
+use std::ops::Range;
 
 /// SIMD lanes: the number of rays that are tested together.
 pub(crate) const LANES: usize = 16;
@@ -17,7 +18,14 @@ pub struct RaySlices<'a> {
     pub direction: [&'a [f32]; 3],
 }
 
-impl RaySlices<'_> {
+impl<'a> RaySlices<'a> {
+    /// Some of the rows.
+    #[inline(always)]
+    pub fn part(&self, rows: Range<usize>) -> Self {
+        let part = |components: [&'a [f32]; 3]| by_axis(|axis| &components[axis][rows.clone()]);
+        Self { origin: part(self.origin), direction: part(self.direction) }
+    }
+
     /// The origin and direction of a row, exact in f64.
     #[inline(always)]
     pub fn ray(&self, row: usize) -> [DVec3; 2] {
@@ -39,6 +47,17 @@ pub struct ClosestHits<'a> {
 }
 
 impl ClosestHits<'_> {
+    /// Those of some of the rows.
+    #[inline(always)]
+    pub fn part(&mut self, rows: Range<usize>) -> ClosestHits<'_> {
+        ClosestHits {
+            t: &mut self.t[rows.clone()],
+            shape: &mut self.shape[rows.clone()],
+            primitive: self.primitive.as_deref_mut().map(|primitive| &mut primitive[rows]),
+            any: self.any,
+        }
+    }
+
     /// That of a row.
     #[inline(always)]
     pub fn get(&self, row: usize) -> ClosestHit {

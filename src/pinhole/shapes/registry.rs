@@ -54,6 +54,8 @@ macro_rules! registry {
                 hierarchy: concat!("hierarchy of ", $plural),
                 rows: concat!(stringify!($field), " rows"),
                 intersect: concat!("Intersect ", $plural),
+                raster_boxes: concat!("raster boxes of ", $plural),
+                rasterise: concat!("Rasterise boxes: ", $plural),
                 surface: concat!("Compute surfaces: ", $plural),
                 shadow: concat!("Trace shadow rays: ", $plural),
             };

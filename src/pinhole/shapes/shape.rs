@@ -268,6 +268,10 @@ pub struct ShapeNames {
     pub rows: &'static str,
     /// The stage that intersects rays with it.
     pub intersect: &'static str,
+    /// The table of the pixels that each of them may cover.
+    pub raster_boxes: &'static str,
+    /// The stage that intersects rays with each of them in those pixels only.
+    pub rasterise: &'static str,
     /// The stage that computes its surface.
     pub surface: &'static str,
     /// The stage that traces shadow rays against it.

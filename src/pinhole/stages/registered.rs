@@ -5,7 +5,7 @@ use super::{Group, Grouped};
 use crate::follow::BsdfRole::*;
 use crate::follow::{self, BsdfRole, BsdfStage};
 use crate::material::BsdfClass;
-use crate::{intersect, rays, shade};
+use crate::{intersect, rasterise, rays, shade};
 
 /// The group of a shape's stages: those that only a non-uniform scale makes are offered with the transforms.
 fn group_of(group: Group, is_uneven: bool) -> Group {
@@ -29,6 +29,10 @@ pub(super) fn image_masks() -> Vec<Grouped> {
 pub(super) fn intersections() -> Vec<Grouped> {
     let stages = intersect::shape_stages().into_iter();
     stages.map(|(is_uneven, [stage, _])| (group_of(Intersection, is_uneven), stage)).collect()
+}
+
+pub(super) fn raster_boxes() -> Vec<Grouped> {
+    rasterise::box_stages().into_iter().map(|stage| (Rasterisation, stage)).collect()
 }
 
 pub(super) fn surface_points() -> Vec<Grouped> {

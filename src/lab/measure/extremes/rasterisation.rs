@@ -1,6 +1,8 @@
-//! Rasterisation: what it sees against what rays see; shared edges; vertices where there should be none.
+//! Rasterisation: what it sees against what rays see; shared edges; vertices where there should be none; shapes in their
+//! boxes.
 
 use super::{Group, Method, Tally, Trial};
+use crate::measure::raster_boxes::box_picture;
 use crate::measure::ray_aim::Draws;
 use crate::measure::torus_knot::torus_knot;
 use crate::measure::visibility::compare_visibility;
@@ -8,11 +10,13 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::rasterise::{ClipPlanes, ClipPoint, Edge, Projection, edge_function, fixed};
 use pinhole::scene::*;
+use pinhole::shapes::{Listed, ShapeVisitor, visit_shapes};
 use std::ops::Range;
 use std::sync::LazyLock;
 
 const SAME: [Method; 1] = [Method::pinhole("pinhole, every difference explained", "", 0.0)];
 const ONCE: [Method; 1] = [Method::pinhole("pinhole, each sample in one of them", "", 0.0)];
+const BOXES: [Method; 1] = [Method::pinhole("pinhole, the same to the last bit", "", 0.0)];
 const INSIDE: [Method; 1] = [Method::pinhole("pinhole, clipped to what can be rasterised", "", 0.0)];
 
 /// The sizes of images that cameras are tried with, and which of the indices tried is a camera: one in so many.
@@ -70,7 +74,38 @@ pub fn trials() -> Vec<Trial> {
     trials.push(Trial::new(Group::Rasterisation, name, &ONCE, check_pairs));
     let name = "vertices anywhere, not finite ones among them".to_string();
     trials.push(Trial::new(Group::Rasterisation, name, &INSIDE, check_clipping));
+    trials.extend(box_trials());
     trials
+}
+
+/// One in so many of the indices tried is a camera that sees shapes in their boxes.
+const EVERY: u64 = 20;
+
+/// A case for each registered shape whose boxes are rasterised.
+fn box_trials() -> Vec<Trial> {
+    struct Collected(Vec<Trial>);
+    impl ShapeVisitor for Collected {
+        fn visit<S: Listed>(&mut self) {
+            if S::IS_BOUNDED && !S::IS_TRIANGULAR {
+                let name = format!("pictures of {} in boxes, 1 of {EVERY} tried", S::NAMES.table);
+                self.0.push(Trial::new(Group::Rasterisation, name, &BOXES, check_boxes::<S>));
+            }
+        }
+    }
+    let mut collected = Collected(Vec::new());
+    visit_shapes(&mut collected);
+    collected.0
+}
+
+/// Compares each camera's picture with that by rays.
+fn check_boxes<S: Listed>(range: Range<u64>) -> Tally {
+    let mut tally = Tally::new(BOXES.len());
+    for index in range.filter(|index| index.is_multiple_of(EVERY)) {
+        let Some(found) = box_picture::<S>(1604, index / EVERY) else { continue };
+        tally.count(found.sees);
+        tally.scores[0].check(found.difference.is_none());
+    }
+    tally
 }
 
 /// A camera anywhere about the origin, or among the triangles.
