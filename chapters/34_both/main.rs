@@ -1,5 +1,4 @@
-//! Both classes of renderers on one scene: projection finds what the camera sees of meshes, rays answer every other
-//! question.
+//! Both classes of renderers on one scene: projection finds what the camera sees, rays answer every other question.
 //! Two shells, one of them behind the camera, a mirror that shows it, a ball of glass and a matte ball.
 //! Nothing new runs here: the chapter sets the two side by side, and asks what each costs and what it cannot do.
 

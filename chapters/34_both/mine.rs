@@ -1,12 +1,12 @@
-//! The reader's function in the picture of chapter 34: where camera rays look for spheres.
+//! The reader's function in the picture of chapter 34: in which pixels spheres are looked for.
 
 use super::question::Input;
 use bevy_ecs::prelude::*;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use pinhole::extract::SphereTable;
-use pinhole::intersect::{self, Hits};
+use pinhole::intersect::Hits;
 use pinhole::plan::{Column, Shared};
-use pinhole::rasterise::Projection;
+use pinhole::rasterise::{Projection, box_stage};
 use pinhole::rays::WorldRays;
 use pinhole::shapes::{PlacedSphere, Shape};
 use pinhole_lab::exercise::{Ask, Setting, StandIn};
@@ -15,12 +15,11 @@ use std::sync::{Arc, OnceLock};
 /// The least and greatest x and y of the image plane at distance 1 at which a sphere is looked for.
 type Rectangle = [DVec2; 2];
 
-/// Spheres drawn by their rectangles on the image, each of which the reader's function gives the sides of; rays that do
-/// not start at the eye are tested against all spheres.
+/// Spheres in their rectangles on the image, whose sides the reader's function gives.
 pub fn mine(ask: Ask<Input, [f64; 2]>, _: &Setting<'_>) -> StandIn {
     let kept: Arc<OnceLock<Vec<Rectangle>>> = Arc::default();
     StandIn::instead(
-        intersect::sphere_stage,
+        box_stage::<PlacedSphere>,
         move |projection: Res<Shared<Projection>>,
               spheres: Res<Shared<SphereTable>>,
               mut tiles: Query<(&WorldRays, &mut Hits)>| {
@@ -34,7 +33,7 @@ pub fn mine(ask: Ask<Input, [f64; 2]>, _: &Setting<'_>) -> StandIn {
                     let camera = projection.camera_from_world * direction;
                     let at = DVec2::new(camera.x, camera.y) / -camera.z;
                     for ((sphere, [low, high]), &shape) in spheres.row.iter().zip(rectangles).zip(&spheres.shape) {
-                        if origin == DVec3::ZERO && !(at.cmpge(*low) & at.cmple(*high)).all() {
+                        if !(at.cmpge(*low) & at.cmple(*high)).all() {
                             continue;
                         }
                         let t = sphere.t(origin, direction);

@@ -30,7 +30,7 @@ fn question() -> Question<Input, [f64; 2]> {
         tell: |[right, ahead, radius, half]| {
             format!("right {right:?}, ahead {ahead:?}, radius {radius:?}, half {half:?}")
         },
-        right: |&[right, ahead, radius, half]| sphere_interval(right, ahead, radius, half),
+        right: |&[right, ahead, radius, edge]| sphere_interval(right, ahead, radius, edge),
         apart: |yours, right| absolute(yours, right),
         allowed: 1e-9,
         measured: "of each end",
@@ -50,7 +50,7 @@ fn question() -> Question<Input, [f64; 2]> {
             ),
             Mistake::new(
                 "the sphere is on the wrong side: to the right is positive",
-                |&[right, ahead, radius, half]| sphere_interval(-right, ahead, radius, half),
+                |&[right, ahead, radius, edge]| sphere_interval(-right, ahead, radius, edge),
             ),
             Mistake::new(
                 "the radius over the distance is the sine of the angle between centre and outline, not its tangent",

@@ -100,7 +100,7 @@ fn count(marks: &[bool]) -> usize {
 pub fn draw_alone(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let steps: [(&str, fn(&mut World, Entity)); 4] = [
         ("projection alone", projected_alone),
-        ("spheres and shadows by rays", projected_with_shadows),
+        ("true spheres, shadows by rays", projected_with_shadows),
         ("reflection and refraction too", both),
         ("rays alone", by_rays),
     ];
