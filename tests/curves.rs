@@ -1,18 +1,95 @@
-//! What is kept of the curves of chapter 31 was measured with the present sources.
+//! What is kept of the curves of chapters 31 and 34 was measured with the present sources, and has the forms that the pages
+//! describe.
 
 use pinhole_lab::measure::cost::made_from_these;
 use std::path::Path;
 
+fn kept(chapter: &str) -> String {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("chapters").join(chapter).join("curves.txt");
+    std::fs::read_to_string(file).expect("the curves are kept beside the chapter")
+}
+
+#[track_caller]
+fn is_of_the_present_sources(chapter: &str, beside: &[&str], bench: &str) {
+    let expected = format!("made from {}", made_from_these(chapter, beside).expect("sources"));
+    let anew = format!("to measure anew, on a quiet machine: cargo bench --bench {bench} --write");
+    assert_eq!(kept(chapter).lines().last(), Some(expected.as_str()), "{anew}");
+}
+
 #[test]
 fn curves_are_of_the_present_sources() {
-    const CHAPTER: &str = "31_wide_tree";
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("chapters").join(CHAPTER).join("curves.txt");
-    let kept = std::fs::read_to_string(file).expect("the curves are kept beside the chapter");
     let beside = ["src/lab/naive/tree.rs", "src/lab/measure/torus_knot.rs", "tests/bench/curves.rs"];
-    let expected = format!("made from {}", made_from_these(CHAPTER, &beside).expect("sources"));
-    assert_eq!(
-        kept.lines().last(),
-        Some(expected.as_str()),
-        "to measure anew, on a quiet machine: cargo bench --bench curves -- --write"
-    );
+    is_of_the_present_sources("31_wide_tree", &beside, "curves --");
+}
+
+#[test]
+fn curves_of_both_classes_are_of_the_present_sources() {
+    let beside =
+        ["src/lab/measure/torus_knot.rs", "tests/bench/rasterisation.rs", "tests/bench/rasterisation/curves.rs"];
+    is_of_the_present_sources("34_both", &beside, "rasterisation -- curves");
+}
+
+/// The rows below the line that starts with this word: a count, and a number for each of so many columns.
+fn table(title: &str, columns: usize) -> Vec<(f64, Vec<f64>)> {
+    let text = kept("34_both");
+    let row = |line: &str| {
+        let number = |cell: &str| if cell == "-" { Some(f64::NAN) } else { cell.parse().ok() };
+        let cells: Option<Vec<f64>> = line.split_whitespace().map(number).collect();
+        cells.filter(|cells| cells.len() == columns + 1).map(|cells| (cells[0], cells[1..].to_vec()))
+    };
+    let lines = text.lines().skip_while(|line| !line.starts_with(title)).skip(2);
+    let rows: Vec<_> = lines.map_while(row).collect();
+    assert!(rows.len() >= 5, "{} rows of {title}", rows.len());
+    rows
+}
+
+/// The exponent with which a column grows between two rows.
+fn growth(rows: &[(f64, Vec<f64>)], column: usize, [from, to]: [usize; 2]) -> f64 {
+    (rows[to].1[column] / rows[from].1[column]).ln() / (rows[to].0 / rows[from].0).ln()
+}
+
+/// "The lines of rays rise slowly. Those of projection are level … and rise when triangles are."
+#[test]
+fn against_triangles_projection_begins_below_and_the_curves_come_together() {
+    let rows = table("triangles", 7);
+    let last = rows.len() - 1;
+    let ratio = |row: usize, size: usize| rows[row].1[2 * size] / rows[row].1[2 * size + 1];
+    for size in 0..3 {
+        let [rays, projection] = [2 * size, 2 * size + 1];
+        assert!(growth(&rows, rays, [0, last]) < 0.35, "rays, size {size}");
+        assert!(growth(&rows, projection, [last - 1, last]) > growth(&rows, projection, [0, 1]), "size {size}");
+        assert!(ratio(0, size) > 1.0, "few triangles, size {size}: {}", ratio(0, size));
+        assert!(ratio(last, size) < ratio(0, size), "many triangles, size {size}: {}", ratio(last, size));
+    }
+    let [small, large] = [1, 5].map(|column| growth(&rows, column, [last - 1, last]));
+    assert!(small > 0.35 && small > large, "many triangles for each pixel: {small}, fewer: {large}");
+    assert!(ratio(last, 0) < 1.0 && ratio(last, 2) > ratio(last, 0), "the crossing is later in a large picture");
+    // "A mesh that is bent anew for every picture pays for the grey line each time."
+    assert!(rows.iter().all(|(_, row)| (0..3).all(|size| row[2 * size] + row[6] > row[2 * size + 1])));
+}
+
+/// "Twice the pixels are twice the rays, and nearly twice the time"; projection begins with the cost of its triangles.
+#[test]
+fn against_pixels_rays_grow_in_proportion_and_projection_less() {
+    let rows = table("pixels", 2);
+    let ends = [0, rows.len() - 1];
+    let [rays, projection] = [0, 1].map(|column| growth(&rows, column, ends));
+    assert!(rays > 0.6 && rays < 1.05 && projection < rays, "{rays} and {projection}");
+}
+
+/// "Here the two unbroken lines become one"; lights without shadows cost far less; one light of many costs what one does.
+#[test]
+fn against_lights_shadow_rays_decide() {
+    let rows = table("lights", 6);
+    let summed: Vec<_> = rows.iter().filter(|(_, row)| row[0].is_finite()).cloned().collect();
+    let chosen: Vec<_> = rows.iter().filter(|(_, row)| row[3].is_finite()).cloned().collect();
+    assert!(summed.len() + chosen.len() == rows.len() && summed.len() > 3 && chosen.len() > 2);
+    let last = &summed[summed.len() - 1].1;
+    assert!((last[0] / last[1] - 1.0).abs() < 0.15, "{} and {} of many lights", last[0], last[1]);
+    assert!(last[2] < 0.5 * last[1], "{} without shadows", last[2]);
+    let ends = [summed.len() - 2, summed.len() - 1];
+    assert!(growth(&summed, 1, ends) > 0.8, "in proportion to the lights");
+    let ends = [0, chosen.len() - 1];
+    assert!([3, 4, 5].iter().all(|&column| growth(&chosen, column, ends) < 0.25), "one light of any number");
+    assert!(chosen[0].1[4] < 0.5 * last[1]);
 }

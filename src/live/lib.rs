@@ -15,4 +15,4 @@ pub use answer::Answer;
 pub use guard::Guard;
 pub use http::{LONGEST_HEAD, MOST_CONNECTIONS, PATIENCE, start};
 #[cfg(feature = "view")]
-pub use view::{LiveFigure, MODES, Mode, Scene, View};
+pub use view::{FrameSource, LiveFigure, MODES, Mode, Progress, Scene, Shot, View};

@@ -1,16 +1,21 @@
-//! First hits by projection and by rays; projection beside another rasteriser; spheres by rays, in boxes and tessellated;
-//! frames of a moving camera.
+//! Pictures by projection and by rays; projection beside another rasteriser; spheres by rays, in boxes and
+//! tessellated; frames of a moving camera.
 //!
 //! `cargo bench --bench rasterisation` measures all four; `-- curves`, `-- peer`, `-- curved` or `-- frames` one of them.
-//! `frames --mode 0` renders frames of the first mode alone.
+//! `frames --mode 0` renders frames of the first mode alone, and says what its stages took.
 //! `--rounds 5` says how often each pair is timed, `--frames 1000` how many frames are rendered, `--most 1000000` where
-//! the curves end, `--spheres 10000` where `curved` does.
+//! the curve against triangles ends, `--spheres 10000` where `curved` does; `curves --write` keeps the curves beside
+//! chapter 34.
 //! All but the frames run on one thread and are timed in processor time; frames take as many threads as there are
-//! processors, and are timed from the camera's pose to the pixels.
+//! processors, and are timed as the viewer makes them, from the camera's pose to the bytes of the pixels.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 #[path = "rasterisation/curved.rs"]
 mod curved;
+#[path = "rasterisation/curves.rs"]
+mod curves;
+#[path = "rasterisation/frames.rs"]
+mod frames;
 #[allow(dead_code, reason = "a benchmark takes what it needs")]
 mod interval;
 
@@ -27,7 +32,6 @@ use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::*;
 use pinhole::stages;
 use pinhole_lab::measure::torus_knot::torus_knot;
-use std::time::Instant;
 
 const EYE: DVec3 = DVec3::new(0.0, 5.0, 8.0);
 const TARGET: DVec3 = DVec3::new(0.0, -0.3, 0.0);
@@ -51,7 +55,7 @@ fn main() {
     };
     let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     if wanted("curves") {
-        single.install(curves);
+        single.install(curves::measure);
     }
     if wanted("peer") {
         single.install(peer);
@@ -60,7 +64,7 @@ fn main() {
         single.install(curved::curved);
     }
     if wanted("frames") {
-        frames();
+        frames::measure();
     }
 }
 
@@ -85,36 +89,6 @@ fn stages_of() -> Vec<Stage> {
     let mut offer = stages::all();
     offer.push(pinhole::look::view_stage(&offer));
     offer
-}
-
-/// The cost of a picture of the first hits, by projection and by rays.
-fn curves() {
-    let (rounds, most) = (after("--rounds", 5), after("--most", 2_000_000_u32));
-    println!("first hits, one thread, processor time a frame; the hierarchy is built once, before");
-    for knot in KNOTS.into_iter().filter(|[along, around]| 2 * along * around <= most) {
-        for size in SIZES {
-            let (mut by_rays, camera) = scene(knot, size);
-            by_rays.entity_mut(camera).insert(View { column: "hit".into() });
-            let (mut projected, camera) = scene(knot, size);
-            projected.entity_mut(camera).insert((View { column: "hit".into() }, Rasterisation));
-            rendered(&by_rays, Some(1));
-            let (mut logs, mut times) = (Vec::new(), [f64::INFINITY; 2]);
-            for _ in 0..rounds {
-                let pair = [&by_rays, &projected].map(|world| cpu(&|| rendered(world, Some(1))).as_secs_f64());
-                times = [0, 1].map(|which| times[which].min(pair[which]));
-                logs.push((pair[0] / pair[1]).ln());
-            }
-            let (low, middle, high) = interval(&logs);
-            println!(
-                "{:8} triangles, {:4} × {:4}: by rays {:8.2} ms, projected {:8.2} ms; {middle:.2} [{low:.2}, {high:.2}] times as fast projected",
-                2 * knot[0] * knot[1],
-                size[0],
-                size[1],
-                1e3 * times[0],
-                1e3 * times[1],
-            );
-        }
-    }
 }
 
 /// The same mesh, projected by euc: what is nearest at each pixel, as a number made of its place.
@@ -228,62 +202,4 @@ fn tiles([width, height]: [u32; 2]) -> Vec<(Tile, RasterPoints)> {
         .collect();
     world.run_system_cached(fill_raster).expect("raster points");
     tiles.into_iter().map(|tile| world.entity_mut(tile).take::<(Tile, RasterPoints)>().expect("both")).collect()
-}
-
-/// What a moving camera's frames consist of.
-type Mode = (&'static str, fn(&mut EntityWorldMut<'_>));
-
-const MODES: [Mode; 4] = [
-    ("projected and lit, no shadows", |camera| _ = camera.insert(Rasterisation)),
-    ("projected, with traced shadows", |camera| _ = camera.insert(Rasterisation)),
-    ("rays, with traced shadows", |_| ()),
-    ("projected, shadows and one reflection", |camera| {
-        _ = camera.insert((Rasterisation, Integrator::Whitted { max_depth: 3 }));
-    }),
-];
-
-/// Frames of a camera that goes round a mesh of 102,400 triangles, at 640 × 360.
-fn frames() {
-    let frames = after("--frames", 1000_u32);
-    let only = after("--mode", MODES.len());
-    let wanted = |mode: &usize| only == *mode || only == MODES.len();
-    for mode in (0..MODES.len()).filter(wanted) {
-        let (name, change) = MODES[mode];
-        let (mut world, camera) = scene([800, 64], [640, 360]);
-        change(&mut world.entity_mut(camera));
-        let ground = [DVec3::new(-20.0, -1.6, -20.0), DVec3::new(0.0, -1.6, 20.0), DVec3::new(20.0, -1.6, -20.0)];
-        let floor = world.spawn(Triangle { vertices: ground, ..Triangle::default() }).id();
-        match mode {
-            3 => world.entity_mut(floor).insert(Mirror::default()),
-            _ => world.entity_mut(floor).insert(Matte::default()),
-        };
-        let intensity = Rgb::grey(900.0);
-        world.spawn((PointLight { intensity, casts_shadows: mode > 0 }, Placement::at(4.0, 9.0, 6.0)));
-        let offer = stages_of();
-        let begun = RenderInProgress::begin(&Census::of(&world), &offer, &Execution::default());
-        let mut render = begun.expect("begins");
-        let mut extracted = 0.0;
-        let mut times: Vec<f64> = (0..frames)
-            .map(|frame| {
-                let angle = f64::from(frame) * 0.01;
-                let eye = DVec3::new(8.0 * libm::sin(angle), 5.0, 8.0 * libm::cos(angle));
-                let started = Instant::now();
-                world.entity_mut(camera).insert(LookAt { eye, target: TARGET, ..LookAt::default() });
-                render.begin_frame(&Census::of(&world), &offer).expect("a frame");
-                extracted += started.elapsed().as_secs_f64();
-                render.advance(render.steps(), &()).expect("renders");
-                std::hint::black_box(render.film.mean(320, 180));
-                started.elapsed().as_secs_f64()
-            })
-            .collect();
-        times.sort_by(f64::total_cmp);
-        let at = |part: f64| times[((times.len() - 1) as f64 * part) as usize];
-        println!(
-            "{name}: median {:.1} ms ({:.0} frames a second), 99 % below {:.1} ms, {frames} frames; until all tables are extracted {:.1} ms on average",
-            1e3 * at(0.5),
-            1.0 / at(0.5),
-            1e3 * at(0.99),
-            1e3 * extracted / f64::from(frames),
-        );
-    }
 }

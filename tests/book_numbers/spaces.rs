@@ -2,6 +2,7 @@
 
 use super::{chapter, page_says, scene_error};
 use bevy_ecs::prelude::*;
+use glam::{DVec2, DVec3};
 use pinhole::extract::{SMALLEST_PIXEL, tan_half, validate};
 use pinhole::intersect::{Hits, NO_SHAPE};
 use pinhole::plan::{Census, Column, Stage, TileSystems};
@@ -10,6 +11,7 @@ use pinhole::render::inspect;
 use pinhole::scene::*;
 use pinhole::shade::Radiance;
 use pinhole::{Overrides, extract};
+use pinhole_lab::naive::projection::raster_from_world;
 use pinhole_lab::naive::{field_of_view, ndc};
 
 #[test]
@@ -39,7 +41,7 @@ fn a_reciprocal_misses_the_right_edge_of_some_images_as_page_06_says() {
 }
 
 fn thousands(number: usize) -> String {
-    if number < 1000 { number.to_string() } else { format!("{},{:03}", number / 1000, number % 1000) }
+    if number < 1000 { number.to_string() } else { format!("{},{:03}", thousands(number / 1000), number % 1000) }
 }
 
 /// NDC divided by W − 1, for an image of one pixel.
@@ -113,4 +115,26 @@ fn the_table_of_angles_says_what_each_axis_sees_and_refuses_a_camera_without_an_
     assert_eq!(rows[4], ["diagonal", "1.414214", "0.816497", "78.4630°"]);
     let refused = run("angles 04_orthographic").expect_err("refused");
     assert_eq!(refused, "the camera of 04_orthographic is orthographic and has no angle");
+}
+
+#[test]
+fn frames_points_and_neighbours_are_as_many_as_page_35_says() {
+    let page = "35_real_time.md";
+    let pixels = 1920 * 1080 * 60;
+    page_says(page, &format!("has {} pixels a second", thousands(pixels)));
+    page_says(page, &format!("that makes {:.0} million rays", 3.0 * pixels as f64 / 1e6));
+    page_says(page, &format!("25 frames a second are {} rays", thousands(3 * 640 * 360 * 25)));
+    let seen_from = |x: f64| {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        raster_from_world(DVec3::new(1.0, 2.0, 0.0), DVec3::new(x, 1.0, 4.0), axes, 0.5, DVec2::new(200.0, 100.0))
+    };
+    let [before, now] = [0.0, 0.5].map(seen_from);
+    page_says(
+        page,
+        &format!("is now seen at $({}, {})$. The earlier frame had it at $({}, {})$", now.x, now.y, before.x, before.y),
+    );
+    page_says(page, &format!("$(0.8 + 15\\cdot0.5)/16 \\approx {:.2}$", (0.8 + 15.0 * 0.5) / 16.0));
+    // Two neighbours on either side, 1, 2 and 4 pixels apart.
+    let wide = 1 + 2 * 2 * (1 + 2 + 4);
+    page_says(page, &format!("{wide} × {wide} pixels with {} weights instead of {}", 3 * 5 * 5, wide * wide));
 }

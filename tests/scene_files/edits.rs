@@ -2,8 +2,9 @@
 
 use super::typed;
 use crate::scenes;
+use glam::DVec3;
 use pinhole::Overrides;
-use pinhole::scene::{Resolution, SceneFile};
+use pinhole::scene::{LookAt, Resolution, SceneFile};
 use std::path::Path;
 
 /// Where a picture may differ, in parts of its width and height: x from, x to, y from, y to.
@@ -151,4 +152,45 @@ fn a_value_is_set_by_the_path_to_it() {
     assert_eq!(file.value("camera.look_at.eye.z").as_deref(), Ok("4.0"));
     assert_eq!(file.value("camera.resolution.width").as_deref(), Ok("480"), "what is left out has its default");
     assert!(file.value("camera.look_at.ey").is_err());
+}
+
+/// The view that a reader keeps is what a person would have typed, and is seen from there.
+#[test]
+fn a_camera_is_put_where_it_was_moved_to() {
+    let view = LookAt { eye: DVec3::new(1.5, 2.0, -3.0), ..LookAt::default() };
+    let look = "look_at: (eye: (1.5, 2.0, -3.0), target: (0.0, 0.0, 0.0))";
+    let put = |camera: &str| {
+        let text = format!("[(name: \"ball\", sphere: ()), ({camera})]");
+        let file = SceneFile::parse(Path::new("scene.ron"), text).expect("a scene");
+        file.with_view(&view, 7.5).map(|file| file.text().to_owned())
+    };
+    let text = |camera: &str| Ok(format!("[(name: \"ball\", sphere: ()), ({camera})]"));
+    for (camera, then) in [
+        ("perspective_camera: (), look_at: (eye: (9, 9, 9))".to_owned(), format!("perspective_camera: (), {look}")),
+        ("placement: (position: (9, 9, 9)), fisheye_camera: ()".to_owned(), format!("{look}, fisheye_camera: ()")),
+        ("name: \"c\", perspective_camera: ()".to_owned(), format!("{look}, name: \"c\", perspective_camera: ()")),
+        (
+            "look_at: (), orthographic_camera: (view_height: 3.0)".to_owned(),
+            format!("{look}, orthographic_camera: (view_height: 7.5)"),
+        ),
+        (
+            "orthographic_camera: (), look_at: ()".to_owned(),
+            format!("orthographic_camera: (view_height: 7.5, ), {look}"),
+        ),
+    ] {
+        assert_eq!(put(&camera), text(&then), "{camera}");
+    }
+    let turned = LookAt { up: DVec3::X, ..view };
+    let file = SceneFile::parse(Path::new("scene.ron"), "[(perspective_camera: ())]".into()).expect("a scene");
+    let world = file.with_view(&turned, 1.0).expect("a camera").world();
+    let seen = world.try_query::<&LookAt>().and_then(|mut query| query.iter(&world).next().copied());
+    assert_eq!(seen, Some(turned));
+    for (camera, said) in [
+        ("perspective_camera: (), parent: \"ball\"", "its camera has a parent"),
+        ("perspective_camera: (), motion: (velocity: (1, 0, 0))", "its camera has a motion"),
+        ("disabled: true, perspective_camera: ()", "there is no camera in it"),
+    ] {
+        let told = put(camera).expect_err(camera);
+        assert!(told.starts_with("the view cannot be put into the text: ") && told.contains(said), "{camera}: {told}");
+    }
 }

@@ -188,6 +188,16 @@ fn the_scene_is_edited_saved_and_its_picture_kept() {
     browser.until("document.getElementById('said').textContent.startsWith('Saved as ')");
     assert_eq!(fs::read_to_string(&file).expect("there"), text);
 
+    // What is seen from where the camera was dragged to is seen from the text that keeps the view, too.
+    let at = middle(&mut browser);
+    let moved = next_picture(&mut browser, |browser| _ = drag(browser, at, [12.0, 4.0], 3, 0));
+    assert_ne!(moved, wider);
+    assert_eq!(next_picture(&mut browser, |browser| click(browser, "#view")), moved, "the same view");
+    browser.until("document.getElementById('said').textContent === 'The camera is in the text.'");
+    let kept = browser.value("document.getElementById('text').value");
+    assert_ne!(kept.as_str(), Some(text), "the text has another camera");
+    assert_eq!(next_picture(&mut browser, |browser| browser.key("0")), moved, "it is the scene's own camera now");
+
     fs::write(&file, &before).expect("written");
     type_text(&mut browser, &text.replace("70.0", "60.0"));
     click(&mut browser, "#save");

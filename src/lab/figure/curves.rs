@@ -1,4 +1,4 @@
-//! What a ray costs over the number of primitives, as it was measured and is kept beside the chapter.
+//! What a ray or a picture costs over the number of things, as it was measured and is kept beside the chapter.
 
 use super::Figure;
 use super::label::Label;
@@ -52,6 +52,23 @@ const ORANGE: &str = "#d9822b";
 const BLUE: &str = "#4a90c9";
 const GREEN: &str = "#4f9d5d";
 
+/// What a figure's axes stand for.
+#[derive(Clone, Copy)]
+struct Axes {
+    /// The word that the table's title starts with, and that stands below the axis across.
+    across: &'static str,
+    /// What takes the time.
+    up: &'static str,
+    /// The power of ten of the table's unit in nanoseconds.
+    unit: i32,
+    /// What measures it again.
+    bench: &'static str,
+}
+
+const OF_RAYS: Axes = Axes { across: "", up: "a ray", unit: 0, bench: "--bench curves -- --write" };
+const OF_PICTURES: Axes =
+    Axes { across: "", up: "a picture", unit: 6, bench: "--bench rasterisation -- curves --write" };
+
 /// Triangles of a mesh.
 pub fn draw_triangles(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let shown = [
@@ -62,7 +79,7 @@ pub fn draw_triangles(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         ("alone, coherent", "wide, coherent", Pen::new(BLUE, 1.8).dashed("5 4")),
         ("packets, coherent", "in packets", Pen::new(BLUE, 2.2)),
     ];
-    draw(chapter, figure, "triangles", &shown)
+    draw(chapter, figure, Axes { across: "triangles", ..OF_RAYS }, &shown)
 }
 
 /// Spheres at random.
@@ -73,16 +90,48 @@ pub fn draw_spheres(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         ("wide, random", "wide, random", Pen::new(ORANGE, 2.2)),
         ("wide, coherent", "wide, coherent", Pen::new(BLUE, 2.2)),
     ];
-    draw(chapter, figure, "spheres", &shown)
+    draw(chapter, figure, Axes { across: "spheres", ..OF_RAYS }, &shown)
 }
 
-fn draw(chapter: &Chapter, figure: &Figure, what: &str, shown: &[Shown]) -> Result<Drawing> {
+/// First hits by both classes in a small and a large picture, and what rays need beforehand.
+pub fn draw_first_hits_by_triangles(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let shown = [
+        ("rays 320 × 180", "rays 320 × 180", Pen::new(BLUE, 1.8).dashed("5 4")),
+        ("projection 320 × 180", "projection", Pen::new(ORANGE, 1.8).dashed("5 4")),
+        ("rays 1920 × 1080", "rays 1920 × 1080", Pen::new(BLUE, 2.2)),
+        ("projection 1920 × 1080", "projection", Pen::new(ORANGE, 2.2)),
+        ("hierarchy", "building the tree", Pen::new(GREY, 1.8)),
+    ];
+    draw(chapter, figure, Axes { across: "triangles", ..OF_PICTURES }, &shown)
+}
+
+/// First hits by both classes.
+pub fn draw_first_hits_by_pixels(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let shown = [("rays", "rays", Pen::new(BLUE, 2.2)), ("projection", "projection", Pen::new(ORANGE, 2.2))];
+    draw(chapter, figure, Axes { across: "pixels", ..OF_PICTURES }, &shown)
+}
+
+/// A lit picture, with shadows and without.
+pub fn draw_by_lights(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let shown = [
+        ("rays, each light", "rays, each light", Pen::new(BLUE, 2.2)),
+        ("projection, each light", "projection", Pen::new(ORANGE, 2.2)),
+        ("without shadows", "without shadows", Pen::new(ORANGE, 1.8).dashed("5 4")),
+        ("rays, one light", "rays, one chosen", Pen::new(BLUE, 2.2)),
+        ("projection, one light", "projection", Pen::new(ORANGE, 2.2)),
+        ("one, without shadows", "without shadows", Pen::new(ORANGE, 1.8).dashed("5 4")),
+    ];
+    draw(chapter, figure, Axes { across: "lights", ..OF_PICTURES }, &shown)
+}
+
+fn draw(chapter: &Chapter, figure: &Figure, axes: Axes, shown: &[Shown]) -> Result<Drawing> {
+    let what = axes.across;
     let file = crate::repository().join("chapters").join(chapter.name).join("curves.txt");
     let text = read_file(&file, KEPT).unwrap_or_default();
     let text = String::from_utf8_lossy(&text);
     let missing = || {
         let place = format!("chapters/{}/curves.txt", chapter.name);
-        Error::Usage(format!("{place} has no curve of {what}; `cargo bench --bench curves -- --write` measures it"))
+        Error::Usage(format!("{place} has no curve of {what}; `cargo bench {}` measures it", axes.bench))
     };
     let kept = Kept::of(&text, what).ok_or_else(missing)?;
     let points = || shown.iter().flat_map(|(column, ..)| kept.column(column));
@@ -105,7 +154,7 @@ fn draw(chapter: &Chapter, figure: &Figure, what: &str, shown: &[Shown]) -> Resu
         let ns = libm::exp10(f64::from(decade));
         let [foot, end] = [xs[0], xs[1]].map(|end| at((libm::exp10(end), ns)));
         svg.quiet_line(foot, end, grid);
-        svg.label(Label::near(foot, &time(decade), DVec2::NEG_X, 6.0).title(0.85));
+        svg.label(Label::near(foot, &time(decade + axes.unit), DVec2::NEG_X, 6.0).title(0.85));
     }
     let caches = caches(&text);
     for (place, (name, kib)) in caches.iter().enumerate() {
@@ -136,7 +185,7 @@ fn draw(chapter: &Chapter, figure: &Figure, what: &str, shown: &[Shown]) -> Resu
     }
     let middle = DVec2::new(0.5 * (left + right), bottom + 22.0);
     svg.label(Label::near(middle, what, DVec2::Y, 0.0).title(0.92));
-    svg.label(Label::near(DVec2::new(left, 14.0), "a ray", DVec2::X, 0.0).title(0.92));
+    svg.label(Label::near(DVec2::new(left, 14.0), axes.up, DVec2::X, 0.0).title(0.92));
     let note = machine(&text).unwrap_or_default();
     Ok(svg.finish(figure.about, &figure.kept_stamp(&note)))
 }
@@ -165,8 +214,10 @@ fn time(decade: i32) -> String {
         ("ns", decade)
     } else if decade < 6 {
         ("µs", decade - 3)
-    } else {
+    } else if decade < 9 {
         ("ms", decade - 6)
+    } else {
+        ("s", decade - 9)
     };
     format!("{} {unit}", libm::exp10(f64::from(ns)))
 }
@@ -191,7 +242,7 @@ fn crossing(sizes: &[(f64, f64)], size: f64) -> Option<f64> {
 
 fn machine(text: &str) -> Option<String> {
     let (_, rest) = text.split_once("machine: ")?;
-    rest.split(';').next().map(str::to_owned)
+    rest.split([';', '\n']).next().map(str::to_owned)
 }
 
 #[cfg(test)]
@@ -211,11 +262,12 @@ mod tests {
         assert_eq!(Kept::of(TEXT, "cubes"), None);
         assert_eq!(caches(TEXT), [("L1".to_owned(), 32.0), ("L2".to_owned(), 1024.0)]);
         assert_eq!(machine(TEXT).as_deref(), Some("M"));
+        assert_eq!(machine("machine: M\nmade from 1").as_deref(), Some("M"));
         let count = crossing(&kept.column("hierarchy KiB"), 80.0).expect("it comes to that");
         assert!((count - 1000.0).abs() < 1e-9 && crossing(&kept.column("hierarchy KiB"), 90.0).is_none());
         assert_eq!(
-            [time(0), time(2), time(3), time(7), power(3), power(7)],
-            ["1 ns", "100 ns", "1 µs", "10 ms", "1000", "10⁷"]
+            [time(0), time(2), time(3), time(7), time(10), power(3), power(7)],
+            ["1 ns", "100 ns", "1 µs", "10 ms", "10 s", "1000", "10⁷"]
         );
     }
 }

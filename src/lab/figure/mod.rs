@@ -9,12 +9,15 @@
 
 pub mod acne;
 pub mod aliasing;
+pub mod both;
 pub mod boxes;
 pub mod broken_paths;
+pub mod budget;
 pub mod cameras;
 pub mod caustics;
 pub mod coverage;
 pub mod curves;
+pub mod denoising;
 mod drawn_image;
 pub mod field_of_view;
 pub mod filters;
@@ -43,6 +46,7 @@ mod pixel_ray;
 pub mod projection;
 mod props;
 pub mod ray;
+pub mod real_time;
 pub mod relief;
 pub mod rings;
 pub mod samples;
@@ -54,6 +58,7 @@ mod sketch;
 pub mod slabs;
 mod subject;
 mod svg;
+pub mod told;
 pub mod tree;
 #[cfg(test)]
 mod trial;

@@ -21,6 +21,11 @@ pub fn with_few_samples<T>(most: u32, draw: impl FnOnce() -> T) -> T {
     drawn
 }
 
+/// So many samples, or renders, or fewer for who looks at a figure's lines and labels only.
+pub(super) fn few(count: u32) -> u32 {
+    count.min(MOST_SAMPLES.get())
+}
+
 /// A picture of a chapter's scene, within a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {

@@ -4,11 +4,13 @@
 //! textbook would. No chapter's render uses anything from here; figures show what would have come of it.
 
 pub mod adaptive;
+pub mod both;
 pub mod boxes;
 pub mod camera;
 pub mod caustics;
 pub mod coverage;
 pub mod cuboid;
+pub mod denoise;
 pub mod ellipsoid;
 pub mod emitter;
 pub mod entity_per_ray;

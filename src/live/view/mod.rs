@@ -17,6 +17,7 @@ mod viewer;
 pub use figure::LiveFigure;
 pub use modes::{MODES, Mode};
 pub use scene::Scene;
+pub use source::{FrameSource, Progress, Shot};
 
 use crate::guard::Guard;
 use crate::http::{MOST_CONNECTIONS, PATIENCE, start};

@@ -65,11 +65,7 @@ impl Orbit {
         let back = self.eye - self.target;
         let right = self.up.cross(back).try_normalize().unwrap_or(DVec3::X);
         let above = back.normalize().cross(right);
-        let height = match self.extent {
-            Extent::OverDistance(ratio) => ratio * back.length(),
-            Extent::Fixed(height) => height,
-        };
-        let step = (above * y - right * x) * height;
+        let step = (above * y - right * x) * self.view_height();
         (self.eye, self.target) = (self.eye + step, self.target + step);
     }
 
@@ -106,12 +102,25 @@ impl Orbit {
         self.eye
     }
 
+    /// Where the camera stands and looks.
+    pub fn look_at(&self) -> LookAt {
+        LookAt { eye: self.eye, target: self.target, up: self.up }
+    }
+
+    /// The height of what is seen at the target, in scene units.
+    pub fn view_height(&self) -> f64 {
+        match self.extent {
+            Extent::OverDistance(ratio) => ratio * (self.eye - self.target).length(),
+            Extent::Fixed(height) => height,
+        }
+    }
+
     /// Puts the scene's camera there.
     pub fn put(&self, scene: &mut World) {
         let Ok(camera) = camera_entity(scene) else { return };
         let mut camera = scene.entity_mut(camera);
         camera.remove::<(ChildOf, Motion)>();
-        camera.insert((Placement::default(), LookAt { eye: self.eye, target: self.target, up: self.up }));
+        camera.insert((Placement::default(), self.look_at()));
         if let (Extent::Fixed(height), Some(mut own)) = (self.extent, camera.get_mut::<OrthographicCamera>()) {
             own.view_height = height;
         }

@@ -30,6 +30,8 @@ pub enum Order {
     Apply(String),
     /// The same, and write the text to its file.
     Save(String),
+    /// Put the camera into the scene's text as it has been moved.
+    PutView,
     /// Say what every stage wrote for the pixel at a point of the picture.
     Trace([f64; 2]),
     /// Say what can be chosen and what is chosen.

@@ -1,7 +1,7 @@
 use bevy_ecs::prelude::World;
 use glam::DVec3;
 use pinhole::extract::{camera_entity, eye};
-use pinhole::film::{Curve, Film, History, rgba_bytes};
+use pinhole::film::{Curve, Film, History, rgba_bytes, rgba_of};
 use pinhole::plan::{Census, Plan, Stage};
 use pinhole::rasterise::Projection;
 use pinhole::render::{Execution, Lap, RenderInProgress, Watch, samples_after, steps_of};
@@ -146,7 +146,7 @@ impl FrameSource {
         let render = self.render.as_ref()?;
         let gathered = self.gathered[1].as_ref().filter(|_| levels > 0);
         let film = match gathered {
-            Some(Gathered { history, .. }) => Cow::Owned(denoised(history, &render.film, levels)),
+            Some(Gathered { history, .. }) => Cow::Owned(denoised_film(history, &render.film, levels)),
             None => Cow::Borrowed(&render.film),
         };
         Some((film, curve(&render.plan)))
@@ -167,19 +167,22 @@ impl Progress<'_> {
     /// The picture, 8-bit RGBA, through so many levels of the denoiser where the frame gathers what it needs.
     pub fn pixels(&self, levels: u32) -> Vec<u8> {
         let curve = curve(self.plan);
-        self.gathered.map_or_else(
-            || rgba_bytes(self.film, curve),
-            |gathered| rgba_bytes(&denoised(gathered, self.film, levels), curve),
-        )
+        self.gathered
+            .map_or_else(|| rgba_bytes(self.film, curve), |gathered| rgba_of(&denoised(gathered, levels), curve))
     }
 }
 
-/// What a frame has gathered, as a film with one sample of each pixel, smoothed in so many levels.
+/// The radiance that a frame has gathered, smoothed in so many levels.
 ///
 /// Four times the samples have a quarter of the variance, and need a level less to hide it: the bias goes with it.
-fn denoised(gathered: &History, of: &Film, levels: u32) -> Film {
+fn denoised(gathered: &History, levels: u32) -> [Vec<f32>; 3] {
     let samples = gathered.mean_samples().max(1.0) as u32;
-    let radiance = gathered.denoised(levels.saturating_sub(samples.ilog2() / 2));
+    gathered.denoised(levels.saturating_sub(samples.ilog2() / 2))
+}
+
+/// The same as a film with one sample of each pixel.
+fn denoised_film(gathered: &History, of: &Film, levels: u32) -> Film {
+    let radiance = denoised(gathered, levels);
     let mut film = Film::new(of.width, of.height, of.tile_side);
     for tile in &mut film.tiles {
         for row in 0..tile.tile.rows() {

@@ -1,6 +1,6 @@
 use super::modes::{MODES, every_stage};
 use super::orbit::Orbit;
-use super::order::{Kind, Letter, Order, UntilAnOrder};
+use super::order::{Letter, Order, UntilAnOrder};
 use super::pace::Pace;
 use super::paint::paint;
 use super::scene::Scene;
@@ -11,7 +11,6 @@ use super::traced::{self, Traced};
 use crate::answer::Answer;
 use bevy_ecs::prelude::World;
 use pinhole::extract::camera_entity;
-use pinhole::film::{exr_bytes, png_bytes};
 use pinhole::plan::Stage;
 use pinhole::render::Watch;
 use pinhole::scene::{Resolution, Statistics, View};
@@ -237,6 +236,7 @@ impl Viewer {
                 return self.trace(at).map_or_else(Answer::refused, |trace| Answer::json(&Traced::of(&trace)));
             }
             Order::Sheet => return Answer::json(&self.sheet()),
+            Order::PutView => self.put_view(),
             Order::Picture(kind) => return self.picture(kind),
         };
         done.map_or_else(Answer::refused, |()| Answer::json(&self.change))
@@ -305,10 +305,6 @@ impl Viewer {
         chosen
     }
 
-    fn save(&self) -> Result<String, String> {
-        self.choice.scene.save().map(|file| file.display().to_string())
-    }
-
     fn sheet(&self) -> Sheet {
         let rows = self.source.plan().map(|plan| plan.rows.iter().map(StageRow::offered));
         let out = self.choice.taken_out.iter().map(|name| StageRow::taken_out(name));
@@ -324,26 +320,8 @@ impl Viewer {
             change: self.change,
         }
     }
-
-    fn picture(&self, kind: Kind) -> Answer {
-        // A PNG is what is seen; an EXR is what was rendered, with its layers.
-        let levels = if kind == Kind::Png { MODES[self.choice.mode].denoised } else { 0 };
-        let Some((film, curve)) = self.source.last(levels) else {
-            return Answer::refused("there is no picture yet".into());
-        };
-        let (media, ending, bytes) = match kind {
-            Kind::Png => ("image/png", "png", png_bytes(&film, curve)),
-            Kind::Exr => ("image/x-exr", "exr", exr_bytes(&film)),
-        };
-        let stem: String =
-            self.choice.scene.stem().chars().filter(|c| c.is_ascii_alphanumeric() || "-_".contains(*c)).collect();
-        let file = Some(format!("{stem}.{ending}"));
-        bytes.map_or_else(
-            |error| Answer::refused(error.to_string()),
-            |bytes| Answer { file, ..Answer::of(media, bytes) },
-        )
-    }
 }
 
+mod keep;
 #[cfg(test)]
 mod tests;

@@ -15,6 +15,9 @@ const OFF_PLANE: f32 = 0.1;
 /// Albedo below this is not divided by.
 const LEAST_ALBEDO: f32 = 1.0 / 256.0;
 
+/// The fewest pixels that are worth a task of their own.
+pub(super) const PIXELS: usize = 1 << 13;
+
 /// What guides the filter: for each pixel, what its camera rays hit first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guides {
@@ -38,38 +41,66 @@ impl Guides {
             return None;
         }
         let (width, height) = (film.width as usize, film.height as usize);
-        let columns = || [(); 3].map(|()| vec![0.0; width * height]);
-        let mut guides = Self { width, normal: columns(), position: columns(), origin: [0.0; 3], albedo: columns() };
-        let mut origin = None;
-        for (tile, layers) in film.tiles.iter().zip(&film.layers) {
-            for row in 0..tile.tile.rows() {
-                let [x, y] = tile.tile.pixel_of(row);
-                let at = y as usize * width + x as usize;
-                let mean = |kind| [0, 1, 2].map(|channel| layers.mean(kind, channel, row));
-                if layers.hits[row] == 0 {
-                    guides.albedo.iter_mut().for_each(|albedo| albedo[at] = 1.0);
-                    continue;
-                }
-                let (position, normal) = (mean(LayerKind::Position), mean(LayerKind::ShadingNormal));
-                let origin = *origin.get_or_insert(position);
-                let length = normal.iter().map(|part| part * part).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
-                for (channel, albedo) in mean(LayerKind::Albedo).into_iter().enumerate() {
-                    guides.position[channel][at] = (position[channel] - origin[channel]) as f32;
-                    guides.normal[channel][at] = (normal[channel] / length) as f32;
-                    guides.albedo[channel][at] = (albedo as f32).max(LEAST_ALBEDO);
+        let origin = film.layers.iter().find_map(first_position).unwrap_or_default();
+        let mut pixels = vec![[0.0; 9]; width * height];
+        let bands = pixels.par_chunks_mut((width * film.tile_side as usize).max(1));
+        let across = film.width.div_ceil(film.tile_side.max(1)) as usize;
+        bands.enumerate().for_each(|(band, pixels)| {
+            for number in band * across..(band + 1) * across {
+                let (tile, guides) = (film.tiles[number].tile, TileGuides::of(&film.layers[number]));
+                for row in 0..tile.rows() {
+                    let [x, y] = tile.pixel_of(row);
+                    pixels[(y - tile.y) as usize * width + x as usize] = guides.of_row(row, origin);
                 }
             }
-        }
-        guides.origin = origin.unwrap_or_default();
-        Some(guides)
+        });
+        let column = |part: usize| pixels.par_iter().map(|pixel| pixel[part]).collect();
+        let columns = |first: usize| [first, first + 1, first + 2].map(column);
+        Some(Self { width, position: columns(0), normal: columns(3), albedo: columns(6), origin })
     }
 
     /// Multiplies or divides radiance by the albedo.
-    pub(super) fn scale(&self, radiance: &mut [Vec<f32>; 3], by: fn(f32, f32) -> f32) {
+    pub(super) fn scale(&self, radiance: &mut [Vec<f32>; 3], by: impl Fn(f32, f32) -> f32 + Sync) {
         for (own, albedo) in radiance.iter_mut().zip(&self.albedo) {
-            own.iter_mut().zip(albedo).for_each(|(own, &albedo)| *own = by(*own, albedo));
+            let pairs = own.par_iter_mut().zip(albedo).with_min_len(PIXELS);
+            pairs.for_each(|(own, &albedo)| *own = by(*own, albedo));
         }
     }
+}
+
+/// The layers of a tile that guide the filter.
+struct TileGuides<'f> {
+    layers: &'f FilmLayers,
+    position: &'f [Vec<f64>],
+    normal: &'f [Vec<f64>],
+    albedo: &'f [Vec<f64>],
+}
+
+impl<'f> TileGuides<'f> {
+    fn of(layers: &'f FilmLayers) -> Self {
+        let [position, normal, albedo] = GUIDES.map(|kind| layers.sums_of(kind));
+        Self { layers, position, normal, albedo }
+    }
+
+    /// Position, normal and albedo of a row.
+    fn of_row(&self, row: usize, origin: [f64; 3]) -> [f32; 9] {
+        if self.layers.hits[row] == 0 {
+            return [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0];
+        }
+        let hits = f64::from(self.layers.hits[row]);
+        let mean = |sums: &[Vec<f64>]| [sums[0][row] / hits, sums[1][row] / hits, sums[2][row] / hits];
+        let ([x, y, z], [nx, ny, nz], albedo) = (mean(self.position), mean(self.normal), mean(self.albedo));
+        let length = (nx * nx + ny * ny + nz * nz).sqrt().max(f64::MIN_POSITIVE);
+        let [r, g, b] = albedo.map(|part| (part as f32).max(LEAST_ALBEDO));
+        let (px, py, pz) = ((x - origin[0]) as f32, (y - origin[1]) as f32, (z - origin[2]) as f32);
+        [px, py, pz, (nx / length) as f32, (ny / length) as f32, (nz / length) as f32, r, g, b]
+    }
+}
+
+/// The first position in a tile at which anything was hit.
+fn first_position(layers: &FilmLayers) -> Option<[f64; 3]> {
+    let row = layers.hits.iter().position(|&hits| hits > 0)?;
+    Some([0, 1, 2].map(|channel| layers.mean(LayerKind::Position, channel, row)))
 }
 
 /// Smooths a film's mean radiance; none if the film lacks one of the layers that guide the filter.
@@ -79,13 +110,9 @@ pub fn denoise(film: &Film, levels: u32) -> Option<[Vec<f32>; 3]> {
 
 /// The mean radiance of all pixels, line by line from the top.
 pub(super) fn means(film: &Film) -> [Vec<f32>; 3] {
-    let mut radiance = [(); 3].map(|()| vec![0.0; film.width as usize * film.height as usize]);
-    for (at, [x, y]) in (0..film.height).flat_map(|y| (0..film.width).map(move |x| [x, y])).enumerate() {
-        for (part, own) in film.mean(x, y).into_iter().zip(&mut radiance) {
-            own[at] = part;
-        }
-    }
-    radiance
+    let at = |at: u32| film.mean(at % film.width, at / film.width);
+    let pixels: Vec<[f32; 3]> = (0..film.width * film.height).into_par_iter().with_min_len(PIXELS).map(at).collect();
+    [0, 1, 2].map(|channel| pixels.par_iter().map(|pixel| pixel[channel]).collect())
 }
 
 /// Smooths radiance, row by row from the top, in as many levels; level i mixes pixels 2ⁱ apart, 5 × 5 of them.
@@ -98,6 +125,11 @@ pub(super) fn means(film: &Film) -> [Vec<f32>; 3] {
 /// A pixel whose neighbours all differ from it keeps its radiance.
 pub fn denoise_radiance(mut radiance: [Vec<f32>; 3], guides: &Guides, levels: u32) -> [Vec<f32>; 3] {
     guides.scale(&mut radiance, |own, albedo| own / albedo);
+    smoothed_in_levels(radiance, guides, levels)
+}
+
+/// The same of radiance that has been divided by the albedo.
+pub(super) fn smoothed_in_levels(mut radiance: [Vec<f32>; 3], guides: &Guides, levels: u32) -> [Vec<f32>; 3] {
     for level in 0..levels {
         radiance = smoothed(&radiance, guides, 1 << level);
     }

@@ -40,13 +40,49 @@ pub(super) fn finite(number: f64) -> f32 {
 static BYTE_STEPS: LazyLock<[f64; 255]> =
     LazyLock::new(|| std::array::from_fn(|step| linear_from_srgb((step as f64 + 0.5) / 255.0)));
 
+/// The bits of an f32 below those by which [`FIRST_BYTES`] is looked up: of the fraction, 6 are left.
+const BELOW: u32 = 17;
+/// The exponent of the smallest number that is not black, 2⁻¹³, in the place where an f32 has it.
+const SMALLEST: u32 = (127 - 13) << 6;
+/// The numbers from there to 1.
+const NUMBERS: usize = 13 << 6;
+
+/// The byte of the smallest of all numbers that have the same exponent and the same first bits of their fraction.
+static FIRST_BYTES: LazyLock<[u8; NUMBERS]> = LazyLock::new(|| {
+    std::array::from_fn(|place| {
+        let smallest = f64::from(f32::from_bits((SMALLEST + place as u32) << BELOW));
+        BYTE_STEPS.partition_point(|&step| step <= smallest) as u8
+    })
+});
+
 /// Encodes a linear value as a byte; values below 0 give 0, values above 1 give 255.
+#[inline]
 pub fn byte_from_linear(linear: f32, curve: Curve) -> u8 {
-    let linear = f64::from(linear);
     match curve {
-        Curve::Srgb => BYTE_STEPS.partition_point(|&step| step <= linear) as u8,
-        Curve::Straight => (linear.clamp(0.0, 1.0) * 255.0).round() as u8,
+        Curve::Srgb => {
+            let place = (linear.to_bits() >> BELOW).wrapping_sub(SMALLEST) as usize;
+            match FIRST_BYTES.get(place) {
+                Some(&first) => next_steps(first, f64::from(linear)),
+                None => {
+                    if linear >= 1.0 {
+                        u8::MAX
+                    } else {
+                        0
+                    }
+                }
+            }
+        }
+        Curve::Straight => (f64::from(linear).clamp(0.0, 1.0) * 255.0).round() as u8,
     }
+}
+
+/// The byte of a number, from that of a smaller one near it.
+#[inline(always)]
+fn next_steps(mut byte: u8, linear: f64) -> u8 {
+    while byte < u8::MAX && BYTE_STEPS[usize::from(byte)] <= linear {
+        byte += 1;
+    }
+    byte
 }
 
 #[cfg(test)]
@@ -74,6 +110,19 @@ mod tests {
             let linear = step as f32 / 10_000.0;
             let rounded = (srgb_from_linear(f64::from(linear)) * 255.0).round() as u8;
             assert_eq!(byte_from_linear(linear, Curve::Srgb), rounded, "at {linear}");
+        }
+    }
+
+    #[test]
+    fn the_table_finds_what_a_search_finds() {
+        let mut numbers: Vec<f32> = (0..=u16::MAX).map(|high| f32::from_bits(u32::from(high) << 16)).collect();
+        for &step in &*BYTE_STEPS {
+            let near = (step as f32).to_bits();
+            numbers.extend([near - 1, near, near + 1].map(f32::from_bits));
+        }
+        for number in numbers {
+            let searched = BYTE_STEPS.partition_point(|&step| step <= f64::from(number)) as u8;
+            assert_eq!(byte_from_linear(number, Curve::Srgb), searched, "{number}");
         }
     }
 

@@ -44,6 +44,14 @@ impl FilmLayers {
         }
     }
 
+    /// Takes all samples away.
+    pub(super) fn empty(&mut self) {
+        self.taken.fill(0);
+        self.hits.fill(0);
+        self.entity.fill(NO_SHAPE);
+        self.sums.iter_mut().for_each(|sums| sums.fill(0.0));
+    }
+
     /// The kinds as bits, for checkpoints.
     pub fn kind_bits(&self) -> u32 {
         self.kinds.iter().fold(0, |bits, &kind| bits | 1 << kind as u32)
@@ -72,6 +80,11 @@ impl FilmLayers {
             LayerKind::Coverage => f64::from(self.hits[row]) / f64::from(self.taken[row].max(1)),
             _ => self.sums[self.components_of(kind).start + channel][row] / f64::from(self.hits[row].max(1)),
         }
+    }
+
+    /// The sums of a kind that is a mean, channel by channel.
+    pub(super) fn sums_of(&self, kind: LayerKind) -> &[Vec<f64>] {
+        &self.sums[self.components_of(kind)]
     }
 
     /// Its memory in bytes.

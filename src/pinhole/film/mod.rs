@@ -28,6 +28,7 @@ mod plausible;
 mod png;
 mod reproject;
 mod splats;
+mod tiled_film;
 mod whole_file;
 
 #[doc(hidden)]
@@ -44,7 +45,6 @@ pub use develop::{byte_from_linear, srgb_from_linear};
 #[doc(hidden)]
 pub use exr::exr_bytes;
 pub use exr::write_exr;
-pub use film_tile::Film;
 #[doc(hidden)]
 pub use film_tile::{FIRST_SAMPLE_STEPS, FilmTile, Rejected};
 #[doc(hidden)]
@@ -55,10 +55,11 @@ pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
 pub use moments::{FilmMoments, add_to_moments, moments_stage, variance_evidence};
 pub use png::write_png;
 #[doc(hidden)]
-pub use png::{png_bytes, png_bytes_by, rgba_bytes};
+pub use png::{png_bytes, png_bytes_by, rgba_bytes, rgba_of};
 #[doc(hidden)]
 pub use reproject::History;
 #[doc(hidden)]
 pub use splats::{FilmSplats, SplatFilter};
+pub use tiled_film::Film;
 #[doc(hidden)]
 pub use whole_file::{check_place, write_whole, writes_in_progress};

@@ -28,6 +28,11 @@ impl FilmMoments {
         Self { r: vec![0.0; rows], g: vec![0.0; rows], b: vec![0.0; rows] }
     }
 
+    /// Takes all samples away.
+    pub(super) fn empty(&mut self) {
+        [&mut self.r, &mut self.g, &mut self.b].into_iter().for_each(|sums| sums.fill(0.0));
+    }
+
     /// Adds a sample that is about to be added to `film`.
     #[inline(always)]
     pub fn add(&mut self, film: &FilmTile, row: usize, radiance: [f32; 3]) {

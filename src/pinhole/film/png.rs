@@ -1,5 +1,6 @@
 use super::{Curve, Film, byte_from_linear, write_whole};
 use crate::Result;
+use rayon::prelude::*;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -25,12 +26,31 @@ pub fn png_bytes_by(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8) -> i
 
 /// The film as 8-bit RGBA, row by row, every pixel opaque, for a display that needs no file.
 pub fn rgba_bytes(film: &Film, curve: Curve) -> Vec<u8> {
-    let pixels = (0..film.height).flat_map(|y| (0..film.width).map(move |x| film.mean(x, y)));
-    let bytes = pixels.flat_map(|[r, g, b]| {
-        let [r, g, b] = [r, g, b].map(|linear| byte_from_linear(linear, curve));
-        [r, g, b, u8::MAX]
+    let (width, side) = (film.width as usize, film.tile_side.max(1) as usize);
+    let mut bytes = vec![u8::MAX; 4 * width * film.height as usize];
+    let across = film.width.div_ceil(film.tile_side.max(1)) as usize;
+    let bands = bytes.par_chunks_mut((4 * width * side).max(1));
+    bands.enumerate().for_each(|(band, lines)| {
+        for number in band * across..(band + 1) * across {
+            let tile = film.tiles[number].tile;
+            for (row, [x, y]) in (0..tile.rows()).map(|row| (row, tile.pixel_of(row))) {
+                let at = 4 * ((y - tile.y) as usize * width + x as usize);
+                let mean = film.mean_in(number, row, [x, y]);
+                lines[at..at + 3].copy_from_slice(&mean.map(|linear| byte_from_linear(linear, curve)));
+            }
+        }
     });
-    bytes.collect()
+    bytes
+}
+
+/// The same of radiance that stands row by row.
+pub fn rgba_of([red, green, blue]: &[Vec<f32>; 3], curve: Curve) -> Vec<u8> {
+    let mut bytes = vec![u8::MAX; 4 * red.len()];
+    bytes.par_chunks_exact_mut(4).with_min_len(4096).enumerate().for_each(|(at, pixel)| {
+        let byte = |part: &[f32]| byte_from_linear(part[at], curve);
+        (pixel[0], pixel[1], pixel[2]) = (byte(red), byte(green), byte(blue));
+    });
+    bytes
 }
 
 fn encode(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8, out: impl Write) -> io::Result<()> {

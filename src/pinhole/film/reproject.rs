@@ -1,7 +1,7 @@
 //! What earlier frames have gathered, as it is seen from where the camera is now: reprojection.
 
 use super::Film;
-use super::denoise::{Guides, denoise_radiance, means};
+use super::denoise::{Guides, PIXELS, means, smoothed_in_levels};
 use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -55,13 +55,15 @@ impl History {
             .with_min_len(1024)
             .map(|at| earlier.at(raster_of(self.guides.place(at)?)?, &self.guides, at))
             .collect();
-        for (at, (radiance, samples)) in found.into_iter().enumerate().filter_map(|(at, found)| Some((at, found?))) {
-            let all = self.samples[at] + samples;
-            for (own, earlier) in self.radiance.iter_mut().zip(radiance) {
-                own[at] = (own[at] * self.samples[at] + earlier * samples) / all;
-            }
-            self.samples[at] = all;
-        }
+        let [red, green, blue] = &mut self.radiance;
+        let pixels = (red, green, blue, &mut self.samples, found).into_par_iter().with_min_len(PIXELS);
+        pixels.for_each(|(red, green, blue, own_samples, found)| {
+            let Some(([r, g, b], samples)) = found else { return };
+            let all = *own_samples + samples;
+            let mixed = |own: f32, earlier: f32| (own * *own_samples + earlier * samples) / all;
+            (*red, *green, *blue) = (mixed(*red, r), mixed(*green, g), mixed(*blue, b));
+            *own_samples = all;
+        });
         self
     }
 
@@ -94,9 +96,7 @@ impl History {
 
     /// The radiance, smoothed in so many levels.
     pub fn denoised(&self, levels: u32) -> [Vec<f32>; 3] {
-        let mut radiance = self.radiance.clone();
-        self.guides.scale(&mut radiance, |own, albedo| own * albedo);
-        denoise_radiance(radiance, &self.guides, levels)
+        smoothed_in_levels(self.radiance.clone(), &self.guides, levels)
     }
 }
 

@@ -5,15 +5,15 @@ use super::triangle::{Edge, RasterTriangle, SUBPIXELS, within};
 use crate::rays::{RasterPoints, Tile};
 use multiversion::multiversion;
 
-/// Fewer samples than this are tested one by one, for a loop over eight at once would take longer.
-const FEW: usize = 5;
+/// How many samples are tested at once; a triangle is tested at more samples than its own rather than at fewer at once.
+const SAMPLES: usize = 4;
 /// The number of no triangle.
 const NONE: f64 = -1.0;
 
 /// The samples of a tile, how near the nearest triangle is at each, and which one that is.
 ///
-/// All numbers are f64, whole where they are numbers of triangles or of steps, so that one loop handles eight samples at
-/// once.
+/// All numbers are f64, whole where they are numbers of triangles or of steps, so that one loop handles several samples
+/// at once; the columns have room for as many, even where a tile has fewer rows.
 #[derive(Debug, Default)]
 pub struct Cover {
     x: Vec<f64>,
@@ -27,13 +27,14 @@ impl Cover {
     /// where it is not that of its number.
     pub fn fill(&mut self, table: &RasterTriangles, tile: &Tile, raster: &RasterPoints, in_order: bool) {
         let rows = raster.x.len();
+        let room = rows.max(SAMPLES);
         for column in [&mut self.x, &mut self.y] {
-            column.resize(rows, 0.0);
+            column.resize(room, 0.0);
         }
         self.nearness.clear();
-        self.nearness.resize(rows, f64::NEG_INFINITY);
+        self.nearness.resize(room, f64::NEG_INFINITY);
         self.nearest.clear();
-        self.nearest.resize(rows, NONE);
+        self.nearest.resize(room, NONE);
         cover(self, table, (tile, raster), in_order);
     }
 
@@ -65,11 +66,7 @@ fn cover(own: &mut Cover, table: &RasterTriangles, (tile, raster): (&Tile, &Rast
             }
             for line in top..=bottom {
                 let start = line * tile.width as usize;
-                let rows = start + left..start + right + 1;
-                match rows.len() < FEW {
-                    true => rows.for_each(|row| own.keep_nearest_at(&of_tile, row)),
-                    false => own.keep_nearest(&of_tile, rows),
-                }
+                own.keep_nearest(&of_tile, start + left..start + right + 1);
             }
         }
     }
@@ -100,37 +97,54 @@ impl TileTriangle {
 }
 
 impl Cover {
-    // ANCHOR: keep_nearest
-    /// Keeps the triangle at the samples of some rows that are inside it and where nothing is nearer; of equally near
-    /// ones the first wins, which is that of the lowest number.
+    /// Keeps the triangle at the samples of some rows that are inside it and where nothing is nearer; and at some of the
+    /// rows beside them, so that it is always as many at once.
     #[inline(always)]
     fn keep_nearest(&mut self, triangle: &TileTriangle, rows: std::ops::Range<usize>) {
-        let [ab, bc, ca] = triangle.edges;
-        let [right, down, at_corner] = triangle.nearness;
-        let (x, y) = (&self.x[rows.clone()], &self.y[rows.clone()]);
-        let (nearness, nearest) = (&mut self.nearness[rows.clone()], &mut self.nearest[rows]);
-        for sample in 0..x.len().min(y.len()).min(nearness.len()).min(nearest.len()) {
-            let (x, y) = (x[sample], y[sample]);
-            let inside = (ab.at(x, y) >= 0.0) & (bc.at(x, y) >= 0.0) & (ca.at(x, y) >= 0.0);
-            let near = within(right * x + down * y + at_corner, triangle.range);
-            let wins = inside & (near > nearness[sample]);
-            nearness[sample] = if wins { near } else { nearness[sample] };
-            nearest[sample] = if wins { triangle.number } else { nearest[sample] };
+        let last = self.x.len() - SAMPLES;
+        for start in rows.step_by(SAMPLES) {
+            self.keep_nearest_at(triangle, start.min(last));
         }
+    }
+
+    // ANCHOR: keep_nearest
+    /// Keeps the triangle at those of a few samples that are inside it and where nothing is nearer; of equally near
+    /// triangles the first wins, which is that of the lowest number.
+    #[inline(always)]
+    fn keep_nearest_at(&mut self, triangle: &TileTriangle, start: usize) {
+        let rows = start..start + SAMPLES;
+        let [x, y] = [&self.x, &self.y].map(|column| of(&column[rows.clone()]));
+        let [ab, bc, ca] = triangle.edges.map(|edge| each(|sample| edge.at(x[sample], y[sample])));
+        let [right, down, at_corner] = triangle.nearness;
+        let near: Samples = each(|sample| {
+            let near = within(right * x[sample] + down * y[sample] + at_corner, triangle.range);
+            if lesser(lesser(ab[sample], bc[sample]), ca[sample]) >= 0.0 { near } else { f64::NEG_INFINITY }
+        });
+        let (nearness, nearest) = (of(&self.nearness[rows.clone()]), of(&self.nearest[rows.clone()]));
+        let wins = |sample: usize| near[sample] > nearness[sample];
+        let number = each(|sample| if wins(sample) { triangle.number } else { nearest[sample] });
+        self.nearest[rows.clone()].copy_from_slice(&number);
+        self.nearness[rows].copy_from_slice(&each(|sample| if wins(sample) { near[sample] } else { nearness[sample] }));
     }
     // ANCHOR_END: keep_nearest
+}
 
-    /// The same for one row.
-    #[inline(always)]
-    fn keep_nearest_at(&mut self, triangle: &TileTriangle, row: usize) {
-        let [ab, bc, ca] = triangle.edges;
-        let [right, down, at_corner] = triangle.nearness;
-        let (x, y) = (self.x[row], self.y[row]);
-        if (ab.at(x, y) >= 0.0) & (bc.at(x, y) >= 0.0) & (ca.at(x, y) >= 0.0) {
-            let near = within(right * x + down * y + at_corner, triangle.range);
-            if near > self.nearness[row] {
-                (self.nearness[row], self.nearest[row]) = (near, triangle.number);
-            }
-        }
-    }
+/// A number for each of a few samples: an operation on all of them is one instruction.
+type Samples = [f64; SAMPLES];
+
+#[inline(always)]
+fn each(of: impl Fn(usize) -> f64) -> Samples {
+    std::array::from_fn(of)
+}
+
+/// A few rows of a column.
+#[inline(always)]
+fn of(rows: &[f64]) -> Samples {
+    each(|sample| rows[sample])
+}
+
+/// The lesser of two numbers that are not NaN, in the one instruction that `f64::min` is not.
+#[inline(always)]
+fn lesser(one: f64, other: f64) -> f64 {
+    if one < other { one } else { other }
 }

@@ -72,6 +72,12 @@ impl Projection {
         raster_from_ndc(ndc_from_clip(clip), self.size)
     }
 
+    /// How near a clip point is: the depth's reciprocal for a perspective camera, and otherwise the negative depth.
+    #[inline(always)]
+    pub fn nearness(&self, clip: ClipPoint) -> f64 {
+        if self.is_perspective { 1.0 / clip.depth } else { -clip.depth }
+    }
+
     /// The point in camera space of a clip point.
     #[inline(always)]
     pub fn camera(&self, clip: ClipPoint) -> DVec3 {

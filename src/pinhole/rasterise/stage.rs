@@ -49,32 +49,30 @@ pub fn rasterise_triangles(
         while count == PAIRS {
             count = 0;
             for (row, (number, nearness)) in seen.by_ref().take(PAIRS) {
-                let RasterTriangle { shape, primitive, row: of, .. } = *table.triangle(number);
-                let ray = [view.rays.origin_of(row), view.rays.direction_of(row)];
-                let start = set_pair(pairs, count, ray, shapes, (of as usize, primitive));
-                some[count] = Seen { row, nearness, shape, primitive, of: of as usize, ray, start };
+                let triangle = table.triangle(number);
+                let start = set_pair(pairs, count, view.ray(row), shapes, triangle);
+                some[count] = Seen { row, number, nearness, start };
                 count += 1;
             }
             let found = pairs.t();
-            for (seen, t) in some[..count].iter().zip(found) {
-                let t = if t.is_nan() { uncertain_t(seen, shapes) } else { seen.start + t };
-                view.keep(seen, if t < f64::INFINITY { t } else { plane_t(&projection, seen.ray[1], seen.nearness) });
+            for (&Seen { row, number, nearness, start }, t) in some[..count].iter().zip(found) {
+                let triangle = table.triangle(number);
+                let t = if t.is_nan() { uncertain_t(view.ray(row), triangle, shapes) } else { start + t };
+                let t = if t < f64::INFINITY { t } else { plane_t(&projection, view.ray(row)[1], nearness) };
+                view.keep(row, triangle, t);
             }
         }
     }
 }
 
-/// A row that sees a triangle: which one, and from where.
+/// A row that sees a triangle.
 #[derive(Clone, Copy, Debug, Default)]
 struct Seen {
     row: usize,
+    /// The triangle's number.
+    number: usize,
     nearness: f64,
-    shape: u32,
-    primitive: u32,
-    /// The row of the shape in its table.
-    of: usize,
-    ray: [DVec3; 2],
-    /// The t at which the ray starts where its triangle is.
+    /// The t at which the ray starts where the triangle is.
     start: f64,
 }
 
@@ -88,8 +86,9 @@ fn set_pair(
     place: usize,
     ray: [DVec3; 2],
     (triangles, meshes): Shapes<'_>,
-    (of, primitive): (usize, u32),
+    &RasterTriangle { primitive, row, .. }: &RasterTriangle,
 ) -> f64 {
+    let of = row as usize;
     match (triangles, meshes) {
         (_, Some(meshes)) if primitive != NO_PRIMITIVE => meshes.row[of].set_pair(pairs, place, ray, primitive),
         (Some(triangles), _) => {
@@ -102,7 +101,12 @@ fn set_pair(
 
 /// The t of a ray that passes so near an edge that exact arithmetic has to say whether it hits.
 #[cold]
-fn uncertain_t(&Seen { primitive, of, ray, .. }: &Seen, (triangles, meshes): Shapes<'_>) -> f64 {
+fn uncertain_t(
+    ray: [DVec3; 2],
+    &RasterTriangle { primitive, row, .. }: &RasterTriangle,
+    (triangles, meshes): Shapes<'_>,
+) -> f64 {
+    let of = row as usize;
     match (triangles, meshes) {
         (_, Some(meshes)) if primitive != NO_PRIMITIVE => meshes.row[of].triangle_t(ray, primitive),
         (Some(triangles), _) => triangle_t(ray[0], ray[1], &triangles.row[of]),
@@ -111,9 +115,15 @@ fn uncertain_t(&Seen { primitive, of, ray, .. }: &Seen, (triangles, meshes): Sha
 }
 
 impl RasterViewItem<'_, '_> {
+    /// The ray of a row.
+    #[inline(always)]
+    fn ray(&self, row: usize) -> [DVec3; 2] {
+        [self.rays.origin_of(row), self.rays.direction_of(row)]
+    }
+
     /// Keeps a hit where it is the closest so far.
     #[inline(always)]
-    fn keep(&mut self, &Seen { row, shape, primitive, .. }: &Seen, t: f64) {
+    fn keep(&mut self, row: usize, &RasterTriangle { shape, primitive, .. }: &RasterTriangle, t: f64) {
         let hits = &mut self.hits;
         if t < hits.t[row] || (t == hits.t[row] && shape < hits.shape[row]) {
             (hits.t[row], hits.shape[row]) = (t, shape);

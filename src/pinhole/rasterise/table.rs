@@ -3,7 +3,7 @@
 use super::bins::{Bins, Extent, bins_near, bins_of};
 use super::clip::{ClipPlanes, Polygon};
 use super::spaces::{ClipPoint, Projection};
-use super::triangle::{NearnessPlane, RasterTriangle, SUBPIXELS, edge_function, fixed};
+use super::triangle::{Edge, NearnessPlane, RasterTriangle, SUBPIXELS, edge_function, fixed};
 use crate::extract::{FilterTable, MeshTable, TriangleTable, radius_of};
 use crate::intersect::NO_PRIMITIVE;
 use crate::plan::{Census, Table};
@@ -16,6 +16,8 @@ use std::ops::Range;
 
 /// The fewest vertices or triangles that are worth a task of their own.
 const TASK: usize = 2048;
+/// The most pixels of a triangle that is tested at all of their centres before it is kept.
+const FEW: u32 = 4;
 /// How many runs a scene of many triangles is divided into; more would cost each tile more lists.
 const RUNS: usize = 64;
 /// The most triangles of a run, and the room for what clipping makes of them: eight of each at most.
@@ -54,10 +56,11 @@ struct Setup<'s> {
     margin: i32,
 }
 
-/// A vertex in clip space, and in 1/256 of a pixel where it needs no clipping.
+/// A vertex in clip space, how near it is, and in 1/256 of a pixel where it needs no clipping.
 #[derive(Clone, Copy)]
 struct Vertex {
     clip: ClipPoint,
+    nearness: f64,
     raster: Option<[i32; 2]>,
 }
 
@@ -73,7 +76,7 @@ impl Setup<'_> {
     #[inline(always)]
     fn vertex(&self, clip: ClipPoint) -> Vertex {
         let raster = self.planes.contain(clip).then(|| fixed(self.projection.raster(clip)));
-        Vertex { clip, raster }
+        Vertex { clip, nearness: self.projection.nearness(clip), raster }
     }
 
     /// Appends a triangle, or the triangles that clipping leaves of it.
@@ -82,7 +85,9 @@ impl Setup<'_> {
         let clip = corners.map(|corner| corner.clip);
         match corners.map(|corner| corner.raster) {
             [Some(a), Some(b), Some(c)] => {
-                self.push_unclipped([a, b, c], || NearnessPlane::through(self.projection, clip), whose, into);
+                let nearness = corners.map(|corner| corner.nearness);
+                let plane = || NearnessPlane::of_nearness(self.projection, clip, nearness);
+                self.push_unclipped([a, b, c], plane, whose, into);
             }
             _ => self.push_clipped(clip, whose, into),
         }
@@ -118,11 +123,28 @@ impl Setup<'_> {
         if area < 0 {
             corners.swap(1, 2);
         }
+        if !self.may_cover(&corners, extent) {
+            return;
+        }
         let Whose { shape, primitive, row } = whose;
         if let Some(plane) = plane() {
             into.triangles.push(RasterTriangle { corners, shape, primitive, row, plane });
             into.extents.push(extent);
         }
+    }
+
+    /// Whether a sample may be inside; only a triangle of few pixels is tested, for a large one covers some.
+    #[inline(always)]
+    fn may_cover(&self, &[a, b, c]: &[[i32; 2]; 3], [[left, right], [top, bottom]]: Extent) -> bool {
+        if self.margin > 0 || (right - left + 1) * (bottom - top + 1) > FEW {
+            return true;
+        }
+        let corner = [left, top].map(|pixels| pixels as i32 * SUBPIXELS as i32);
+        let edges = [Edge::new(a, b, corner), Edge::new(b, c, corner), Edge::new(c, a, corner)];
+        let centre = |pixels: u32| (f64::from(pixels) + 0.5) * SUBPIXELS;
+        (0..=bottom - top).any(|down| {
+            (0..=right - left).any(|across| edges.iter().all(|edge| edge.at(centre(across), centre(down)) >= 0.0))
+        })
     }
 
     /// The pixels that a sample inside the triangle may belong to.

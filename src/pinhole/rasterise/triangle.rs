@@ -40,6 +40,12 @@ impl NearnessPlane {
     /// 1/z = n · (x, y, −1) / d.
     #[inline(always)]
     pub fn through(projection: &Projection, corners: [ClipPoint; 3]) -> Option<Self> {
+        Self::of_nearness(projection, corners, corners.map(|corner| projection.nearness(corner)))
+    }
+
+    /// The same where it is known how near the points are.
+    #[inline(always)]
+    pub(super) fn of_nearness(projection: &Projection, corners: [ClipPoint; 3], nearness: [f64; 3]) -> Option<Self> {
         let [a, b, c] = corners.map(|corner| projection.camera(corner));
         let normal = (b - a).cross(c - a);
         let distance = normal.dot(a);
@@ -51,12 +57,9 @@ impl NearnessPlane {
         };
         let (width, height) = (projection.size.x, projection.size.y);
         let coefficients = [2.0 * right / width, -2.0 * up / height, at_centre - right + up].map(|part| part / whole);
-        let of = |corner: ClipPoint| if projection.is_perspective { 1.0 / corner.depth } else { -corner.depth };
-        let nearness = corners.map(of);
-        let range = [
-            nearness.into_iter().fold(f64::INFINITY, f64::min),
-            nearness.into_iter().fold(f64::NEG_INFINITY, f64::max),
-        ];
+        let [a, b, c] = nearness;
+        let (low, high) = if a < b { (a, b) } else { (b, a) };
+        let range = [if c < low { c } else { low }, if c > high { c } else { high }];
         coefficients.iter().all(|part| part.is_finite()).then_some(Self { coefficients, range })
     }
 
@@ -127,8 +130,10 @@ impl Edge {
     /// The edge function of an edge, about this corner of a tile.
     #[inline(always)]
     pub fn new(from: [i32; 2], to: [i32; 2], corner: [i32; 2]) -> Self {
-        let c = edge_function(from, to, corner) - i64::from(!is_top_left(from, to));
-        Self { a: f64::from(from[1] - to[1]), b: f64::from(to[0] - from[0]), c: c as f64 }
+        let own = |point: [i32; 2]| [f64::from(point[0] - corner[0]), f64::from(point[1] - corner[1])];
+        let ([fx, fy], [tx, ty]) = (own(from), own(to));
+        let (a, b) = (fy - ty, tx - fx);
+        Self { a, b, c: -(a * fx + b * fy) - f64::from(u8::from(!is_top_left(from, to))) }
     }
 
     /// Its value.

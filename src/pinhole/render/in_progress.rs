@@ -97,7 +97,13 @@ impl RenderInProgress {
         }
         let image = *scene.table::<ImageFrame>()?;
         check_film_fits(scene, &plan)?;
-        self.film = film_for(scene, &plan, Film::new(image.width, image.height, self.execution.tile_side));
+        let kinds = LayerTable::kinds_of(scene);
+        let is_alike = self.film.layers.first().is_none_or(|layers| layers.kinds == kinds);
+        if is_alike && [self.film.width, self.film.height] == [image.width, image.height] {
+            self.film.empty();
+        } else {
+            self.film = film_for(scene, &plan, Film::new(image.width, image.height, self.execution.tile_side));
+        }
         self.sampling = *scene.table::<SamplingTable>()?;
         for world in &mut self.worlds {
             let Some(world) = world.get_mut().unwrap_or_else(PoisonError::into_inner) else { continue };

@@ -32,7 +32,7 @@ impl Shear {
 
 /// The components of a vector, cyclically permuted so that axis `Z` becomes z.
 #[inline(always)]
-fn permuted<const Z: usize>(v: DVec3) -> [f64; 3] {
+pub(super) fn permuted<const Z: usize>(v: DVec3) -> [f64; 3] {
     match Z {
         0 => [v.y, v.z, v.x],
         1 => [v.z, v.x, v.y],

@@ -2,16 +2,17 @@
 
 use super::mesh::PlacedMesh;
 use super::triangle_block::{EdgeValues, ROUNDING, certain_t, edge_values, may_be_hit};
-use super::triangle_edges::longest_axis;
+use super::triangle_edges::{longest_axis, permuted};
 use glam::DVec3;
 use multiversion::multiversion;
 
-/// How many pairs are intersected at once.
-pub const PAIRS: usize = 8;
+/// How many pairs are intersected at once: so many that what is written for one pair has arrived in memory before it is
+/// read with others.
+pub const PAIRS: usize = 32;
 
 type Lanes = [f64; PAIRS];
 
-/// Eight rays and a triangle for each, their axes permuted such that the largest component of a direction is the last.
+/// Rays and a triangle for each, their axes permuted such that the largest component of a direction is the last.
 #[derive(Clone, Debug, Default)]
 pub struct TrianglePairs {
     origin: [Lanes; 3],
@@ -24,13 +25,19 @@ impl TrianglePairs {
     /// Sets a pair; no coordinate of the triangle is larger than `size`.
     #[inline(always)]
     pub fn set(&mut self, lane: usize, [origin, direction]: [DVec3; 2], corners: [DVec3; 3], size: f64) {
-        let z = longest_axis(direction);
-        for (place, axis) in [(z + 1) % 3, (z + 2) % 3, z].into_iter().enumerate() {
-            self.origin[place][lane] = origin[axis];
-            self.direction[place][lane] = direction[axis];
-            for (own, corner) in self.corners.iter_mut().zip(corners) {
-                own[place][lane] = corner[axis];
-            }
+        let [a, b, c] = corners;
+        let all = [origin, direction, a, b, c];
+        let [origin_permuted, direction, a, b, c] = match longest_axis(direction) {
+            0 => all.map(permuted::<0>),
+            1 => all.map(permuted::<1>),
+            _ => all.map(permuted::<2>),
+        };
+        for axis in 0..3 {
+            self.origin[axis][lane] = origin_permuted[axis];
+            self.direction[axis][lane] = direction[axis];
+            self.corners[0][axis][lane] = a[axis];
+            self.corners[1][axis][lane] = b[axis];
+            self.corners[2][axis][lane] = c[axis];
         }
         self.size[lane] = origin.x.abs() + origin.y.abs() + origin.z.abs() + size;
     }

@@ -190,6 +190,7 @@ const keys = {
   "=": (time) => { moves.zoom *= 0.9; move(time); },
   "-": (time) => { moves.zoom /= 0.9; move(time); },
   "f": focusOn,
+  "v": () => putView(),
   "?": () => part("keys").showModal(),
 };
 
@@ -354,13 +355,26 @@ const send = async (kind, done) => {
   } catch (error) {
     say(error.message, true);
     mark(text, error.message);
-    return;
+    return false;
   }
   await readSheet();
+  return true;
 };
 
 const apply = () => send("apply", () => "Applied.");
 const save = () => send("save", (file) => `Saved as ${file}.`);
+
+/** Puts the camera into the text as it stands; the text is applied first, so that nothing typed is lost. */
+const putView = async () => {
+  if (!await apply()) return;
+  try {
+    await order("put_view");
+    say("The camera is in the text.");
+  } catch (error) {
+    say(error.message, true);
+  }
+  await readSheet();
+};
 
 const mark = (text, sentence) => {
   const found = sentence.match(/:(\d+):(\d+):/);
@@ -375,6 +389,7 @@ const mark = (text, sentence) => {
 
 part("apply").addEventListener("click", apply);
 part("save").addEventListener("click", save);
+part("view").addEventListener("click", putView);
 part("text").addEventListener("input", () => listNumbers());
 
 /** The entities of the text: where each begins and ends. */

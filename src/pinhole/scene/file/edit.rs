@@ -5,6 +5,8 @@ use super::nearest::nearest;
 use super::read::{FileEntity, quoted};
 use super::scan::{after_bracket, elements, fields, is_one_value, variant};
 use super::word::Word;
+use crate::scene::LookAt;
+use glam::DVec3;
 use std::ops::Range;
 
 const FORM: &str = "a value is set as ENTITY.COMPONENT.FIELD=VALUE, such as camera.perspective_camera.fov=62 or lamp.placement.position.x=-2";
@@ -41,6 +43,37 @@ pub fn value_at(text: &str, entities: &[FileEntity], path: &str) -> Result<Strin
     let default = default.ok_or_else(|| format!("`{path}` is left out and has no default"))?;
     let Place { range, left_out } = within(&default, 0..default.len(), &words[1..])?;
     if left_out.is_empty() { Ok(default[range].into()) } else { Err(format!("`{path}` has no value")) }
+}
+
+/// A file's text with its camera looking from one point to another, and with this height of view where it is orthographic.
+///
+/// Errors: it has no camera, or one that is carried by something else.
+pub fn with_view(text: &str, entities: &[FileEntity], view: &LookAt, height: f64) -> Result<String, String> {
+    let is_camera = |entity: &&FileEntity| entity.parts.iter().any(|part| part.word.ends_with("_camera"));
+    let camera = entities.iter().filter(|entity| !entity.disabled).find(is_camera).ok_or("there is no camera in it")?;
+    let part = |word: &str| camera.parts.iter().find(|part| part.word == word);
+    if let Some(carrier) = ["parent", "motion"].into_iter().find(|word| part(word).is_some()) {
+        return Err(format!("its camera has a {carrier}, which would move it once more: take that away first"));
+    }
+    let triple = |v: DVec3| format!("({:?}, {:?}, {:?})", v.x, v.y, v.z);
+    let up = if view.up == DVec3::Y { String::new() } else { format!(", up: {}", triple(view.up)) };
+    let look = format!("look_at: (eye: {}, target: {}{up})", triple(view.eye), triple(view.target));
+    let mut edits = vec![match part("look_at").or_else(|| part("placement")) {
+        Some(part) => (part.at..part.value.end, look),
+        None => (camera.at + 1..camera.at + 1, format!("{look}, ")),
+    }];
+    if let Some(part) = part("orthographic_camera") {
+        let Place { range, left_out } = within(text, part.value.clone(), &["view_height"])?;
+        let field = if left_out.is_empty() { "" } else { "view_height: " };
+        let comma = if left_out.is_empty() { "" } else { ", " };
+        edits.push((range, format!("{field}{height:?}{comma}")));
+    }
+    edits.sort_by_key(|(range, _)| range.start);
+    let mut edited = text.to_owned();
+    for (range, new) in edits.into_iter().rev() {
+        edited.replace_range(range, &new);
+    }
+    Ok(edited)
 }
 
 /// Where a value stands, or where it belongs with the words that are left out there.

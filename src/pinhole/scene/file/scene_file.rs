@@ -1,11 +1,11 @@
-use super::edit::{value_at, with_value};
+use super::edit::{value_at, with_value, with_view};
 use super::found::shown;
 use super::mistake::{Mistake, place_of};
 use super::read::{FileEntity, read_entity};
 use super::refer::resolve;
 use super::scan::{entities, fields};
 use super::{FileProblem, PlaceInFile};
-use crate::scene::{ChildOf, Disabled, Name, SceneError, SceneFolder, UsesMaterial, load_meshes};
+use crate::scene::{ChildOf, Disabled, LookAt, Name, SceneError, SceneFolder, UsesMaterial, load_meshes};
 use bevy_ecs::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -52,6 +52,16 @@ impl SceneFile {
     pub fn set(&self, setting: &str) -> Result<Self, String> {
         let refused = |what| format!("cannot set `{}`: {what}", shown(setting));
         let text = with_value(&self.text, &self.entities, setting).map_err(refused)?;
+        Self::parse(&self.path, text).map_err(|problem| refused(problem.what))
+    }
+
+    /// The same scene with its camera elsewhere: at an eye, looking at a target, and with this height of view where it is
+    /// orthographic.
+    ///
+    /// Errors: the file has no camera, or one that a parent or a motion carries, in one sentence.
+    pub fn with_view(&self, view: &LookAt, view_height: f64) -> Result<Self, String> {
+        let refused = |what| format!("the view cannot be put into the text: {what}");
+        let text = with_view(&self.text, &self.entities, view, view_height).map_err(refused)?;
         Self::parse(&self.path, text).map_err(|problem| refused(problem.what))
     }
 
