@@ -361,7 +361,9 @@ fn shapes_that_no_stage_on_offer_intersects() {
                 let writes = stage.writes.iter().any(|written| written.name == column);
                 !(writes && stage.tables.iter().any(|read| read.name == table))
             });
-            assert_eq!(fewer.len() + 1, before, "one stage of {column} reads {table}");
+            // Shapes that have a box and are not made of triangles can be rasterised, too.
+            let stages = if column == "hit" && !["planes", "triangles"].contains(&table) { 2 } else { 1 };
+            assert_eq!(fewer.len() + stages, before, "{stages} stages of {column} read {table}");
             let told = prepare(census, &fewer).err().expect("refused").to_string();
             let start = format!("{name}: shape is in the table of {table}, but no stage on offer ");
             assert!(told.starts_with(&start) && told.contains("; offer "), "{column}: {told}");

@@ -158,7 +158,7 @@ fn a_value_is_set_by_the_path_to_it() {
 #[test]
 fn a_camera_is_put_where_it_was_moved_to() {
     let view = LookAt { eye: DVec3::new(1.5, 2.0, -3.0), ..LookAt::default() };
-    let look = "look_at: (eye: (1.5, 2.0, -3.0), target: (0.0, 0.0, 0.0))";
+    let look = "look_at: (eye: (1.5, 2.0, -3.0), target: (0.0, 0.0, -1.0))";
     let put = |camera: &str| {
         let text = format!("[(name: \"ball\", sphere: ()), ({camera})]");
         let file = SceneFile::parse(Path::new("scene.ron"), text).expect("a scene");

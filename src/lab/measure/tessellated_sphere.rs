@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 /// The unit sphere as the faces of an octahedron, each divided into k² triangles whose vertices are on the sphere; no
 /// point of a triangle is farther from the sphere than this.
 ///
-/// A triangle is farthest from the sphere where the perpendicular from the centre meets its plane: by the sagitta of the
+/// A triangle is farthest from the sphere where the perpendicular from the centre hits its plane: by the sagitta of the
 /// circle through its vertices.
 #[must_use]
 pub fn tessellated_sphere(error: f64) -> TriangleMesh {
@@ -53,7 +53,7 @@ fn triangles_of_face(divisions: u32) -> impl Iterator<Item = [[u32; 3]; 3]> {
     })
 }
 
-/// A vertex of the first octant; along the edges of the octahedron the angles between them are all alike.
+/// A vertex of the first octant; along the edges of the octahedron the angles between neighbours are equal.
 fn vertex(at: [u32; 3], divisions: u32) -> DVec3 {
     DVec3::from(at.map(|part| libm::sin(FRAC_PI_2 * f64::from(part) / f64::from(divisions)))).normalize()
 }

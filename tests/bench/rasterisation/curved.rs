@@ -22,7 +22,7 @@ const ERRORS: [f64; 2] = [1.0 / 2.0, 1.0 / 256.0];
 /// More triangles than this are left out.
 const MOST: usize = 4_000_000;
 /// How far the spheres are from the origin at most.
-const REACH: f64 = 3.0;
+const FARTHEST: f64 = 3.0;
 /// How far the eye is from the origin where it is close.
 const CLOSE: f64 = 1.4;
 
@@ -48,7 +48,7 @@ enum Method {
 fn spheres(count: u32, view: View) -> (Vec<DVec3>, f64) {
     let mut draws = Draws::new(3301, u64::from(count));
     let places = (0..count).map(|sphere| {
-        let away = if sphere == 0 { 0.0 } else { REACH * libm::cbrt(draws.unit()) };
+        let away = if sphere == 0 { 0.0 } else { FARTHEST * libm::cbrt(draws.unit()) };
         draws.unit_vector() * away
     });
     let smaller = if view == View::Overlapping { 1.0 } else { libm::cbrt(f64::from(count)) };

@@ -11,7 +11,7 @@ use pinhole::intersect::{
 use pinhole::look::view_stage;
 use pinhole::material::{BlinnPhongTable, PhongTable};
 use pinhole::plan::Stage;
-use pinhole::rasterise::rasterise_stage;
+use pinhole::rasterise::{box_stage, rasterise_stage};
 use pinhole::rays::{
     lens_point_stage, lens_stage, ndc_stage, orthographic_stage, perspective_stage, place_samples_stage, raster_stage,
     screen_stage, time_stage, world_stage,
@@ -22,7 +22,7 @@ use pinhole::shade::{
     plane_shadow_stage, point_light_stage, shape_shadow_stage, sphere_shadow_stage, spot_light_stage,
     start_light_stage, start_shadow_stage, stripes_stage, texture_point_stage, unlit_stage,
 };
-use pinhole::shapes::{Ellipsoid, PlacedDisk, PlacedMesh, PlacedRectangle, Slabs, TriangleRow};
+use pinhole::shapes::{Ellipsoid, PlacedDisk, PlacedMesh, PlacedRectangle, PlacedSphere, Slabs, TriangleRow};
 use pinhole::{intersect, shade};
 
 /// A row of the table.
@@ -62,6 +62,8 @@ const MOVING: &str = "24_motion_blur";
 const MODELS: &str = "28_meshes";
 /// A camera that rasterises.
 const PROJECTED: &str = "32_projection";
+/// A camera that rasterises a sphere's box.
+const BOXED: &str = "33_rasterisation";
 /// A gradient behind mirrors.
 const MIRRORED: &str = "19_mirrors";
 /// A column painted for the picture.
@@ -91,6 +93,7 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("two-edges", triangle_stage, "third edge not asked for", MICROFACETS, Bug::Instead(|| triangles::two_edges.into_configs())),
     bug("own-unit", mesh_stage, "t in the mesh's own unit", MODELS, Bug::After(|| meshes::own_unit.into_configs())),
     bug("depth-for-distance", rasterise_stage, "depth taken for the distance along the ray", PROJECTED, Bug::After(|| rasterised::depth_for_distance.into_configs())),
+    bug("every-second-line", box_stage::<PlacedSphere>, "every second line left out", BOXED, Bug::After(|| rasterised::every_second_line.into_configs())),
     bug("plane-sign", plane_stage, "sign of k", MOST, Bug::Instead(|| hits::plane_sign.into_configs())),
     bug("disk-square", disk_stage, "the square about it", SHAPES, Bug::Instead(|| shapes::disk_square.into_configs())),
     bug("one-coordinate", rectangle_stage, "one coordinate asked", SHAPES, Bug::Instead(|| shapes::one_coordinate.into_configs())),
