@@ -115,7 +115,7 @@ fn what_only_the_rounded_ray_hits_is_in_its_box() {
             let mut passed_by = Vec::new();
             for [exact, rounded] in places(&world, size, is_upright, is_perspective) {
                 // Rounded away from the axis, or by no more than a few digits of f64.
-                if exact.abs() - rounded.abs() < exact.abs() * 1e-10 {
+                if exact.abs() - rounded.abs() <= exact.abs() * 1e-10 {
                     continue;
                 }
                 // A small cube whose outer edge is between the two.
