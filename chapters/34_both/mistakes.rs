@@ -21,7 +21,7 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
             "a box around the sphere",
         ),
         (exercise(|right, ahead, r, half| touching(right, ahead, r, |end| end.clamp(-half, half))), "not in front"),
-        (exercise(|right, ahead, r, half| within(right, ahead, r, half, |sine| libm::atan(sine))), "the sine"),
+        (exercise(|right, ahead, r, half| within(right, ahead, r, half, libm::atan)), "the sine"),
         (exercise(|right, ahead, r, edge| sphere_interval(-right, ahead, r, edge)), "to the right is positive"),
         (exercise(|right, ahead, r, _| sphere_interval(right, ahead, r, 1e9)), "cut off"),
         (
