@@ -72,7 +72,7 @@ fn scene(world: &mut World) {
     let lamp = PointLight { intensity: Rgb::new(92.0, 84.0, 72.0), casts_shadows: true };
     world.spawn((Name::new("lamp"), lamp, Placement::at(-2.4, 4.4, 3.6)));
     let irradiance = Rgb::new(0.5, 0.56, 0.65);
-    let haze = DirectionalLight { irradiance, casts_shadows: false, ..DirectionalLight::default() };
+    let haze = DirectionalLight { irradiance, casts_shadows: false };
     world.spawn((Name::new("haze"), haze, LookAt { eye: [3.0, 3.0, 4.0].into(), ..LookAt::default() }));
     world.spawn((Name::new("sky"), Gradient { bottom: Rgb::new(0.7, 0.72, 0.74), top: Rgb::new(0.25, 0.4, 0.66) }));
 }
