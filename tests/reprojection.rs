@@ -50,10 +50,7 @@ fn film(world: &World) -> Film {
 /// A frame with what an earlier one from another point knows.
 fn joined(now: History, earlier: &History, (eye, scene): (DVec3, &World)) -> History {
     let projection = *Census::of(scene).table::<Projection>().expect("it projects");
-    now.with_earlier(earlier, |point| {
-        let clip = projection.clip(point - eye);
-        (clip.depth > 0.0).then(|| projection.raster(clip))
-    })
+    now.with_earlier(earlier, &projection, eye)
 }
 
 /// How near the segment from a point to an eye passes to the middle of the box, in units of its half edge: below 1 it is

@@ -72,11 +72,7 @@ impl Frame {
 
     /// With what an earlier frame knows of the same surfaces.
     pub fn with_earlier(self, earlier: &Self) -> Self {
-        let raster_of = |point: DVec3| {
-            let clip = earlier.projection.clip(point - earlier.eye);
-            (clip.depth > 0.0).then(|| earlier.projection.raster(clip))
-        };
-        Self { history: self.history.with_earlier(&earlier.history, raster_of), ..self }
+        Self { history: self.history.with_earlier(&earlier.history, &earlier.projection, earlier.eye), ..self }
     }
 
     /// The last of [`FRAMES`] frames of one sample, each with what those before know.

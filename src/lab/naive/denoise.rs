@@ -254,7 +254,7 @@ mod tests {
         let image = |film: &Film| image_of(&denoise(film, 0).expect("layers"), &Guides::of(film).expect("layers"));
         let [own, known] = [&now, &before].map(image);
         let [single, earlier] = [&now, &before].map(|film| History::of(film).expect("layers"));
-        let joined = single.with_earlier(&earlier, |point| Some(raster_of(point)));
+        let joined = single.with_earlier(&earlier, &projection, eye);
         let together = image_of(&joined.denoised(0), &Guides::of(&now).expect("layers"));
         let (mut taken, mut apart) = (0, 0);
         for (at, pixel) in own.pixels.iter().enumerate().filter(|(_, pixel)| pixel.normal != DVec3::ZERO) {

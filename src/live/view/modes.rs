@@ -2,7 +2,7 @@ use bevy_ecs::world::EntityWorldMut;
 use pinhole::film::GUIDES;
 use pinhole::look::view_stage;
 use pinhole::plan::Stage;
-use pinhole::scene::{Integrator, Layers, LightStrategy, Rasterisation, Sampling};
+use pinhole::scene::{Filter, Integrator, Layers, LightStrategy, Rasterisation, Sampling};
 use pinhole::stages;
 
 /// One of the renders that a key chooses.
@@ -33,9 +33,12 @@ const fn mode(key: char, name: &'static str, prepare: fn(&mut EntityWorldMut<'_>
 }
 
 /// What is seen is projected; shadow rays and one further ray a sample are traced from there.
+///
+/// Each sample is of its own pixel: a filter that reaches further would guide the denoiser by other pixels' surfaces.
 fn hybrid(camera: &mut EntityWorldMut<'_>) {
     let path = Integrator::Path { max_depth: 3, lights: LightStrategy::Mis, roulette: 0 };
     let sampling = camera.get::<Sampling>().copied().unwrap_or(Sampling { samples: 64, ..Sampling::default() });
+    let sampling = Sampling { filter: Filter::BOX, ..sampling };
     camera.insert((path, Rasterisation, sampling, Layers { kinds: GUIDES.to_vec() }));
 }
 

@@ -29,19 +29,17 @@ struct Gathered {
 }
 
 impl Gathered {
-    /// What a film has; none if the camera does not project, or the layers that it needs are not kept.
-    fn of(film: &Film, scene: &Census<'_>) -> Option<Self> {
+    /// What a film has, in the memory of what is no longer needed; none if the camera does not project, or the layers
+    /// that it needs are not kept.
+    fn of(film: &Film, scene: &Census<'_>, spare: Option<Self>) -> Option<Self> {
         let projection = *scene.table::<Projection>().ok()?;
-        Some(Self { history: History::of(film)?, projection, eye: eye(scene).ok()? })
+        let history = History::in_place_of(spare.map(|own| own.history), film)?;
+        Some(Self { history, projection, eye: eye(scene).ok()? })
     }
 
     /// With what an earlier frame knows of the same surfaces.
     fn with_earlier(self, Self { history, projection, eye }: &Self) -> Self {
-        let raster_of = |point: DVec3| {
-            let clip = projection.clip(point - *eye);
-            (clip.depth > 0.0).then(|| projection.raster(clip))
-        };
-        Self { history: self.history.with_earlier(history, raster_of), ..self }
+        Self { history: self.history.with_earlier(history, projection, *eye), ..self }
     }
 }
 
@@ -121,11 +119,10 @@ impl FrameSource {
         };
         let laps = laps.iter().enumerate().map(since).collect();
         let samples = [samples_after(step), render.sampling.samples];
-        if shot.changed {
-            self.gathered = [self.gathered[1].take(), None];
-        }
+        let [earlier, last] = &mut self.gathered;
+        let spare = if shot.changed { std::mem::replace(earlier, last.take()) } else { last.take() };
         let gathers = shot.gathers && render.plan.view.is_none();
-        let own = if gathers { Gathered::of(&render.film, &scene()) } else { None };
+        let own = if gathers { Gathered::of(&render.film, &scene(), spare) } else { None };
         // Once the camera has rested for a while, its own samples are enough, and have no bias.
         let earlier = self.gathered[0].as_ref().filter(|_| samples[0] <= MOST_BESIDE);
         self.gathered[1] = own.map(|own| match earlier {

@@ -36,27 +36,38 @@ pub struct Guides {
 impl Guides {
     /// The guides that a film holds; none if one of the [`GUIDES`] is not among its layers.
     pub fn of(film: &Film) -> Option<Self> {
+        Self::in_place_of(None, film)
+    }
+
+    /// The same, in the memory of guides that are no longer needed.
+    pub(super) fn in_place_of(spare: Option<Self>, film: &Film) -> Option<Self> {
         let has = |layers: &FilmLayers| GUIDES.iter().all(|kind| layers.kinds.contains(kind));
         if film.layers.is_empty() || !film.layers.iter().all(has) {
             return None;
         }
-        let (width, height) = (film.width as usize, film.height as usize);
+        let width = film.width as usize;
         let origin = film.layers.iter().find_map(first_position).unwrap_or_default();
-        let mut pixels = vec![[0.0; 9]; width * height];
-        let bands = pixels.par_chunks_mut((width * film.tile_side as usize).max(1));
-        let across = film.width.div_ceil(film.tile_side.max(1)) as usize;
-        bands.enumerate().for_each(|(band, pixels)| {
-            for number in band * across..(band + 1) * across {
-                let (tile, guides) = (film.tiles[number].tile, TileGuides::of(&film.layers[number]));
-                for row in 0..tile.rows() {
-                    let [x, y] = tile.pixel_of(row);
-                    pixels[(y - tile.y) as usize * width + x as usize] = guides.of_row(row, origin);
+        let spare = spare.map_or_else(Default::default, |own| [own.position, own.normal, own.albedo]);
+        let [mut position, mut normal, mut albedo] = spare.map(|columns| in_place_of(columns, film));
+        let (tiles, pixels) = film.bands();
+        let [positions, normals, albedos] = [&mut position, &mut normal, &mut albedo].map(|own| bands(own, pixels));
+        (tiles, positions, normals, albedos).into_par_iter().for_each(
+            |(tiles, mut position, mut normal, mut albedo)| {
+                for number in tiles {
+                    let (tile, guides) = (film.tiles[number].tile, TileGuides::of(&film.layers[number]));
+                    for line in 0..tile.height {
+                        let (first, start) = ((line * tile.width) as usize, line as usize * width + tile.x as usize);
+                        for at in 0..tile.width as usize {
+                            let of_row = guides.of_row(first + at, origin);
+                            set(&mut position, start + at, of_row[0]);
+                            set(&mut normal, start + at, of_row[1]);
+                            set(&mut albedo, start + at, of_row[2]);
+                        }
+                    }
                 }
-            }
-        });
-        let column = |part: usize| pixels.par_iter().map(|pixel| pixel[part]).collect();
-        let columns = |first: usize| [first, first + 1, first + 2].map(column);
-        Some(Self { width, position: columns(0), normal: columns(3), albedo: columns(6), origin })
+            },
+        );
+        Some(Self { width, normal, position, origin, albedo })
     }
 
     /// Multiplies or divides radiance by the albedo.
@@ -83,17 +94,18 @@ impl<'f> TileGuides<'f> {
     }
 
     /// Position, normal and albedo of a row.
-    fn of_row(&self, row: usize, origin: [f64; 3]) -> [f32; 9] {
+    #[inline(always)]
+    fn of_row(&self, row: usize, origin: [f64; 3]) -> [[f32; 3]; 3] {
         if self.layers.hits[row] == 0 {
-            return [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0];
+            return [[0.0; 3], [0.0; 3], [1.0; 3]];
         }
         let hits = f64::from(self.layers.hits[row]);
         let mean = |sums: &[Vec<f64>]| [sums[0][row] / hits, sums[1][row] / hits, sums[2][row] / hits];
         let ([x, y, z], [nx, ny, nz], albedo) = (mean(self.position), mean(self.normal), mean(self.albedo));
         let length = (nx * nx + ny * ny + nz * nz).sqrt().max(f64::MIN_POSITIVE);
-        let [r, g, b] = albedo.map(|part| (part as f32).max(LEAST_ALBEDO));
-        let (px, py, pz) = ((x - origin[0]) as f32, (y - origin[1]) as f32, (z - origin[2]) as f32);
-        [px, py, pz, (nx / length) as f32, (ny / length) as f32, (nz / length) as f32, r, g, b]
+        let place = [(x - origin[0]) as f32, (y - origin[1]) as f32, (z - origin[2]) as f32];
+        let normal = [(nx / length) as f32, (ny / length) as f32, (nz / length) as f32];
+        [place, normal, albedo.map(|part| (part as f32).max(LEAST_ALBEDO))]
     }
 }
 
@@ -105,14 +117,40 @@ fn first_position(layers: &FilmLayers) -> Option<[f64; 3]> {
 
 /// Smooths a film's mean radiance; none if the film lacks one of the layers that guide the filter.
 pub fn denoise(film: &Film, levels: u32) -> Option<[Vec<f32>; 3]> {
-    Some(denoise_radiance(means(film), &Guides::of(film)?, levels))
+    Some(denoise_radiance(means(Default::default(), film), &Guides::of(film)?, levels))
 }
 
-/// The mean radiance of all pixels, line by line from the top.
-pub(super) fn means(film: &Film) -> [Vec<f32>; 3] {
-    let at = |at: u32| film.mean(at % film.width, at / film.width);
-    let pixels: Vec<[f32; 3]> = (0..film.width * film.height).into_par_iter().with_min_len(PIXELS).map(at).collect();
-    [0, 1, 2].map(|channel| pixels.par_iter().map(|pixel| pixel[channel]).collect())
+/// Columns with a number for each pixel of a film, in the memory of others.
+pub(super) fn in_place_of(spare: [Vec<f32>; 3], film: &Film) -> [Vec<f32>; 3] {
+    spare.map(|mut column| {
+        column.resize(film.width as usize * film.height as usize, 0.0);
+        column
+    })
+}
+
+/// The mean radiance of all pixels, line by line from the top, in the memory of other columns.
+pub(super) fn means(spare: [Vec<f32>; 3], film: &Film) -> [Vec<f32>; 3] {
+    let mut means = in_place_of(spare, film);
+    let (tiles, pixels) = film.bands();
+    bands(&mut means, pixels).zip(tiles).for_each(|(mut means, tiles)| {
+        tiles.for_each(|tile| film.for_each_mean(tile, |at, mean| set(&mut means, at, mean)));
+    });
+    means
+}
+
+/// The parts of three columns that are of so many pixels.
+pub(super) fn bands(
+    columns: &mut [Vec<f32>; 3],
+    pixels: usize,
+) -> impl IndexedParallelIterator<Item = [&mut [f32]; 3]> {
+    let [x, y, z] = columns;
+    let bands = (x.par_chunks_mut(pixels), y.par_chunks_mut(pixels), z.par_chunks_mut(pixels));
+    bands.into_par_iter().map(|(x, y, z)| [x, y, z])
+}
+
+#[inline(always)]
+fn set([x, y, z]: &mut [&mut [f32]; 3], at: usize, values: [f32; 3]) {
+    (x[at], y[at], z[at]) = values.into();
 }
 
 /// Smooths radiance, row by row from the top, in as many levels; level i mixes pixels 2ⁱ apart, 5 × 5 of them.
@@ -125,31 +163,28 @@ pub(super) fn means(film: &Film) -> [Vec<f32>; 3] {
 /// A pixel whose neighbours all differ from it keeps its radiance.
 pub fn denoise_radiance(mut radiance: [Vec<f32>; 3], guides: &Guides, levels: u32) -> [Vec<f32>; 3] {
     guides.scale(&mut radiance, |own, albedo| own / albedo);
-    smoothed_in_levels(radiance, guides, levels)
+    smoothed_in_levels(&radiance, guides, levels)
 }
 
 /// The same of radiance that has been divided by the albedo.
-pub(super) fn smoothed_in_levels(mut radiance: [Vec<f32>; 3], guides: &Guides, levels: u32) -> [Vec<f32>; 3] {
+pub(super) fn smoothed_in_levels(radiance: &[Vec<f32>; 3], guides: &Guides, levels: u32) -> [Vec<f32>; 3] {
+    let empty = || radiance.each_ref().map(|part| vec![0.0; part.len()]);
+    let (mut smoothed, mut spare) = (None, None);
     for level in 0..levels {
-        radiance = smoothed(&radiance, guides, 1 << level);
+        let mut into = spare.take().unwrap_or_else(empty);
+        smooth(smoothed.as_ref().unwrap_or(radiance), guides, 1 << level, &mut into);
+        spare = smoothed.replace(into);
     }
+    let mut radiance = smoothed.unwrap_or_else(|| radiance.clone());
     guides.scale(&mut radiance, |own, albedo| own * albedo);
     radiance
 }
 
 /// One level of the filter.
-fn smoothed(radiance: &[Vec<f32>; 3], guides: &Guides, step: usize) -> [Vec<f32>; 3] {
-    let mut out = [(); 3].map(|()| vec![0.0; radiance[0].len()]);
-    let [red, green, blue] = &mut out;
+fn smooth(radiance: &[Vec<f32>; 3], guides: &Guides, step: usize, [red, green, blue]: &mut [Vec<f32>; 3]) {
     let width = guides.width.max(1);
     let rows = red.par_chunks_mut(width).zip(green.par_chunks_mut(width)).zip(blue.par_chunks_mut(width));
-    rows.enumerate().for_each_init(
-        || vec![0.0; width],
-        |weights, (y, ((red, green), blue))| {
-            smooth_row(radiance, guides, (y, step), weights, [red, green, blue]);
-        },
-    );
-    out
+    rows.enumerate().for_each(|(y, ((red, green), blue))| smooth_row(radiance, guides, (y, step), [red, green, blue]));
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
@@ -157,52 +192,94 @@ fn smooth_row(
     radiance: &[Vec<f32>; 3],
     guides: &Guides,
     (y, step): (usize, usize),
-    weights: &mut [f32],
     [red, green, blue]: [&mut [f32]; 3],
 ) {
-    let (width, height) = (guides.width, radiance[0].len() / guides.width);
-    weights.fill(0.0);
+    let width = guides.width;
+    let columns = [radiance, &guides.normal, &guides.position].map(|own| of_length(own, radiance[0].len()));
+    let inner = 2 * step..width.saturating_sub(2 * step);
+    let mut x = 0;
+    while x < width {
+        if inner.contains(&x) && x + AT_ONCE <= inner.end {
+            let smoothed = smooth_pixels::<AT_ONCE>(&columns, width, [x, y], step);
+            let of = x..x + AT_ONCE;
+            red[of.clone()].copy_from_slice(&smoothed[0]);
+            green[of.clone()].copy_from_slice(&smoothed[1]);
+            blue[of].copy_from_slice(&smoothed[2]);
+            x += AT_ONCE;
+        } else {
+            let [[r], [g], [b]] = smooth_pixels::<1>(&columns, width, [x, y], step);
+            (red[x], green[x], blue[x]) = (r, g, b);
+            x += 1;
+        }
+    }
+}
+
+/// How many pixels of a line are smoothed at once, away from its ends.
+const AT_ONCE: usize = 8;
+
+/// Columns that all have the same length, so that one check of an index holds for all of them.
+#[inline(always)]
+pub(super) fn of_length(columns: &[Vec<f32>; 3], length: usize) -> [&[f32]; 3] {
+    columns.each_ref().map(|column| &column[..length])
+}
+
+/// Smooths some pixels of a line by radiance, normals and positions; several only where all of their neighbours are in
+/// the image.
+#[inline(always)]
+fn smooth_pixels<const N: usize>(
+    [radiance, normals, positions]: &[[&[f32]; 3]; 3],
+    width: usize,
+    [x, y]: [usize; 2],
+    step: usize,
+) -> [[f32; N]; 3] {
+    let height = radiance[0].len() / width;
+    let own = y * width + x;
+    let ([nx, ny, nz], [px, py, pz]) = (normals.map(|of| some::<N>(of, own)), positions.map(|of| some::<N>(of, own)));
+    let (mut whole, mut sums) = ([0.0; N], [[0.0; N]; 3]);
     for down in -2_isize..=2 {
         let Some(line) = y.checked_add_signed(down * step as isize).filter(|&line| line < height) else { continue };
         for right in -2_isize..=2 {
-            let offset = right * step as isize;
-            let (first, last) = (0.max(-offset) as usize, (width as isize - offset.max(0)).max(0) as usize);
-            if first >= last {
+            let Some(column) = x.checked_add_signed(right * step as isize).filter(|&column| column < width) else {
                 continue;
-            }
-            let own = y * width + first..y * width + last;
-            let start = (line * width + first).saturating_add_signed(offset);
-            let other = start..start + own.len();
+            };
+            let other = line * width + column;
             let kernel = SPLINE[down.unsigned_abs()] * SPLINE[right.unsigned_abs()];
-            let [nx, ny, nz] = guides.normal.each_ref().map(|part| &part[own.clone()]);
-            let [mx, my, mz] = guides.normal.each_ref().map(|part| &part[other.clone()]);
-            let [px, py, pz] = guides.position.each_ref().map(|part| &part[own.clone()]);
-            let [qx, qy, qz] = guides.position.each_ref().map(|part| &part[other.clone()]);
-            let [r, g, b] = radiance.each_ref().map(|part| &part[other.clone()]);
-            let (weights, red) = (&mut weights[first..last], &mut red[first..last]);
-            let (green, blue) = (&mut green[first..last], &mut blue[first..last]);
-            let is_own = down == 0 && right == 0;
-            for at in 0..weights.len() {
-                let cosine = nx[at] * mx[at] + ny[at] * my[at] + nz[at] * mz[at];
-                let (dx, dy, dz) = (qx[at] - px[at], qy[at] - py[at], qz[at] - pz[at]);
-                let off = nx[at] * dx + ny[at] * dy + nz[at] * dz;
-                let near = OFF_PLANE * OFF_PLANE * (dx * dx + dy * dy + dz * dz) + f32::MIN_POSITIVE;
-                // The cosine's 32nd power.
-                let alike = if cosine > 0.0 { cosine } else { 0.0 };
-                let alike = alike * alike * alike * alike;
-                let alike = alike * alike * alike * alike;
-                let alike = alike * alike;
-                let weight = kernel * if is_own { 1.0 } else { alike * near / (near + off * off) };
-                weights[at] += weight;
-                red[at] += weight * r[at];
-                green[at] += weight * g[at];
-                blue[at] += weight * b[at];
+            let weight = if (down, right) == (0, 0) {
+                [kernel; N]
+            } else {
+                let [mx, my, mz] = normals.map(|of| some::<N>(of, other));
+                let [qx, qy, qz] = positions.map(|of| some::<N>(of, other));
+                each(|at| {
+                    let cosine = nx[at] * mx[at] + ny[at] * my[at] + nz[at] * mz[at];
+                    let (dx, dy, dz) = (qx[at] - px[at], qy[at] - py[at], qz[at] - pz[at]);
+                    let off = nx[at] * dx + ny[at] * dy + nz[at] * dz;
+                    let near = OFF_PLANE * OFF_PLANE * (dx * dx + dy * dy + dz * dz) + f32::MIN_POSITIVE;
+                    // The cosine's 32nd power.
+                    let alike = if cosine > 0.0 { cosine } else { 0.0 };
+                    let alike = (alike * alike) * (alike * alike);
+                    let alike = (alike * alike) * (alike * alike);
+                    let alike = alike * alike;
+                    kernel * (alike * near / (near + off * off))
+                })
+            };
+            whole = each(|at| whole[at] + weight[at]);
+            for (sum, radiance) in sums.iter_mut().zip(radiance) {
+                let light = some::<N>(radiance, other);
+                *sum = each(|at| sum[at] + weight[at] * light[at]);
             }
         }
     }
-    for at in 0..width {
-        red[at] /= weights[at];
-        green[at] /= weights[at];
-        blue[at] /= weights[at];
-    }
+    sums.map(|sum| each(|at| sum[at] / whole[at]))
+}
+
+#[inline(always)]
+fn each<const N: usize>(of: impl Fn(usize) -> f32) -> [f32; N] {
+    std::array::from_fn(of)
+}
+
+/// A few numbers of a column.
+#[inline(always)]
+fn some<const N: usize>(column: &[f32], start: usize) -> [f32; N] {
+    let some = &column[start..start + N];
+    each(|at| some[at])
 }

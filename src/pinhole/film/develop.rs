@@ -36,53 +36,71 @@ pub(super) fn finite(number: f64) -> f32 {
     number.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
 }
 
-/// For each byte above 0, the smallest linear value that rounds to it.
-static BYTE_STEPS: LazyLock<[f64; 255]> =
-    LazyLock::new(|| std::array::from_fn(|step| linear_from_srgb((step as f64 + 0.5) / 255.0)));
-
-/// The bits of an f32 below those by which [`FIRST_BYTES`] is looked up: of the fraction, 6 are left.
-const BELOW: u32 = 17;
+/// The bits of an f32 below those by which the first byte is looked up: of the fraction, 7 are left, so that the numbers
+/// that agree in them are of two bytes at most.
+const BELOW: u32 = 16;
 /// The exponent of the smallest number that is not black, 2⁻¹³, in the place where an f32 has it.
-const SMALLEST: u32 = (127 - 13) << 6;
+const SMALLEST: u32 = (127 - 13) << 7;
 /// The numbers from there to 1.
-const NUMBERS: usize = 13 << 6;
+const NUMBERS: usize = 13 << 7;
 
-/// The byte of the smallest of all numbers that have the same exponent and the same first bits of their fraction.
-static FIRST_BYTES: LazyLock<[u8; NUMBERS]> = LazyLock::new(|| {
-    std::array::from_fn(|place| {
-        let smallest = f64::from(f32::from_bits((SMALLEST + place as u32) << BELOW));
-        BYTE_STEPS.partition_point(|&step| step <= smallest) as u8
-    })
+/// The bytes of linear values by the sRGB transfer function.
+pub(super) struct SrgbBytes {
+    /// The byte of the smallest of all numbers that have the same exponent and the same first bits of their fraction.
+    first: [u8; NUMBERS],
+    /// For each byte, the smallest number that rounds to the next one.
+    next: [f32; 256],
+}
+
+static SRGB_BYTES: LazyLock<SrgbBytes> = LazyLock::new(|| {
+    let next = std::array::from_fn(|byte| match byte {
+        255 => f32::INFINITY,
+        _ => least_f32(linear_from_srgb((byte as f64 + 0.5) / 255.0)),
+    });
+    let first = std::array::from_fn(|place| {
+        let smallest = f32::from_bits((SMALLEST + place as u32) << BELOW);
+        next.partition_point(|&step| step <= smallest) as u8
+    });
+    SrgbBytes { first, next }
 });
+
+/// The smallest f32 that is no less than a positive number.
+fn least_f32(number: f64) -> f32 {
+    let near = number as f32;
+    if f64::from(near) < number { near.next_up() } else { near }
+}
+
+impl SrgbBytes {
+    /// Those that all pictures share.
+    pub fn get() -> &'static Self {
+        &SRGB_BYTES
+    }
+
+    /// Encodes a linear value; what is not a number is black.
+    #[inline(always)]
+    pub fn byte(&self, linear: f32) -> u8 {
+        let place = (linear.to_bits() >> BELOW).wrapping_sub(SMALLEST) as usize;
+        match self.first.get(place) {
+            Some(&first) => first + u8::from(self.next[usize::from(first)] <= linear),
+            None if linear >= 1.0 => u8::MAX,
+            None => 0,
+        }
+    }
+}
 
 /// Encodes a linear value as a byte; values below 0 give 0, values above 1 give 255.
 #[inline]
 pub fn byte_from_linear(linear: f32, curve: Curve) -> u8 {
     match curve {
-        Curve::Srgb => {
-            let place = (linear.to_bits() >> BELOW).wrapping_sub(SMALLEST) as usize;
-            match FIRST_BYTES.get(place) {
-                Some(&first) => next_steps(first, f64::from(linear)),
-                None => {
-                    if linear >= 1.0 {
-                        u8::MAX
-                    } else {
-                        0
-                    }
-                }
-            }
-        }
-        Curve::Straight => (f64::from(linear).clamp(0.0, 1.0) * 255.0).round() as u8,
+        Curve::Srgb => SrgbBytes::get().byte(linear),
+        Curve::Straight => straight_byte(linear),
     }
 }
 
-/// The byte of a number, from that of a smaller one near it.
+/// Encodes data as a byte.
 #[inline(always)]
-fn next_steps(mut byte: u8, linear: f64) -> u8 {
-    while byte < u8::MAX && BYTE_STEPS[usize::from(byte)] <= linear {
-        byte += 1;
-    }
-    byte
+pub(super) fn straight_byte(linear: f32) -> u8 {
+    (f64::from(linear).clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
 #[cfg(test)]
@@ -116,12 +134,13 @@ mod tests {
     #[test]
     fn the_table_finds_what_a_search_finds() {
         let mut numbers: Vec<f32> = (0..=u16::MAX).map(|high| f32::from_bits(u32::from(high) << 16)).collect();
-        for &step in &*BYTE_STEPS {
+        let steps: Vec<f64> = (0..255).map(|byte| linear_from_srgb((f64::from(byte) + 0.5) / 255.0)).collect();
+        for &step in &steps {
             let near = (step as f32).to_bits();
             numbers.extend([near - 1, near, near + 1].map(f32::from_bits));
         }
         for number in numbers {
-            let searched = BYTE_STEPS.partition_point(|&step| step <= f64::from(number)) as u8;
+            let searched = steps.partition_point(|&step| step <= f64::from(number)) as u8;
             assert_eq!(byte_from_linear(number, Curve::Srgb), searched, "{number}");
         }
     }

@@ -44,8 +44,13 @@ impl FilmLayers {
         }
     }
 
+    /// Whether no sample has been taken.
+    pub(crate) fn are_empty(&self) -> bool {
+        self.taken.iter().all(|&taken| taken == 0)
+    }
+
     /// Takes all samples away.
-    pub(super) fn empty(&mut self) {
+    pub(crate) fn empty(&mut self) {
         self.taken.fill(0);
         self.hits.fill(0);
         self.entity.fill(NO_SHAPE);
@@ -214,10 +219,11 @@ pub fn add_to_layers(
         let inputs = LayerInputs { table: &table, materials, rays, hits, surfaces, shading_normals, uvs, colours };
         let mut components = layers.sums.iter_mut();
         for kind in layers.kinds.iter().copied().filter(|kind| kind.is_mean()) {
-            let channels: Vec<&mut Vec<f64>> = components.by_ref().take(kind.channels().len()).collect();
-            for (channel, sums) in channels.into_iter().enumerate() {
-                for row in (0..hits.rows()).filter(|&row| hits.shape[row] != NO_SHAPE) {
-                    sums[pixel_of(row)] += inputs.value(kind, row)[channel];
+            let mut channels: Vec<&mut Vec<f64>> = components.by_ref().take(kind.channels().len()).collect();
+            for row in (0..hits.rows()).filter(|&row| hits.shape[row] != NO_SHAPE) {
+                let (pixel, value) = (pixel_of(row), inputs.value(kind, row));
+                for (channel, sums) in channels.iter_mut().enumerate() {
+                    sums[pixel] += value[channel];
                 }
             }
         }

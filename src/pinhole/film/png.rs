@@ -1,3 +1,4 @@
+use super::develop::{SrgbBytes, straight_byte};
 use super::{Curve, Film, byte_from_linear, write_whole};
 use crate::Result;
 use rayon::prelude::*;
@@ -26,29 +27,41 @@ pub fn png_bytes_by(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8) -> i
 
 /// The film as 8-bit RGBA, row by row, every pixel opaque, for a display that needs no file.
 pub fn rgba_bytes(film: &Film, curve: Curve) -> Vec<u8> {
-    let (width, side) = (film.width as usize, film.tile_side.max(1) as usize);
-    let mut bytes = vec![u8::MAX; 4 * width * film.height as usize];
-    let across = film.width.div_ceil(film.tile_side.max(1)) as usize;
-    let bands = bytes.par_chunks_mut((4 * width * side).max(1));
-    bands.enumerate().for_each(|(band, lines)| {
-        for number in band * across..(band + 1) * across {
-            let tile = film.tiles[number].tile;
-            for (row, [x, y]) in (0..tile.rows()).map(|row| (row, tile.pixel_of(row))) {
-                let at = 4 * ((y - tile.y) as usize * width + x as usize);
-                let mean = film.mean_in(number, row, [x, y]);
-                lines[at..at + 3].copy_from_slice(&mean.map(|linear| byte_from_linear(linear, curve)));
-            }
+    let srgb = SrgbBytes::get();
+    match curve {
+        Curve::Srgb => rgba_by(film, |linear| srgb.byte(linear)),
+        Curve::Straight => rgba_by(film, straight_byte),
+    }
+}
+
+fn rgba_by(film: &Film, byte: impl Fn(f32) -> u8 + Sync) -> Vec<u8> {
+    let mut bytes = vec![u8::MAX; 4 * film.width as usize * film.height as usize];
+    let (bands, pixels) = film.bands();
+    bytes.par_chunks_mut(4 * pixels).zip(bands).for_each(|(pixels, tiles)| {
+        for tile in tiles {
+            film.for_each_mean(tile, |at, mean| pixels[4 * at..4 * at + 3].copy_from_slice(&mean.map(&byte)));
         }
     });
     bytes
 }
 
 /// The same of radiance that stands row by row.
-pub fn rgba_of([red, green, blue]: &[Vec<f32>; 3], curve: Curve) -> Vec<u8> {
+pub fn rgba_of(radiance: &[Vec<f32>; 3], curve: Curve) -> Vec<u8> {
+    let srgb = SrgbBytes::get();
+    match curve {
+        Curve::Srgb => rgba_of_by(radiance, |linear| srgb.byte(linear)),
+        Curve::Straight => rgba_of_by(radiance, straight_byte),
+    }
+}
+
+fn rgba_of_by([red, green, blue]: &[Vec<f32>; 3], byte: impl Fn(f32) -> u8 + Sync) -> Vec<u8> {
+    const PIXELS: usize = 4096;
     let mut bytes = vec![u8::MAX; 4 * red.len()];
-    bytes.par_chunks_exact_mut(4).with_min_len(4096).enumerate().for_each(|(at, pixel)| {
-        let byte = |part: &[f32]| byte_from_linear(part[at], curve);
-        (pixel[0], pixel[1], pixel[2]) = (byte(red), byte(green), byte(blue));
+    let parts = red.par_chunks(PIXELS).zip(green.par_chunks(PIXELS)).zip(blue.par_chunks(PIXELS));
+    bytes.par_chunks_mut(4 * PIXELS).zip(parts).for_each(|(pixels, ((red, green), blue))| {
+        for (((pixel, &r), &g), &b) in pixels.chunks_exact_mut(4).zip(red).zip(green).zip(blue) {
+            (pixel[0], pixel[1], pixel[2]) = (byte(r), byte(g), byte(b));
+        }
     });
     bytes
 }

@@ -4,6 +4,7 @@ use super::{FilmLayers, FilmMoments, FilmSplats};
 use crate::plan::Column;
 use crate::rays::Tile;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// The whole film, divided into tiles so that each can be lent to a worker.
 ///
@@ -93,6 +94,42 @@ impl Film {
         let traced = |&(tile, row): &(usize, usize)| self.tiles[tile].count[row] > 0;
         let (tile, row) = coarser.into_iter().find(traced).unwrap_or((tile, row));
         self.with_splats(x, y, &self.tiles[tile], row).map(shown)
+    }
+
+    /// Hands the mean of each pixel of a tile to `each`, with its place in the band of the film that the tile is in: the
+    /// lines from the tile's first to its last.
+    #[inline(always)]
+    pub(super) fn for_each_mean(&self, tile: usize, mut each: impl FnMut(usize, [f32; 3])) {
+        let own = &self.tiles[tile];
+        let Tile { x, y, width, height } = own.tile;
+        let waits = || self.done.get(tile).is_some_and(|&done| done < FIRST_SAMPLE_STEPS) && own.count.contains(&0);
+        // A mean is then no more than a sum over a count of samples.
+        let is_plain = self.splats.is_none() && own.negative_count.is_empty() && !waits();
+        for line in 0..height {
+            let start = (line * self.width + x) as usize;
+            let rows = (line * width) as usize..((line + 1) * width) as usize;
+            if is_plain {
+                let [red, green, blue] = [&own.r, &own.g, &own.b].map(|sums| &sums[rows.clone()]);
+                let parts = red.iter().zip(green).zip(blue).zip(&own.count[rows]);
+                for (at, (((&red, &green), &blue), &count)) in parts.enumerate() {
+                    let count = f64::from(count.max(1));
+                    each(start + at, [red / count, green / count, blue / count].map(shown));
+                }
+            } else {
+                for (at, row) in rows.enumerate() {
+                    each(start + at, self.mean_in(tile, row, [x + at as u32, y + line]));
+                }
+            }
+        }
+    }
+
+    /// The numbers of the tiles in each band of lines, from the top, and how many pixels a full band has.
+    pub(super) fn bands(&self) -> (impl IndexedParallelIterator<Item = Range<usize>>, usize) {
+        let side = self.tile_side.max(1);
+        let across = self.width.div_ceil(side) as usize;
+        let bands = (0..self.height.div_ceil(side) as usize).into_par_iter();
+        let pixels = (self.width as usize * side as usize).max(1);
+        (bands.map(move |band| band * across..(band + 1) * across), pixels)
     }
 
     /// The mean of a tile's row plus the splats of a pixel.

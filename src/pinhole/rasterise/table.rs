@@ -43,7 +43,6 @@ struct Run {
 }
 
 /// The triangles of a run before they are sorted into bins, and the pixels that each may cover.
-#[derive(Default)]
 struct Unsorted {
     triangles: Vec<RasterTriangle>,
     extents: Vec<Extent>,
@@ -306,7 +305,8 @@ impl Setup<'_> {
         let length = count.div_ceil(RUNS).clamp(TASK, LONGEST_RUN);
         let runs = (0..count.div_ceil(length)).into_par_iter().map(|run| {
             let (start, end) = (run * length, count.min((run + 1) * length));
-            let mut unsorted = Unsorted::default();
+            let mut unsorted =
+                Unsorted { triangles: Vec::with_capacity(end - start), extents: Vec::with_capacity(end - start) };
             let first = starts.partition_point(|&own| own <= start).saturating_sub(1);
             for (source, &own) in sources[first..].iter().zip(&starts[first..]).take_while(|(_, own)| **own < end) {
                 let places = start.saturating_sub(own)..(end - own).min(source.len());

@@ -88,7 +88,7 @@ pub fn place_samples(
             fill_signs(&filter.cells, xs, ys, signs.slices_mut(active.len()));
         }
         let cells = &filter.cells;
-        with_filter!(filter.filter, kernel => spread(|u| kernel.offset(u, cells).0, active, tile, xs, ys));
+        with_filter!(filter.filter, kernel => spread((kernel, cells), active, tile, xs, ys));
     }
 }
 // ANCHOR_END: place_samples
@@ -96,8 +96,8 @@ pub fn place_samples(
 /// Draws a uniform point in [0, 1)² for each active pixel of a tile.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn draw_points<D: Draw>(draw: D, (active, tile, seed): (&[u32], &Tile, u64), xs: &mut [f64], ys: &mut [f64]) {
-    for (&row, (x, y)) in active.iter().zip(xs.iter_mut().zip(ys)) {
-        let [right, down] = draw.two(PixelKey::new(seed, tile.pixel_of(row as usize)));
+    for (pixel, (x, y)) in tile.pixels_of(active).zip(xs.iter_mut().zip(ys)) {
+        let [right, down] = draw.two(PixelKey::new(seed, pixel));
         (*x, *y) = (unit(right), unit(down));
     }
 }
@@ -112,12 +112,11 @@ fn fill_signs(cells: &FilterCells, xs: &[f64], ys: &[f64], signs: &mut [f32]) {
 /// Maps points of the unit square to raster points about the centres of their pixels, distributed as the filter.
 ///
 /// The sum is taken in f64, where no bit of a 24-bit fraction is lost beside a pixel index below 2²⁸.
-#[inline(always)]
-fn spread(offset: impl Fn(f64) -> f64, active: &[u32], tile: &Tile, xs: &mut [f64], ys: &mut [f64]) {
-    for (&row, (x, y)) in active.iter().zip(xs.iter_mut().zip(ys)) {
-        let [column, line] = tile.pixel_of(row as usize);
-        *x = f64::from(column) + 0.5 + offset(*x);
-        *y = f64::from(line) + 0.5 + offset(*y);
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn spread<K: Kernel>((kernel, cells): (K, &FilterCells), active: &[u32], tile: &Tile, xs: &mut [f64], ys: &mut [f64]) {
+    for ([column, line], (x, y)) in tile.pixels_of(active).zip(xs.iter_mut().zip(ys)) {
+        *x = f64::from(column) + 0.5 + kernel.offset(*x, cells).0;
+        *y = f64::from(line) + 0.5 + kernel.offset(*y, cells).0;
     }
 }
 

@@ -29,9 +29,22 @@ impl Tile {
     }
 
     /// The pixel of the image that a row stands for.
+    #[inline(always)]
     pub fn pixel_of(&self, row: usize) -> [u32; 2] {
         let row = row as u32;
         [self.x + row % self.width, self.y + row / self.width]
+    }
+
+    /// The pixels that rows in ascending order stand for, found without a division.
+    #[inline(always)]
+    pub(super) fn pixels_of(&self, rows: &[u32]) -> impl Iterator<Item = [u32; 2]> {
+        let (mut first, mut line) = (0, self.y);
+        rows.iter().map(move |&row| {
+            while row - first >= self.width {
+                (first, line) = (first + self.width, line + 1);
+            }
+            [self.x + (row - first), line]
+        })
     }
 }
 
@@ -110,6 +123,9 @@ mod tests {
             let [x, y] = tile.pixel_of(row);
             assert_eq!(tile.row_of(x, y), Some(row));
         }
+        let some: Vec<u32> = (0..tile.rows() as u32).filter(|row| row % 3 != 1).collect();
+        let walked: Vec<[u32; 2]> = tile.pixels_of(&some).collect();
+        assert_eq!(walked, some.iter().map(|&row| tile.pixel_of(row as usize)).collect::<Vec<_>>());
         assert_eq!(tile.row_of(63, 32), None);
         assert_eq!(tile.row_of(71, 32), None);
     }

@@ -263,20 +263,20 @@ impl RenderWorld {
     fn run_part(&mut self, part: &mut FilmPart<'_>, to: u32, watch: &dyn Watch) {
         let tile = self.tiles[0];
         self.swap_part(tile, part);
-        // Layers accumulate before the path is traced, so an abandoned run has to restore them.
-        let mut layers = FilmLayers::default();
         for run in runs(*part.done, to) {
             if watch.stopped() {
                 break;
             }
             let active = self.activate(tile, &run, part.planned);
             if active > 0 {
-                if let Some(own) = self.world.get::<FilmLayers>(tile) {
-                    layers.clone_from(own);
-                }
+                // Layers accumulate before the path is traced, so an abandoned run has to restore them.
+                let before = self.world.get::<FilmLayers>(tile).filter(|own| !own.are_empty()).cloned();
                 if !self.run() {
                     if let Some(mut own) = self.world.get_mut::<FilmLayers>(tile) {
-                        std::mem::swap(&mut *own, &mut layers);
+                        match before {
+                            Some(before) => *own = before,
+                            None => own.empty(),
+                        }
                     }
                     break;
                 }

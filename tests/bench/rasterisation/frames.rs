@@ -46,7 +46,7 @@ const MODES: [Mode; 5] = [
         name: "projected, shadows, one ray of reflection or of the sky's occlusion and a shadow ray where it hits, denoised",
         prepare: |camera| {
             let path = Integrator::Path { max_depth: 3, lights: LightStrategy::Bsdf, roulette: 0 };
-            let sampling = Sampling { samples: 1, ..Sampling::default() };
+            let sampling = Sampling { samples: 1, filter: Filter::BOX, ..Sampling::default() };
             camera.insert((Rasterisation, path, sampling, Layers { kinds: GUIDES.to_vec() }));
         },
         casts_shadows: true,
