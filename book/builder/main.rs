@@ -15,6 +15,7 @@ mod live_figure;
 #[cfg(test)]
 mod live_page;
 mod math;
+mod measure;
 mod page;
 mod program;
 mod serve;
@@ -33,6 +34,9 @@ struct Arguments {
     /// Shows the book in a browser on this machine, its figures with controls, and follows every change
     #[arg(long)]
     serve: bool,
+    /// Says of each page how much is prose and how much is printed, and what is folded; builds nothing
+    #[arg(long, conflicts_with = "serve")]
+    measure: bool,
     /// The port at which it is shown
     #[arg(long, requires = "serve", default_value_t = 3000)]
     port: u16,
@@ -60,6 +64,9 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         .map_err(|error| format!("{} cannot be entered: {error}.", book.repository.display()))?;
     let out = &mut std::io::stdout();
     let program = program::Program::shared(&book.repository)?;
+    if arguments.measure {
+        return measure::measure(&book, &program, out);
+    }
     if arguments.serve {
         return serve::serve(&book, &program, arguments.port, out);
     }

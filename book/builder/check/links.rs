@@ -9,6 +9,7 @@ pub fn heading_ids(text: &str) -> BTreeSet<String> {
     let scan = Scan::new(text);
     let mut ids = BTreeSet::new();
     for line in scan.prose() {
+        ids.extend(line.text.split("<a id=\"").skip(1).filter_map(|rest| rest.split('"').next()).map(str::to_owned));
         let marks = line.text.len() - line.text.trim_start_matches('#').len();
         if let Some(title) = line.text.get(marks..).filter(|title| (1..=6).contains(&marks) && title.starts_with(' ')) {
             let id = heading_id(title);

@@ -1,11 +1,12 @@
 //! The lists that must name the same chapters, and the length of a page.
 
-use super::scan::{Scan, words};
+use super::pattern::visible_words;
+use super::scan::Scan;
 use super::{Page, Problem};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// The most words of prose a page may have.
+/// The most words of prose a page may have before anything is unfolded.
 pub const MOST_WORDS: usize = 1_500;
 
 /// A set of chapters, by stem: `05_pinhole`, and `cover`.
@@ -35,7 +36,7 @@ pub fn summary(all: &[Page]) -> Vec<Problem> {
 /// Pages that are too long to be read in one go.
 pub fn long_pages(all: &[Page]) -> Vec<Problem> {
     let long = |page: &Page| {
-        let count = words(&page.text);
+        let count = visible_words(&page.text);
         let what = format!("has {count} words of prose, and a page has at most {MOST_WORDS}: split or shorten it.");
         (count > MOST_WORDS).then(|| Problem::new(&page.label, 0, what))
     };

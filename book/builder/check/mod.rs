@@ -5,10 +5,12 @@
 //! them. Only the standard library and serde are used, so that the test needs nothing more.
 
 pub mod directive;
+pub mod inline;
 pub mod links;
 pub mod listing;
 pub mod lists;
 pub mod movement;
+pub mod pattern;
 pub mod scan;
 
 use std::fmt;
@@ -50,7 +52,7 @@ pub struct Page {
     pub name: String,
     /// How messages name it.
     pub label: String,
-    /// Its text.
+    /// Its text, with what [`inline`] fills in.
     pub text: String,
 }
 
@@ -69,12 +71,19 @@ pub fn read_pages(folder: &Path) -> Result<Vec<Page>, Problem> {
         let label = format!("book/src/{name}");
         Ok(Page { path, name, label, text: text.replace("\r\n", "\n") })
     };
-    paths.into_iter().map(read).collect()
+    let mut pages: Vec<Page> = paths.into_iter().map(read).collect::<Result<_, _>>()?;
+    let bibliography = pages.iter().find(|page| page.name == inline::BIBLIOGRAPHY);
+    let citations = bibliography.map_or_else(Default::default, |page| inline::citations(&page.text));
+    for page in &mut pages {
+        page.text = inline::filled(&page.name, &page.text, &citations);
+    }
+    Ok(pages)
 }
 
 /// Everything a page must keep by itself, in the order of its lines.
 pub fn page(page: &Page, all: &[Page]) -> Vec<Problem> {
     let mut problems = directive::problems(page);
+    problems.extend(inline::problems(page));
     problems.extend(listing::problems(page));
     problems.extend(links::problems(page, all));
     problems.sort_by_key(|problem| problem.line);

@@ -25,6 +25,7 @@ pub mod mesh;
 pub mod mistake;
 pub mod motion;
 pub mod ndc;
+mod one_page;
 pub mod path;
 pub mod planar;
 pub mod plane;

@@ -1,0 +1,319 @@
+//! What stands inside a sentence and is filled in where a page is read: numbers, which are computed, and citations.
+//!
+//! `{{= 2*120.5/480 - 1 : 4}}` becomes −0.4979, and `[@kajiya1986]` a link to that entry of the bibliography.
+
+use super::{Page, Problem};
+use std::collections::BTreeMap;
+
+/// The page that lists what the others cite.
+pub const BIBLIOGRAPHY: &str = "bibliography.md";
+
+/// For each key of the bibliography, how it is cited: "Kajiya 1986".
+pub type Citations = BTreeMap<String, String>;
+
+/// The entries of the bibliography: lines of the form `- [@key]: Label. Everything else.`
+pub fn citations(bibliography: &str) -> Citations {
+    bibliography.lines().filter_map(entry).map(|(key, label, _)| (key.to_owned(), label.to_owned())).collect()
+}
+
+/// The key, the label and the rest of an entry.
+fn entry(line: &str) -> Option<(&str, &str, &str)> {
+    let (key, text) = line.strip_prefix("- [@")?.split_once("]: ")?;
+    let (label, rest) = text.split_once(". ")?;
+    Some((key, label, rest))
+}
+
+/// A page's text with its numbers and citations; what cannot be filled in stays, and [`problems`] finds it.
+pub fn filled(name: &str, text: &str, citations: &Citations) -> String {
+    let (mut out, mut is_code, mut is_formula) = (Vec::new(), false, false);
+    for line in text.split('\n') {
+        is_code ^= line.trim_start().starts_with("```");
+        if is_code {
+            out.push(line.to_owned());
+            continue;
+        }
+        if let (BIBLIOGRAPHY, Some((key, label, rest))) = (name, entry(line)) {
+            out.push(format!("- <a id=\"{key}\"></a>**{label}.** {rest}"));
+            continue;
+        }
+        let line = with_numbers(line, is_formula);
+        is_formula ^= line.matches("$$").count() % 2 == 1;
+        out.push(with_citations(&line, citations));
+    }
+    out.join("\n")
+}
+
+/// The mistakes in a page's numbers and citations.
+pub fn problems(page: &Page) -> Vec<Problem> {
+    let (mut problems, mut is_code) = (Vec::new(), false);
+    for (number, line) in page.text.lines().enumerate() {
+        is_code ^= line.trim_start().starts_with("```");
+        let mut told = |what: String| problems.push(Problem::new(&page.label, number + 1, what));
+        if is_code {
+            continue;
+        }
+        for (at, _) in line.match_indices("{{=") {
+            let what = number_at(&line[at..]).err().unwrap_or_default();
+            told(format!("`{}` is no number: {what}", &line[at..]));
+        }
+        for (at, _) in line.match_indices("[@") {
+            let key = line[at + 2..].split(']').next().unwrap_or_default();
+            told(format!(
+                "`[@{key}]` is cited, and has no line `- [@{key}]: Name year. …` in book/src/{BIBLIOGRAPHY}."
+            ));
+        }
+    }
+    problems
+}
+
+fn with_citations(line: &str, citations: &Citations) -> String {
+    let (mut out, mut rest) = (String::new(), line);
+    while let Some(at) = rest.find("[@") {
+        let (before, from) = rest.split_at(at);
+        out.push_str(before);
+        let found = from.find(']').and_then(|end| Some((end, citations.get(&from[2..end])?, &from[2..end])));
+        match found {
+            Some((end, label, key)) => {
+                out.push_str(&format!("[{label}]({BIBLIOGRAPHY}#{key})"));
+                rest = &from[end + 1..];
+            }
+            None => {
+                out.push_str("[@");
+                rest = &from[2..];
+            }
+        }
+    }
+    out + rest
+}
+
+/// `is_formula`: whether the line begins inside a formula between two `$$`.
+fn with_numbers(line: &str, is_formula: bool) -> String {
+    let (mut out, mut rest) = (String::new(), line);
+    while let Some(at) = rest.find("{{=") {
+        let (before, from) = rest.split_at(at);
+        out.push_str(before);
+        match number_at(from) {
+            Ok((number, length)) => {
+                let whole = out.matches("$$").count() % 2 == 1;
+                let inline = out.replace("$$", "").matches('$').count() % 2 == 1;
+                // A formula has a minus of its own.
+                let is_formula = inline || (whole ^ is_formula);
+                out.push_str(&if is_formula { number } else { number.replace('-', "−") });
+                rest = &from[length..];
+            }
+            Err(_) => {
+                out.push_str("{{=");
+                rest = &from[3..];
+            }
+        }
+    }
+    out + rest
+}
+
+/// The number of a directive at the start of a text, and the directive's length.
+fn number_at(text: &str) -> Result<(String, usize), String> {
+    let end = text.find("}}").ok_or("it does not end with }}")?;
+    let inside = &text["{{=".len()..end];
+    let (expression, decimals) = inside.rsplit_once(':').ok_or("it needs `: decimals`")?;
+    let decimals: usize = decimals.trim().parse().map_err(|_| "after the colon stands the number of decimals")?;
+    let value = value_of(expression)?;
+    if !value.is_finite() {
+        return Err(format!("it is {value}"));
+    }
+    let shown = format!("{value:.decimals$}");
+    let is_zero = shown.chars().all(|letter| !letter.is_ascii_digit() || letter == '0');
+    let shown = if is_zero { shown.trim_start_matches('-').to_owned() } else { shown };
+    Ok((shown, end + 2))
+}
+
+/// The value of an expression: + - * / ^, parentheses, numbers, `pi`, and functions of one or two arguments.
+pub fn value_of(expression: &str) -> Result<f64, String> {
+    let mut reader = Reader { letters: expression.chars().collect(), at: 0 };
+    let value = reader.sum()?;
+    reader.skip_spaces();
+    match reader.letters.get(reader.at) {
+        None => Ok(value),
+        Some(letter) => Err(format!("`{letter}` is not expected there")),
+    }
+}
+
+/// Reads an expression from left to right.
+struct Reader {
+    letters: Vec<char>,
+    at: usize,
+}
+
+impl Reader {
+    fn skip_spaces(&mut self) {
+        _ = self.while_of(char::is_whitespace);
+    }
+
+    fn take(&mut self, wanted: char) -> bool {
+        self.skip_spaces();
+        let found = self.letters.get(self.at) == Some(&wanted);
+        self.at += usize::from(found);
+        found
+    }
+
+    fn sum(&mut self) -> Result<f64, String> {
+        let mut value = self.product()?;
+        loop {
+            if self.take('+') {
+                value += self.product()?;
+            } else if self.take('-') {
+                value -= self.product()?;
+            } else {
+                return Ok(value);
+            }
+        }
+    }
+
+    fn product(&mut self) -> Result<f64, String> {
+        let mut value = self.signed()?;
+        loop {
+            if self.take('*') {
+                value *= self.signed()?;
+            } else if self.take('/') {
+                value /= self.signed()?;
+            } else {
+                return Ok(value);
+            }
+        }
+    }
+
+    fn signed(&mut self) -> Result<f64, String> {
+        if self.take('-') { Ok(-self.signed()?) } else { self.power() }
+    }
+
+    /// A power binds its left side more closely than a sign does, and is read from the right.
+    fn power(&mut self) -> Result<f64, String> {
+        let base = self.single()?;
+        if self.take('^') { Ok(base.powf(self.signed()?)) } else { Ok(base) }
+    }
+
+    fn single(&mut self) -> Result<f64, String> {
+        if self.take('(') {
+            let value = self.sum()?;
+            return if self.take(')') { Ok(value) } else { Err("a parenthesis is not closed".to_owned()) };
+        }
+        self.skip_spaces();
+        let word = self.while_of(|letter| letter.is_ascii_alphabetic());
+        if !word.is_empty() {
+            return self.named(&word);
+        }
+        let mut number = self.while_of(|letter| letter.is_ascii_digit() || letter == '.');
+        if !number.is_empty() && self.letters.get(self.at) == Some(&'e') {
+            self.at += 1;
+            number.push('e');
+            if self.take('-') {
+                number.push('-');
+            }
+            number += &self.while_of(|letter| letter.is_ascii_digit());
+        }
+        number.parse().map_err(|_| match self.letters.get(self.at) {
+            Some(letter) => format!("a number is expected before `{letter}`"),
+            None => "a number is expected at the end".to_owned(),
+        })
+    }
+
+    fn while_of(&mut self, belongs: impl Fn(char) -> bool) -> String {
+        let letters: String = self.letters[self.at..].iter().take_while(|&&letter| belongs(letter)).collect();
+        self.at += letters.len();
+        letters
+    }
+
+    fn named(&mut self, word: &str) -> Result<f64, String> {
+        if word == "pi" {
+            return Ok(std::f64::consts::PI);
+        }
+        // The names that end with a number.
+        let mut name = word.to_owned();
+        if matches!(word, "log" | "atan") {
+            name += &self.while_of(|letter| letter.is_ascii_digit());
+        }
+        if !self.take('(') {
+            return Err(format!("`{name}` is neither pi nor a function with its arguments"));
+        }
+        let mut arguments = vec![self.sum()?];
+        while self.take(',') {
+            arguments.push(self.sum()?);
+        }
+        if !self.take(')') {
+            return Err(format!("the arguments of `{name}` do not end"));
+        }
+        match (name.as_str(), arguments.as_slice()) {
+            ("sqrt", &[x]) => Ok(x.sqrt()),
+            ("sin", &[x]) => Ok(x.sin()),
+            ("cos", &[x]) => Ok(x.cos()),
+            ("tan", &[x]) => Ok(x.tan()),
+            ("asin", &[x]) => Ok(x.asin()),
+            ("acos", &[x]) => Ok(x.acos()),
+            ("atan", &[x]) => Ok(x.atan()),
+            ("atan2", &[y, x]) => Ok(y.atan2(x)),
+            ("exp", &[x]) => Ok(x.exp()),
+            ("ln", &[x]) => Ok(x.ln()),
+            ("log2", &[x]) => Ok(x.log2()),
+            ("log10", &[x]) => Ok(x.log10()),
+            ("abs", &[x]) => Ok(x.abs()),
+            ("floor", &[x]) => Ok(x.floor()),
+            ("min", &[a, b]) => Ok(a.min(b)),
+            ("max", &[a, b]) => Ok(a.max(b)),
+            ("rad", &[x]) => Ok(x.to_radians()),
+            ("deg", &[x]) => Ok(x.to_degrees()),
+            (_, given) => Err(format!("`{name}` with {} arguments is not known", given.len())),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::made_up;
+    use super::*;
+
+    fn told(text: &str) -> String {
+        filled("page.md", text, &citations("- [@kajiya1986]: Kajiya 1986. James T. Kajiya: *The Rendering Equation*."))
+    }
+
+    #[test]
+    fn expressions_have_the_value_that_arithmetic_gives_them() {
+        for (expression, value) in [
+            ("1 + 2*3", 7.0),
+            ("2^3^2", 512.0),
+            ("-2^2", -4.0),
+            ("(1+2)*3/2", 4.5),
+            ("2*-3", -6.0),
+            ("8/2/2", 2.0),
+            ("1e-3*1000", 1.0),
+            ("sqrt(2)^2", 2.0),
+            ("deg(atan2(1, 1)) + log2(8) + min(4, 2)", 50.0),
+            ("cos(rad(60)) * pi / pi", 0.5),
+        ] {
+            let found = value_of(expression).expect(expression);
+            assert!((found - value).abs() < 1e-12, "{expression} = {found}");
+        }
+        for wrong in ["", "1 +", "(1", "2 2", "sine(1)", "min(1)", "pi(", "1..2"] {
+            assert!(value_of(wrong).is_err(), "{wrong:?} has no value");
+        }
+    }
+
+    #[test]
+    fn numbers_and_citations_are_filled_in() {
+        assert_eq!(told("x = {{= 2*120.5/480 - 1 : 4}}."), "x = −0.4979.");
+        assert_eq!(told("$x = {{= -1/3 : 2}}$, {{= -1/3 : 2}}"), "$x = -0.33$, −0.33");
+        assert_eq!(told("$$\nx = {{= -1 : 0}}\n$$\n{{= -0.001 : 1}}"), "$$\nx = -1\n$$\n0.0");
+        assert_eq!(told("as it is [@kajiya1986]"), "as it is [Kajiya 1986](bibliography.md#kajiya1986)");
+        let code = "```text\n{{= 1 : 1}} [@nobody]\n```";
+        assert_eq!(told(code), code);
+        let entry = filled(BIBLIOGRAPHY, "- [@a1]: A 1. *Title*.", &Citations::new());
+        assert_eq!(entry, "- <a id=\"a1\"></a>**A 1.** *Title*.");
+    }
+
+    #[test]
+    fn what_cannot_be_filled_in_is_told() {
+        let text = "{{= 1/0 : 2}} and {{= 2 }}\nand [@nobody1900]";
+        let problems = problems(&made_up("page.md", &told(text)));
+        let lines: Vec<usize> = problems.iter().map(|problem| problem.line).collect();
+        assert_eq!(lines, [1, 1, 2], "{problems:?}");
+        assert!(problems[2].what.contains("nobody1900"));
+    }
+}
