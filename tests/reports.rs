@@ -27,3 +27,24 @@ fn reports_are_of_the_present_sources() {
     );
     eprintln!("reports: {looked} kept reports are of the present sources");
 }
+
+/// A method without variance paints the same picture with every seed: one that is black, most likely.
+#[test]
+fn every_reported_method_has_some_variance() {
+    let (mut looked, mut dead) = (0, Vec::new());
+    for chapter in chapters::all().iter().filter(|chapter| has_report(chapter)) {
+        let short = place(chapter.name).display().to_string();
+        let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(&short)).expect("a kept report");
+        let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        for variant in report["variants"].as_array().expect("variants") {
+            looked += 1;
+            let levels = variant["levels"].as_array().expect("levels");
+            let variance = |level: &serde_json::Value| level["variance"]["value"][1].as_f64().unwrap_or(0.0);
+            if !levels.iter().any(|level| variance(level) > 0.0) {
+                dead.push(format!("{short}: {}", variant["name"]));
+            }
+        }
+    }
+    assert!(looked > 20 && dead.is_empty(), "of {looked}, without variance: {}", dead.join(", "));
+    eprintln!("reports: {looked} methods, each with variance");
+}

@@ -66,8 +66,8 @@ fn question() -> Question<Input, Vector> {
              n' · Mv = 0",
             "n' · Mv = (Mᵀn') · v, so Mᵀn' = n will do: n' is the inverse of the transpose of M, times n, brought to \
              length 1",
-            "with columns a, b, c that is (n.x b×c + n.y c×a + n.z a×b) / det, det = a · b×c; only the sign of det \
-             materials to a unit vector, and in a mirroring map it is −1",
+            "with columns a, b, c that is (n.x b×c + n.y c×a + n.z a×b) / det, det = a · b×c; of det \
+             only the sign is left in a unit vector, and in a mirroring map it is −1",
         ],
     }
 }

@@ -19,6 +19,7 @@ pub fn chapter() -> Chapter {
         .offer(stages::intersection())
         .offer(stages::surfaces())
         .offer(stages::direct_light())
+        .offer(stages::lights())
         .offer(stages::area_lights())
         .offer(stages::bounces())
         .offer(stages::path_continuation())

@@ -19,8 +19,10 @@ pub fn citations(bibliography: &str) -> Citations {
 /// The key, the label and the rest of an entry.
 fn entry(line: &str) -> Option<(&str, &str, &str)> {
     let (key, text) = line.strip_prefix("- [@")?.split_once("]: ")?;
-    let (label, rest) = text.split_once(". ")?;
-    Some((key, label, rest))
+    // A label ends with its year, and may hold other dots.
+    let is_year = |&(at, _): &(usize, &str)| text[..at].ends_with(|letter: char| letter.is_ascii_digit());
+    let (end, _) = text.match_indices(". ").find(is_year)?;
+    Some((key, &text[..end], &text[end + 2..]))
 }
 
 /// A page's text with its numbers and citations; what cannot be filled in stays, and [`problems`] finds it.
@@ -54,7 +56,7 @@ pub fn problems(page: &Page) -> Vec<Problem> {
         }
         for (at, _) in line.match_indices("{{=") {
             let what = number_at(&line[at..]).err().unwrap_or_default();
-            told(format!("`{}` is no number: {what}", &line[at..]));
+            told(format!("`{}` cannot be computed: {what}", &line[at..]));
         }
         for (at, _) in line.match_indices("[@") {
             let key = line[at + 2..].split(']').next().unwrap_or_default();
@@ -304,8 +306,8 @@ mod tests {
         assert_eq!(told("as it is [@kajiya1986]"), "as it is [Kajiya 1986](bibliography.md#kajiya1986)");
         let code = "```text\n{{= 1 : 1}} [@nobody]\n```";
         assert_eq!(told(code), code);
-        let entry = filled(BIBLIOGRAPHY, "- [@a1]: A 1. *Title*.", &Citations::new());
-        assert_eq!(entry, "- <a id=\"a1\"></a>**A 1.** *Title*.");
+        let entry = filled(BIBLIOGRAPHY, "- [@a1]: A et al. 1. *Title*.", &Citations::new());
+        assert_eq!(entry, "- <a id=\"a1\"></a>**A et al. 1.** *Title*.");
     }
 
     #[test]

@@ -31,7 +31,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     };
     let right = Exhibit {
         picture: Picture::of(chapter, SIZE, None, change)?,
-        lines: vec!["right".to_owned(), format!("{MAX_DEPTH} bounces")],
+        lines: vec!["right".to_owned(), format!("{MAX_DEPTH} segments")],
     };
     let twice = Exhibit {
         picture: Picture::encoded_twice(chapter, SIZE, change)?,

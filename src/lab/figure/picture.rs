@@ -2,9 +2,9 @@ use crate::png_url;
 use bevy_ecs::prelude::*;
 use pinhole::extract::camera_entity;
 use pinhole::film::{Curve, Film, byte_from_linear, png_bytes, png_bytes_by};
-use pinhole::plan::Stage;
+use pinhole::plan::{Stage, TileSystems};
 use pinhole::render::{Execution, Rendered, render};
-use pinhole::scene::{Resolution, Sampling};
+use pinhole::scene::{Integrator, Resolution, Sampling};
 use pinhole::{Chapter, Overrides};
 use pinhole::{Result, stages};
 use std::cell::Cell;
@@ -51,7 +51,7 @@ impl Picture {
             whole.offer.retain(|other| other.set != stage.set);
             whole.offer.push(stage);
         }
-        let rendered = rendered(&whole, size, change)?;
+        let rendered = rendered(&whole, size, |camera| prepared(chapter, camera, change))?;
         Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
     }
 
@@ -70,7 +70,7 @@ impl Picture {
                 *own = stage.clone();
             }
         }
-        let rendered = rendered(&whole, size, change)?;
+        let rendered = rendered(&whole, size, |camera| prepared(chapter, camera, change))?;
         Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
     }
 
@@ -85,7 +85,7 @@ impl Picture {
     ) -> Result<Self> {
         let mut whole = all_stages(chapter);
         whole.offer.extend(beside);
-        let rendered = rendered(&whole, size, change)?;
+        let rendered = rendered(&whole, size, |camera| prepared(chapter, camera, change))?;
         Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
     }
 
@@ -98,7 +98,7 @@ impl Picture {
         size: [u32; 2],
         change: impl FnOnce(&mut EntityWorldMut<'_>),
     ) -> Result<Self> {
-        let rendered = rendered(&all_stages(chapter), size, change)?;
+        let rendered = rendered(&all_stages(chapter), size, |camera| prepared(chapter, camera, change))?;
         let curve = rendered.curve();
         let twice = |light: f32| byte_from_linear(f32::from(byte_from_linear(light, curve)) / 255.0, curve);
         Ok(Self { size, url: png_url(&png_bytes_by(&rendered.film, curve, twice)?) })
@@ -123,6 +123,16 @@ fn all_stages(chapter: &Chapter) -> Chapter {
     whole.view = None;
     whole.offer = stages::all();
     whole
+}
+
+/// Changes a chapter's camera; where the chapter follows no light from surface to surface, neither does its figure, which
+/// would otherwise be lit by the sky, with few samples.
+fn prepared(chapter: &Chapter, camera: &mut EntityWorldMut<'_>, change: impl FnOnce(&mut EntityWorldMut<'_>)) {
+    let follows = chapter.offer.iter().any(|stage| stage.set == TileSystems::RemainingBounces);
+    if !follows && !camera.contains::<Integrator>() {
+        camera.insert(Integrator::RayCasting);
+    }
+    change(camera);
 }
 
 /// A chapter's scene, rendered after `change` has had its camera.

@@ -36,7 +36,7 @@ const SCENE: [Sphere; 2] = [
     Sphere { centre: V(0.0, -1001.0, -3.0), radius: 1000.0, colour: V(0.5, 0.6, 0.5) }, // the ground
 ];
 const LIGHT: V = V(3.0, 4.0, 0.0);
-const POWER: f64 = 25.0;
+const BRIGHTNESS: f64 = 20.0;
 
 /// The first t > 0 at which origin + t * direction is on the sphere.
 fn hit(origin: V, direction: V, sphere: &Sphere) -> Option<f64> {
@@ -71,7 +71,7 @@ fn radiance(origin: V, direction: V) -> V {
     let to_light = LIGHT.sub(point);
     let in_shadow = nearest(point, to_light).is_some_and(|(t, _)| t < 1.0);
     let cosine = normal.dot(to_light.unit()).max(0.0);
-    let arrives = if in_shadow { 0.0 } else { POWER * cosine / to_light.dot(to_light) };
+    let arrives = if in_shadow { 0.0 } else { BRIGHTNESS * cosine / to_light.dot(to_light) };
     sphere.colour.times(arrives + 0.1) // a little light from everywhere
 }
 
@@ -85,7 +85,7 @@ fn main() {
             let right = (2.0 * (x as f64 + 0.5) / width as f64 - 1.0) * aspect;
             let up = 1.0 - 2.0 * (y as f64 + 0.5) / height as f64;
             let V(r, g, b) = radiance(V(0.0, 0.0, 0.0), V(right, up, -1.0));
-            let byte = |light: f64| (255.0 * light.clamp(0.0, 1.0).powf(1.0 / 2.2)) as u8;
+            let byte = |light: f64| (255.0 * light.clamp(0.0, 1.0).sqrt()) as u8;
             picture += &format!("{} {} {}\n", byte(r), byte(g), byte(b));
         }
     }
@@ -111,7 +111,7 @@ mod tests {
             let matte = Matte { colour: Rgb::new(colour.0, colour.1, colour.2) };
             world.spawn((pinhole::scene::Sphere { radius }, matte, Placement::at(centre.0, centre.1, centre.2)));
         }
-        let light = PointLight { intensity: Rgb::grey(std::f64::consts::PI * POWER), ..PointLight::default() };
+        let light = PointLight { intensity: Rgb::grey(std::f64::consts::PI * BRIGHTNESS), ..PointLight::default() };
         world.spawn((light, Placement::at(LIGHT.0, LIGHT.1, LIGHT.2)));
         world
     }

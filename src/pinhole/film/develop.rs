@@ -71,7 +71,7 @@ fn least_f32(number: f64) -> f32 {
 }
 
 impl SrgbBytes {
-    /// Those that all pictures share.
+    /// Those of all pictures.
     pub fn get() -> &'static Self {
         &SRGB_BYTES
     }

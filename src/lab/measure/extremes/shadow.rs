@@ -13,7 +13,7 @@
 //! (1 − 8u)B − 2u|p|₁ − E − 2⁻¹⁴⁷ > u|p|₁ + 2⁻⁵⁰(|o|₁ + s) > 0, so that the next kernel sees it too.
 //!
 //! *Outside.* The tangent plane at the true point has the whole sphere behind it, so to be before it is to be outside.
-//! The computed n may lean by 2ε(|c| + r)/r, which materials only when r < u|p|₁, and then B > 2r + 2u|p|₁ clears the
+//! The computed n may lean by 2ε(|c| + r)/r, which is of consequence only when r < u|p|₁, and then B > 2r + 2u|p|₁ clears the
 //! sphere in every direction. *Inside* the same holds while r ≥ 2B: below that no room is left to start in.
 
 use super::plane::{aim as aim_at_plane, by_function as plane_by_function};
