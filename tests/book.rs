@@ -35,6 +35,32 @@ fn every_anchor_is_in_the_book() {
     none(&check::listing::orphans(root(), &["src", "chapters", "tests"], &pages()));
 }
 
+/// Question, picture, worked example, the reader's function, exercises with levels and answers, sources; then what is
+/// folded.
+#[test]
+fn every_chapter_s_page_has_its_parts() {
+    let pages = pages();
+    none(&check::pattern::problems(&pages));
+    let chapters = pages.iter().filter(|page| page.name.starts_with(|first: char| first.is_ascii_digit())).count();
+    eprintln!("book: the pages of {chapters} chapters have their parts");
+}
+
+/// Whoever looks for a method's source finds it, and nothing stands in the bibliography that no page speaks of.
+#[test]
+fn every_source_is_cited() {
+    let pages = pages();
+    let bibliography = pages.iter().find(|page| page.name == check::inline::BIBLIOGRAPHY).expect("a bibliography");
+    let keys: Vec<&str> =
+        bibliography.text.lines().filter_map(|line| line.strip_prefix("- <a id=\"")?.split('"').next()).collect();
+    assert!(keys.len() > 100, "{} sources", keys.len());
+    let is_cited = |key: &str| {
+        let link = format!("](bibliography.md#{key})");
+        pages.iter().any(|page| page.name != bibliography.name && page.text.contains(&link))
+    };
+    let idle: Vec<&str> = keys.iter().copied().filter(|key| !is_cited(key)).collect();
+    assert!(idle.is_empty(), "no page cites {idle:?}");
+}
+
 #[test]
 fn no_page_is_too_long() {
     none(&check::lists::long_pages(&pages()));

@@ -1,5 +1,6 @@
 //! The lists that must name the same chapters, and the length of a page.
 
+use super::inline::BIBLIOGRAPHY;
 use super::pattern::visible_words;
 use super::scan::Scan;
 use super::{Page, Problem};
@@ -40,7 +41,8 @@ pub fn long_pages(all: &[Page]) -> Vec<Problem> {
         let what = format!("has {count} words of prose, and a page has at most {MOST_WORDS}: split or shorten it.");
         (count > MOST_WORDS).then(|| Problem::new(&page.label, 0, what))
     };
-    all.iter().filter_map(long).collect()
+    // Nobody reads a bibliography in one go.
+    all.iter().filter(|page| page.name != BIBLIOGRAPHY).filter_map(long).collect()
 }
 
 /// Whether a name is that of a chapter: two digits and an underscore, or the cover.

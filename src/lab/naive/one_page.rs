@@ -33,7 +33,8 @@ struct Sphere {
 
 const SCENE: [Sphere; 2] = [
     Sphere { centre: V(0.0, 0.0, -3.0), radius: 1.0, colour: V(0.9, 0.3, 0.2) },
-    Sphere { centre: V(0.0, -1001.0, -3.0), radius: 1000.0, colour: V(0.5, 0.6, 0.5) }, // the ground
+    // The ground is a large sphere.
+    Sphere { centre: V(0.0, -101.0, -3.0), radius: 100.0, colour: V(0.5, 0.6, 0.5) },
 ];
 const LIGHT: V = V(3.0, 4.0, 0.0);
 const BRIGHTNESS: f64 = 20.0;
@@ -71,8 +72,11 @@ fn radiance(origin: V, direction: V) -> V {
     let to_light = LIGHT.sub(point);
     let in_shadow = nearest(point, to_light).is_some_and(|(t, _)| t < 1.0);
     let cosine = normal.dot(to_light.unit()).max(0.0);
-    let arrives = if in_shadow { 0.0 } else { BRIGHTNESS * cosine / to_light.dot(to_light) };
-    sphere.colour.times(arrives + 0.1) // a little light from everywhere
+    let mut light = 0.1; // a little from everywhere
+    if !in_shadow {
+        light += BRIGHTNESS * cosine / to_light.dot(to_light);
+    }
+    sphere.colour.times(light)
 }
 
 fn main() {
@@ -80,7 +84,7 @@ fn main() {
     let mut picture = format!("P3 {width} {height} 255\n");
     for y in 0..height {
         for x in 0..width {
-            // The ray through the pixel's centre, on a plane one unit in front of the eye.
+            // Through the pixel's centre, one unit in front of the eye.
             let aspect = width as f64 / height as f64;
             let right = (2.0 * (x as f64 + 0.5) / width as f64 - 1.0) * aspect;
             let up = 1.0 - 2.0 * (y as f64 + 0.5) / height as f64;
