@@ -89,8 +89,10 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("between equals", [([0.6, -0.8, 0.0], up, 1.0)]));
     asked.extend(probes("into a medium of a higher index", anywhere(2001, [1.0, 3.0])));
     asked.extend(probes("out of glass", [([0.6, -0.8, 0.0], up, 1.0 / 1.5)]));
-    asked
-        .extend(probes("out of glass, at so oblique an angle that nothing passes", [([0.8, -0.6, 0.0], up, 1.0 / 1.5)]));
+    asked.extend(probes(
+        "out of glass, at so oblique an angle that nothing passes",
+        [([0.8, -0.6, 0.0], up, 1.0 / 1.5)],
+    ));
     asked.extend(probes("into a thinner medium", anywhere(2002, [0.3, 1.0])));
     asked
 }
