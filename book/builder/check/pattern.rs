@@ -104,7 +104,7 @@ fn of_chapter(page: &Page) -> Vec<Problem> {
     if words_of(&opening.skip(1).copied().collect::<Vec<_>>().join(" ")) < 8 {
         lacks("begins without a question: some sentences before its first picture and its first heading.");
     }
-    if !prose.iter().any(|line| is_figure(&line)) {
+    if !prose.iter().any(is_figure) {
         lacks("has no picture: a line {{#figure command | caption}}.");
     }
     let at = |wanted: &str| prose.iter().position(|line| line.trim_end() == wanted);

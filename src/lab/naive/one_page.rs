@@ -111,7 +111,7 @@ mod tests {
         let mut world = World::new();
         let camera = PerspectiveCamera { fov: Degrees(90.0), axis: FovAxis::Vertical };
         world.spawn((camera, Resolution { width, height }, Integrator::RayCasting));
-        for Sphere { centre, radius, colour } in SCENE {
+        for super::Sphere { centre, radius, colour } in SCENE {
             let matte = Matte { colour: Rgb::new(colour.0, colour.1, colour.2) };
             world.spawn((pinhole::scene::Sphere { radius }, matte, Placement::at(centre.0, centre.1, centre.2)));
         }
