@@ -218,8 +218,15 @@ const readSheetSoon = () => {
   readTimer = setTimeout(() => readSheet().catch(() => {}), 250);
 };
 
-const readSheet = async () => {
+/** One reading after the other, so that none shows what was before a later one. */
+let reading = Promise.resolve();
+const readSheet = () => {
   clearTimeout(readTimer);
+  reading = reading.catch(() => {}).then(showSheet);
+  return reading;
+};
+
+const showSheet = async () => {
   const before = sheet;
   sheet = await (await fetch("sheet")).json();
   document.title = `${sheet.scene} · pinhole`;
@@ -369,11 +376,11 @@ const putView = async () => {
   if (!await apply()) return;
   try {
     await order("put_view");
+    await readSheet();
     say("The camera is in the text.");
   } catch (error) {
     say(error.message, true);
   }
-  await readSheet();
 };
 
 const mark = (text, sentence) => {
