@@ -2,7 +2,7 @@
 
 use crate::check::directive::{Directive, parse};
 use crate::check::scan::{Fence, Scan};
-use crate::check::{Page, Problem, listing};
+use crate::check::{Page, Problem, fit, listing};
 use crate::edit::{Edit, apply, escape};
 use crate::figure::{self, Pictures, TYPED};
 use crate::math;
@@ -63,15 +63,16 @@ pub fn expand(
     for line in &scan.lines {
         let made = match (parse(line.text), line.fence) {
             (Some(Ok(Directive::Pinhole { command })), None) => {
-                program.text(command).map(|text| printed(command, &text))
+                program.text(command).map(|text| printed(command, &fit::printed(&text)))
             }
             (Some(Ok(Directive::Figure { command, caption, moves })), None) => {
                 figure::block(program, pictures, command, caption, moves)
             }
             (Some(Ok(Directive::Include { path, anchor })), Some(_)) => {
                 let margin = &line.text[..line.text.len() - line.text.trim_start().len()];
-                listing::read(page, path, anchor).map(|listing| indented(&listing, margin))
+                listing::shown(page, path, anchor).map(|listing| indented(&listing, margin))
             }
+            (None, Some(_)) if fit::is_wide(line.text) => Ok(fit::printed(line.text)),
             _ => continue,
         };
         match made {

@@ -2,6 +2,7 @@
 //!
 //! `{{= 2*120.5/480 - 1 : 4}}` becomes −0.4979, and `[@kajiya1986]` a link to that entry of the bibliography.
 
+use super::scan::{Line, Scan};
 use super::{Page, Problem};
 use std::collections::BTreeMap;
 
@@ -27,39 +28,33 @@ fn entry(line: &str) -> Option<(&str, &str, &str)> {
 
 /// A page's text with its numbers and citations; what cannot be filled in stays, and [`problems`] finds it.
 pub fn filled(name: &str, text: &str, citations: &Citations) -> String {
-    let (mut out, mut is_code, mut is_formula) = (Vec::new(), false, false);
-    for line in text.split('\n') {
-        is_code ^= line.trim_start().starts_with("```");
-        if is_code {
-            out.push(line.to_owned());
-            continue;
+    let (scan, mut is_formula) = (Scan::new(text), false);
+    let edited = |line: &Line<'_>| {
+        if line.fence.is_some() {
+            return line.text.to_owned();
         }
-        if let (BIBLIOGRAPHY, Some((key, label, rest))) = (name, entry(line)) {
-            out.push(format!("- <a id=\"{key}\"></a>**{label}.** {rest}"));
-            continue;
+        if let (BIBLIOGRAPHY, Some((key, label, rest))) = (name, entry(line.text)) {
+            return format!("- <a id=\"{key}\"></a>**{label}.** {rest}");
         }
-        let line = with_numbers(line, is_formula);
-        is_formula ^= line.matches("$$").count() % 2 == 1;
-        out.push(with_citations(&line, citations));
-    }
-    out.join("\n")
+        let numbered = with_numbers(line.text, is_formula);
+        is_formula ^= numbered.matches("$$").count() % 2 == 1;
+        with_citations(&numbered, citations)
+    };
+    let lines: Vec<String> = scan.lines.iter().map(edited).collect();
+    lines.join("\n") + if text.ends_with('\n') { "\n" } else { "" }
 }
 
 /// The mistakes in a page's numbers and citations.
 pub fn problems(page: &Page) -> Vec<Problem> {
-    let (mut problems, mut is_code) = (Vec::new(), false);
-    for (number, line) in page.text.lines().enumerate() {
-        is_code ^= line.trim_start().starts_with("```");
-        let mut told = |what: String| problems.push(Problem::new(&page.label, number + 1, what));
-        if is_code {
-            continue;
+    let mut problems = Vec::new();
+    for Line { number, text, .. } in Scan::new(&page.text).prose() {
+        let mut told = |what: String| problems.push(Problem::new(&page.label, *number, what));
+        for (at, _) in text.match_indices("{{=") {
+            let what = number_at(&text[at..]).err().unwrap_or_default();
+            told(format!("`{}` cannot be computed: {what}", &text[at..]));
         }
-        for (at, _) in line.match_indices("{{=") {
-            let what = number_at(&line[at..]).err().unwrap_or_default();
-            told(format!("`{}` cannot be computed: {what}", &line[at..]));
-        }
-        for (at, _) in line.match_indices("[@") {
-            let key = line[at + 2..].split(']').next().unwrap_or_default();
+        for (at, _) in text.match_indices("[@") {
+            let key = text[at + 2..].split(']').next().unwrap_or_default();
             told(format!(
                 "`[@{key}]` is cited, and has no line `- [@{key}]: Name year. …` in book/src/{BIBLIOGRAPHY}."
             ));
@@ -243,29 +238,37 @@ impl Reader {
         if !self.take(')') {
             return Err(format!("the arguments of `{name}` do not end"));
         }
-        match (name.as_str(), arguments.as_slice()) {
-            ("sqrt", &[x]) => Ok(x.sqrt()),
-            ("sin", &[x]) => Ok(x.sin()),
-            ("cos", &[x]) => Ok(x.cos()),
-            ("tan", &[x]) => Ok(x.tan()),
-            ("asin", &[x]) => Ok(x.asin()),
-            ("acos", &[x]) => Ok(x.acos()),
-            ("atan", &[x]) => Ok(x.atan()),
-            ("atan2", &[y, x]) => Ok(y.atan2(x)),
-            ("exp", &[x]) => Ok(x.exp()),
-            ("ln", &[x]) => Ok(x.ln()),
-            ("log2", &[x]) => Ok(x.log2()),
-            ("log10", &[x]) => Ok(x.log10()),
-            ("abs", &[x]) => Ok(x.abs()),
-            ("floor", &[x]) => Ok(x.floor()),
-            ("min", &[a, b]) => Ok(a.min(b)),
-            ("max", &[a, b]) => Ok(a.max(b)),
-            ("rad", &[x]) => Ok(x.to_radians()),
-            ("deg", &[x]) => Ok(x.to_degrees()),
-            (_, given) => Err(format!("`{name}` with {} arguments is not known", given.len())),
+        let of_one = OF_ONE.iter().find(|(own, _)| *own == name);
+        let of_two = OF_TWO.iter().find(|(own, _)| *own == name);
+        match (of_one, of_two, arguments.as_slice()) {
+            (Some((_, function)), _, &[x]) => Ok(function(x)),
+            (_, Some((_, function)), &[a, b]) => Ok(function(a, b)),
+            (.., given) => Err(format!("`{name}` with {} arguments is not known", given.len())),
         }
     }
 }
+
+/// The functions of one argument.
+const OF_ONE: [(&str, fn(f64) -> f64); 15] = [
+    ("sqrt", f64::sqrt),
+    ("sin", f64::sin),
+    ("cos", f64::cos),
+    ("tan", f64::tan),
+    ("asin", f64::asin),
+    ("acos", f64::acos),
+    ("atan", f64::atan),
+    ("exp", f64::exp),
+    ("ln", f64::ln),
+    ("log2", f64::log2),
+    ("log10", f64::log10),
+    ("abs", f64::abs),
+    ("floor", f64::floor),
+    ("rad", f64::to_radians),
+    ("deg", f64::to_degrees),
+];
+
+/// Those of two.
+const OF_TWO: [(&str, fn(f64, f64) -> f64); 3] = [("atan2", f64::atan2), ("min", f64::min), ("max", f64::max)];
 
 #[cfg(test)]
 mod tests {

@@ -1,6 +1,7 @@
 //! Listings: parts of compiled source between `// ANCHOR: name` and `// ANCHOR_END: name`.
 
 use super::directive::{Directive, parse};
+use super::fit;
 use super::scan::{Fence, Scan};
 use super::{Page, Problem};
 use std::collections::BTreeSet;
@@ -61,6 +62,13 @@ pub fn read(page: &Page, path: &str, anchor: Option<&str>) -> Result<String, Str
     let source = std::fs::read_to_string(&file)
         .map_err(|_| format!("the include names `{path}`, which is not there (looked for {}).", file.display()))?;
     listing(&source, &label(path), anchor)
+}
+
+/// The same as the page shows it: no wider than its column.
+pub fn shown(page: &Page, path: &str, anchor: Option<&str>) -> Result<String, String> {
+    let is_source = [".rs", ".ron"].iter().any(|extension| path.ends_with(extension));
+    let fit = if is_source { fit::source } else { fit::printed };
+    read(page, path, anchor).map(|listing| fit(&listing))
 }
 
 /// The file an include means.

@@ -5,6 +5,7 @@
 //! them. Only the standard library and serde are used, so that the test needs nothing more.
 
 pub mod directive;
+pub mod fit;
 pub mod inline;
 pub mod links;
 pub mod listing;

@@ -66,7 +66,7 @@ impl Measure {
             let at = usize::from(is_folded);
             match (parse(line.text), line.fence) {
                 (Some(Ok(Directive::Include { path, anchor })), Some(_)) => {
-                    own.monospaced[at] += listing::read(page, path, anchor).map_or(0, |text| text.lines().count());
+                    own.monospaced[at] += listing::shown(page, path, anchor).map_or(0, |text| text.lines().count());
                 }
                 (Some(Ok(Directive::Pinhole { command })), None) => own.monospaced[at] += 1 + printed(command),
                 (_, Some(_)) if !line.text.trim_start().starts_with("```") => own.monospaced[at] += 1,

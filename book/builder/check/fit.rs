@@ -1,0 +1,128 @@
+//! Listings and printed lines made to fit the book's column: what is wider is broken between words.
+
+/// The characters of a monospaced line that fit the column at a window 1,280 pixels wide.
+pub const COLUMNS: usize = 84;
+
+/// Rust source: comments are filled anew, and code is broken at a space outside of strings.
+pub fn source(listing: &str) -> String {
+    let lines: Vec<&str> = listing.lines().collect();
+    let mut out: Vec<String> = Vec::new();
+    let mut at = 0;
+    while at < lines.len() {
+        let Some(head) = comment_head(lines[at]) else {
+            out.extend(broken(lines[at], 8, true));
+            at += 1;
+            continue;
+        };
+        let end = at + lines[at..].iter().take_while(|line| comment_head(line) == Some(head)).count();
+        out.extend(filled(&lines[at..end], head));
+        at = end;
+    }
+    out.join("\n")
+}
+
+/// Whether a line does not fit.
+pub fn is_wide(line: &str) -> bool {
+    width(line) > COLUMNS
+}
+
+/// What a program printed: a line that is too wide goes on below, indented.
+pub fn printed(text: &str) -> String {
+    text.lines().flat_map(|line| broken(line, 4, false)).collect::<Vec<_>>().join("\n")
+}
+
+/// The indentation and the marks of a line that is a comment only, and says something.
+fn comment_head(line: &str) -> Option<&str> {
+    let text = line.trim_start();
+    let mark = ["/// ", "//! ", "// "].into_iter().find(|mark| text.starts_with(mark))?;
+    // A list keeps its lines.
+    let says = &text[mark.len()..];
+    let is_plain = !says.starts_with(['-', '*', '#', '|', '`', ' ']);
+    is_plain.then(|| &line[..line.len() - text.len() + mark.len()])
+}
+
+/// The lines of a comment, filled anew if one of them is too wide.
+fn filled(lines: &[&str], head: &str) -> Vec<String> {
+    if !lines.iter().any(|line| is_wide(line)) {
+        return lines.iter().map(|&line| line.to_owned()).collect();
+    }
+    let (mut out, mut line) = (Vec::new(), head.trim_end().to_owned());
+    for word in lines.iter().flat_map(|line| line[head.len()..].split_whitespace()) {
+        if width(&line) + 1 + width(word) > COLUMNS && line != head.trim_end() {
+            out.push(std::mem::replace(&mut line, head.trim_end().to_owned()));
+        }
+        line.push(' ');
+        line.push_str(word);
+    }
+    out.push(line);
+    out
+}
+
+/// A line in parts that fit, all but the first indented by so much more; not within a string, where that would change it.
+fn broken(line: &str, further: usize, has_strings: bool) -> Vec<String> {
+    let indent = line.len() - line.trim_start().len() + further;
+    let (mut out, mut rest) = (Vec::new(), line.to_owned());
+    while is_wide(&rest) {
+        let least = rest.len() - rest.trim_start().len();
+        let is_outside = |at: usize| !has_strings || rest[..at].matches('"').count() % 2 == 0;
+        let fits = |at: usize| at > least && width(&rest[..at]) <= COLUMNS && is_outside(at);
+        let Some((at, _)) = rest.match_indices(' ').filter(|&(at, _)| fits(at)).last() else { break };
+        let next = format!("{}{}", " ".repeat(indent), rest[at..].trim_start());
+        // A part that is no shorter would be broken for ever.
+        if next.len() >= rest.len() {
+            break;
+        }
+        out.push(rest[..at].trim_end().to_owned());
+        rest = next;
+    }
+    out.push(rest);
+    out
+}
+
+fn width(text: &str) -> usize {
+    text.chars().count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_fits_stays_as_it_is() {
+        let listing = "/// A comment.\n/// Another.\nfn one() {\n    two(\"three\");\n}";
+        assert_eq!(source(listing), listing);
+        assert_eq!(printed(listing), listing);
+    }
+
+    #[test]
+    fn comments_are_filled_anew_and_keep_their_words() {
+        let long = format!(
+            "    /// {}\n    /// last.\n    ///\n    /// - item {}",
+            "word ".repeat(30).trim(),
+            "x ".repeat(60)
+        );
+        let filled = source(&long);
+        let words = |text: &str| -> Vec<String> {
+            text.split_whitespace().filter(|word| *word != "///").map(str::to_owned).collect()
+        };
+        assert_eq!(words(&filled), words(&long));
+        let comment: Vec<&str> = filled.lines().take_while(|line| line.trim() != "///").collect();
+        assert_eq!(comment.len(), 3, "{filled}");
+        assert!(comment.iter().all(|line| line.starts_with("    /// ") && width(line) <= COLUMNS), "{filled}");
+        assert!(comment[2].ends_with("last."));
+    }
+
+    #[test]
+    fn code_and_output_go_on_below_and_lose_nothing() {
+        let call = format!("    let sum = {};", ["one_of_many"; 12].join(" + "));
+        let text = source(&call);
+        assert!(text.lines().count() == 3 && text.lines().all(|line| width(line) <= COLUMNS), "{text}");
+        assert!(text.lines().skip(1).all(|line| line.starts_with(&" ".repeat(12))), "{text}");
+        let squeezed = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(squeezed(&text), squeezed(&call));
+        let string = format!("let a = \"{}\";", "never broken ".repeat(12));
+        assert_eq!(source(&string), string);
+        let number = "1".repeat(200);
+        assert_eq!(printed(&number), number);
+    }
+}
