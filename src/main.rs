@@ -1,8 +1,7 @@
 //! The command line of pinhole.
 
-// What readers write is compiled here, last of all, so that an edit of theirs compiles nothing else.
-/// What chapters ask their readers to write: a function in a chapter's `exercise.rs`, and the question beside it.
-#[allow(dead_code, reason = "tests ask more of a question than the program does")]
+// What readers write is compiled here, last of all and alone, so that the answer to an edit of theirs is there at once.
+/// What readers write: the function in each chapter's `exercise.rs`.
 mod exercises {
     include!(concat!(env!("OUT_DIR"), "/exercises.rs"));
 }

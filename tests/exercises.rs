@@ -4,6 +4,7 @@ use listed::chapter_01_image::question::exercise as image;
 use listed::chapter_05_pinhole::question::exercise as pinhole;
 use listed::chapter_12_how_it_is_built::question::exercise as plan;
 use pinhole_lab::exercise::{Exercise, Outcome, PATIENCE, Progress, Report, list_exercises, take_turn};
+use solutions::Solved;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -24,8 +25,18 @@ mod listed {
 mod solutions {
     use pinhole_lab::exercise::Exercise;
 
-    /// A chapter, its solution, its mistakes with words of what must be said of each.
-    pub type Solved = (&'static str, fn() -> Exercise, fn() -> Vec<(Exercise, &'static str)>);
+    /// What is known of a chapter's exercise.
+    pub struct Solved {
+        pub chapter: &'static str,
+        /// Right for every input.
+        pub solved: fn() -> Exercise,
+        /// Mistakes that its authors thought of, with words of what must be said of each.
+        pub mistakes: fn() -> Vec<(Exercise, &'static str)>,
+        /// The formula straight from the page, right for ordinary inputs.
+        pub textbook: fn() -> Exercise,
+        /// Answers of readers who saw the page and nothing else: what each thought, and words of what must be said.
+        pub learners: fn() -> Vec<(&'static str, Exercise, &'static str)>,
+    }
 
     include!(concat!(env!("OUT_DIR"), "/solutions.rs"));
 }
@@ -73,14 +84,20 @@ fn right() -> Exercise {
     solutions::chapter_05_pinhole::mistakes::solved()
 }
 
+/// A mistake that nobody foresaw.
 fn wrong() -> Exercise {
+    pinhole(|[x, y], tangent| [x * tangent + 0.125, y - tangent, -2.0])
+}
+
+/// One that is known by its name.
+fn known() -> Exercise {
     pinhole(|[x, y], _| [x, y, -1.0])
 }
 
 #[test]
 fn every_solution_is_right() {
     let mut inputs = 0;
-    for (chapter, solved, _) in solutions::ALL {
+    for Solved { chapter, solved, .. } in solutions::ALL {
         let report = solved().check(PATIENCE);
         assert!(matches!(report.outcome, Outcome::Right(_)), "{chapter}: {}", told(&report));
         inputs += report.inputs;
@@ -106,7 +123,7 @@ fn every_stub_is_wrong() {
 
 #[test]
 fn chapters_stubs_and_solutions_agree() {
-    for ((name, solved, _), (chapter, exercise)) in solutions::ALL.iter().zip(listed::all()) {
+    for (Solved { chapter: name, solved, .. }, (chapter, exercise)) in solutions::ALL.iter().zip(listed::all()) {
         let solution = solved();
         assert!(chapters::all().iter().any(|known| known.name == chapter), "{chapter} is no chapter");
         assert_eq!((*name, solution.function), (chapter, exercise.function));
@@ -124,15 +141,12 @@ fn chapters_stubs_and_solutions_agree() {
 #[test]
 fn every_typical_mistake_is_called_by_its_name() {
     let (mut made, mut unnamed) = (0, Vec::new());
-    for (chapter, _, mistakes) in solutions::ALL {
+    for Solved { chapter, mistakes, .. } in solutions::ALL {
         let mistakes = mistakes();
         assert!(!mistakes.is_empty(), "no mistake is known of {chapter}");
         for (at, (mistake, words)) in mistakes.iter().enumerate() {
             let report = mistake.check(PATIENCE);
-            let looks_like = match &report.outcome {
-                Outcome::Wrong(mismatch) => mismatch.looks_like.unwrap_or("nothing known"),
-                _ => "no mistake at all",
-            };
+            let looks_like = remark(&report);
             if !looks_like.contains(words) {
                 unnamed.push(format!("{chapter}, mistake {at}, \"{words}\": {looks_like}\n{}", told(&report)));
             }
@@ -141,6 +155,48 @@ fn every_typical_mistake_is_called_by_its_name() {
     }
     assert!(unnamed.is_empty(), "{} of {made}:\n{}", unnamed.len(), unnamed.join("\n"));
     eprintln!("mistakes: {made} made, all recognised");
+}
+
+/// What a report says that the mistake is.
+fn remark(report: &Report) -> &'static str {
+    match &report.outcome {
+        Outcome::Wrong(mismatch) | Outcome::OrdinaryRight(mismatch) => mismatch.looks_like.unwrap_or("nothing known"),
+        _ => "no mistake at all",
+    }
+}
+
+/// The textbook's formula is right, whatever extreme inputs do to it.
+#[test]
+fn every_textbook_formula_is_accepted() {
+    let mut second_stars = 0;
+    for Solved { chapter, textbook, .. } in solutions::ALL {
+        let report = textbook().check(PATIENCE);
+        assert!(report.is_done(), "{chapter}: {}", told(&report));
+        second_stars += usize::from(matches!(report.outcome, Outcome::Right(_)));
+    }
+    eprintln!("textbooks: {} formulas accepted, {second_stars} of them for extreme inputs, too", solutions::ALL.len());
+}
+
+/// Nine of ten must be named; who is named wrongly counts as not named.
+#[test]
+fn what_learners_answer_is_called_by_its_name() {
+    let (mut made, mut unnamed) = (0, Vec::new());
+    for Solved { chapter, learners, .. } in solutions::ALL {
+        for (thought, answer, words) in learners() {
+            made += 1;
+            let report = answer.check(PATIENCE);
+            assert!(!matches!(report.outcome, Outcome::Right(_)), "{chapter}: \"{thought}\" is right for all inputs");
+            if words.is_empty() || !remark(&report).contains(words) {
+                unnamed.push(format!("{chapter}: \"{thought}\" is called \"{}\"", remark(&report)));
+            }
+        }
+    }
+    let named = made - unnamed.len();
+    eprintln!(
+        "learners: {named} of {made} wrong answers are called by their names; not these:\n{}",
+        unnamed.join("\n")
+    );
+    assert!(made >= 150 && 10 * named >= 9 * made);
 }
 
 #[test]
@@ -173,6 +229,8 @@ fn hints_grow_and_progress_is_kept() {
     assert!(list(&file).contains("done"), "{}", list(&file));
     let (said, _) = turn(&wrong(), &file);
     assert_eq!(hints(&said), 1, "{said}");
+    let (said, _) = turn(&known(), &file);
+    assert!(said.contains("it looks as if ") && hints(&said) == 0, "whoever is told the mistake needs no hint: {said}");
     let stub = pinhole(|_, _| [0.0; 3]);
     let before = Progress::read(&file).0;
     let (said, ended) = turn(&stub, &file);
@@ -236,7 +294,7 @@ fn the_program_lists_checks_and_ends_with_1_on_a_mismatch() {
     let list = run(folder.path(), &["check"]);
     let said = String::from_utf8(list.stdout).expect("UTF-8");
     assert!(list.status.success());
-    for (chapter, solved, _) in solutions::ALL {
+    for Solved { chapter, solved, .. } in solutions::ALL {
         assert!(said.contains(chapter) && said.contains(solved().function), "no {chapter} in\n{said}");
     }
     assert!(!said.contains("cover") && !folder.path().join("out").exists(), "{said}");
@@ -247,7 +305,7 @@ fn the_program_lists_checks_and_ends_with_1_on_a_mismatch() {
         let wrong = run(folder.path(), &["check", "5"]);
         let said = String::from_utf8(wrong.stdout).expect("UTF-8");
         assert_eq!(wrong.status.code(), Some(1), "{said}");
-        assert!(said.contains("perspective_direction is wrong for") && said.contains("check 05"), "{said}");
+        assert!(said.contains("perspective_direction is wrong for") && said.contains("check 5`"), "{said}");
         assert_eq!(String::from_utf8_lossy(&wrong.stderr).lines().count(), 1);
         assert!(!folder.path().join("out").exists(), "a stub counts as no try");
     }

@@ -10,5 +10,6 @@ mod exercises;
 mod extremes;
 mod figures;
 mod mutations;
+mod naive;
 mod report;
 mod reports;

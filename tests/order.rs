@@ -57,7 +57,7 @@ const ORDER: &[(&str, &[&str])] = &[
     ),
     ("lab", &["png_url", "repository", "naive", "measure", "figure", "review", "report", "exercise"]),
     ("live", &["answer", "guard", "http", "view"]),
-    ("", &["exercises", "figures", "command"]),
+    ("", &["exercises", "questions", "figures", "command"]),
 ];
 
 /// What every folder may name at the crate's root.

@@ -2,7 +2,7 @@
 
 use super::mine::mine;
 use pinhole_lab::exercise::apart::{absolute, option};
-use pinhole_lab::exercise::{Exercise, Mistake, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistake, Question, Shown, extremes, probes};
 use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::exact_vector::ExactVector;
 use pinhole_lab::measure::ray_aim::Draws;
@@ -11,11 +11,6 @@ pub(super) type Vector = [f64; 3];
 
 /// What the reader writes.
 pub type Yours = fn(Vector) -> Option<Vector>;
-
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::unit)
-}
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
@@ -34,18 +29,18 @@ fn question() -> Question<Vector, Option<Vector>> {
     asked.extend(probes("3, 4 and 12, of length 13", [[3.0, 4.0, 12.0], [-3.0, 4.0, -12.0]]));
     asked.extend(probes("a vector of ordinary size", sized(201, -3.0, 3.0)));
     asked.extend(probes("the vector 0, which has no direction", [[0.0; 3], [-0.0, 0.0, -0.0]]));
-    asked.extend(probes("so long that its squares overflow", [[1e200, 0.0, 0.0], [-1e200, 2e200, 1e199]]));
-    asked.extend(probes("so long that its squares overflow", sized(202, 160.0, 300.0)));
-    asked.extend(probes("as long as f64 goes", [[f64::MAX, f64::MAX, -f64::MAX]]));
-    asked.extend(probes("so short that its squares are 0", [[1e-200, 0.0, 0.0], [3e-200, -4e-200, 0.0]]));
-    asked.extend(probes("so short that its squares are 0", sized(203, -300.0, -165.0)));
-    asked.extend(probes("so short that its squares have few digits left", sized(204, -162.0, -155.0)));
-    asked.extend(probes("subnormal", [[5e-324, 0.0, 0.0], [1.5e-323, 2e-323, 0.0], [5e-324, -5e-324, 5e-324]]));
     asked.extend(probes("with a part that is NaN", [[nan, 1.0, 0.0], [0.0, 0.0, nan], [nan, nan, nan]]));
     asked.extend(probes(
         "with an infinite part",
         [[infinite, 1.0, 0.0], [0.0, -infinite, infinite], [nan, infinite, 0.0]],
     ));
+    asked.extend(extremes("so long that its squares overflow", [[1e200, 0.0, 0.0], [-1e200, 2e200, 1e199]]));
+    asked.extend(extremes("so long that its squares overflow", sized(202, 160.0, 300.0)));
+    asked.extend(extremes("as long as f64 goes", [[f64::MAX, f64::MAX, -f64::MAX]]));
+    asked.extend(extremes("so short that its squares are 0", [[1e-200, 0.0, 0.0], [3e-200, -4e-200, 0.0]]));
+    asked.extend(extremes("so short that its squares are 0", sized(203, -300.0, -165.0)));
+    asked.extend(extremes("so short that its squares have few digits left", sized(204, -162.0, -155.0)));
+    asked.extend(extremes("subnormal", [[5e-324, 0.0, 0.0], [1.5e-323, 2e-323, 0.0], [5e-324, -5e-324, 5e-324]]));
     Question {
         pinhole_has: ("src/pinhole/extract/pose.rs", "fn direction"),
         probes: asked,
@@ -55,22 +50,92 @@ fn question() -> Question<Vector, Option<Vector>> {
         allowed: 1e-15,
         measured: "in a part",
         mistakes: vec![
-            Mistake::new("what has no direction is given one: 0, NaN and infinite parts must give None", |&v| {
-                Some(unit(v).unwrap_or_else(|| plain(v)))
+            Mistake::new(NOT_0, |&v| Some(unit(v).unwrap_or_else(|| plain(v)))),
+            Mistake::new("an infinite part leaves no direction: the answer there is None", |&v| {
+                if v.iter().any(|part| part.is_nan()) {
+                    None
+                } else {
+                    unit(v).or_else(|| (!finite(v)).then(|| plain(v)))
+                }
             }),
-            Mistake::new("the vector is divided by its length as it stands, whose squares overflow or vanish", |&v| {
-                plain(v).iter().all(|part| part.is_finite()).then(|| plain(v))
+            Mistake::new("an infinite part leaves no direction: the answer there is None", |&v| {
+                let is_infinite = largest(v) == f64::INFINITY && !v.iter().any(|part| part.is_nan());
+                unit(v).or_else(|| is_infinite.then_some([f64::NAN; 3]))
             }),
-            Mistake::new("the vector is divided by its length as it stands, whose squares overflow or vanish", |&v| {
-                Some(plain(v))
+            Mistake::new(AS_IT_STANDS, |&v| finite(plain(v)).then(|| plain(v))),
+            Mistake::new(
+                "an infinite part is divided by an infinite length, and long vectors, whose squares overflow, too: the first \
+                 must give None, and the others need their parts made smaller first",
+                |&v| (length(v) > 0.0).then(|| plain(v)),
+            ),
+            Mistake::new(
+                "the vector is divided by its length whatever that is: 0, NaN and infinite parts must give None, and the \
+                 squares overflow or vanish",
+                |&v| Some(plain(v)),
+            ),
+            Mistake::new(TURNED_AWAY, |&v| (length(v) > 0.0 && length(v).is_finite()).then(|| plain(v))),
+            Mistake::new(ENDS, |&v| (finite(v) && v != [0.0; 3]).then(|| divided(v, v[0].hypot(v[1]).hypot(v[2])))),
+            Mistake::new(ENDS, |&v| {
+                let length = v[0].hypot(v[1]).hypot(v[2]);
+                (length > 0.0 && length.is_finite()).then(|| divided(v, length))
             }),
+            Mistake::new(SHORT, |&v| unit(v).filter(|_| length(v) > 1e-12)),
+            Mistake::new(TURNED_AWAY, |&v| (length(v) > 1e-12 && length(v).is_finite()).then(|| plain(v))),
             Mistake::new("the vector is divided by its squared length: a square root is missing", |&v| {
-                let square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-                Some(v.map(|part| part / square))
+                Some(divided(v, length(v) * length(v)))
+            }),
+            Mistake::new("the vector is divided by the root of its length: one square root is too many", |&v| {
+                Some(divided(v, length(v).sqrt()))
             }),
             Mistake::new("the vector is divided by its largest part, which makes that part 1, not the length", |&v| {
                 let largest = largest(v);
-                (largest > 0.0 && largest.is_finite()).then(|| v.map(|part| part / largest))
+                (largest > 0.0 && largest.is_finite()).then(|| divided(v, largest))
+            }),
+            Mistake::new("the length is taken for |x| + |y| + |z|; it is √(x² + y² + z²)", |&v| {
+                unit(v).map(|_| divided(v, v.iter().map(|part| part.abs()).sum()))
+            }),
+            Mistake::new("the length is taken for x + y + z; it is √(x² + y² + z²)", |&v| {
+                unit(v).map(|_| divided(v, v.iter().sum()))
+            }),
+            Mistake::new(
+                "the length is that of the vector divided by its largest part; v itself has `largest` times that length",
+                |&v| unit(v).map(|_| divided(v, length(divided(v, largest(v))))),
+            ),
+            Mistake::new(ONE_0, |&v| unit(v).filter(|_| !v.contains(&0.0))),
+            Mistake::new(SIGN, |&v| unit(v).map(|_| scaled(v, v[0].max(v[1]).max(v[2])))),
+            Mistake::new(SIGN, |&v| unit(v).map(|_| scaled(v, v[0].max(v[1]).max(v[2]))).filter(|&v| finite(v))),
+            Mistake::new("the vector is divided by its smallest part, which may be 0; the largest is meant", |&v| {
+                unit(v).map(|_| scaled(v, v.iter().fold(f64::MAX, |least, part| part.abs().min(least))))
+            }),
+            Mistake::new("the vector is handed back as it is", |&v| unit(v).map(|_| v)),
+            Mistake::new("the direction is turned about", |&v| unit(v).map(|v| v.map(|part| -part))),
+            Mistake::new(SHORT, |&v| unit(v).filter(|_| length(v) * length(v) > f64::EPSILON)),
+            Mistake::new(SHORT, |&v| unit(v).filter(|_| largest(v) > f64::MIN_POSITIVE)),
+            Mistake::new(SHORT, |&v| unit(v).filter(|_| largest(v) > 1e-300)),
+            Mistake::new("only a vector longer than 1 is made shorter; a shorter one is to be made longer", |&v| {
+                unit(v).map(|unit| if length(v) > 1.0 { unit } else { v })
+            }),
+            Mistake::new("the signs are lost; the direction keeps those of v", |&v| unit(v).map(|v| v.map(f64::abs))),
+            Mistake::new("each part is brought to 1 by itself; all are divided by the same length", |&v| {
+                unit(v).map(|_| v.map(f64::signum))
+            }),
+            Mistake::new("f32 is computed in, which has seven digits", |&v| {
+                unit(v).map(|_| plain(v.map(|part| f64::from(part as f32))).map(|part| f64::from(part as f32)))
+            }),
+            Mistake::new(
+                "the vector is multiplied by 1 / largest, which is infinite for a subnormal one: divide by the \
+                 largest part",
+                |&v| unit(v).map(|_| plain(v.map(|part| part * (1.0 / largest(v))))),
+            ),
+            Mistake::new(NOT_0, |&v| unit(v).or_else(|| (v != [0.0; 3]).then(|| plain(v)))),
+            Mistake::new(NOT_0, |&v| unit(v).or_else(|| (v != [0.0; 3]).then_some([f64::NAN; 3]))),
+            Mistake::new(PASSED_OVER, |&v| unit(v).or_else(|| (largest(v) > 0.0).then_some([f64::NAN; 3]))),
+            Mistake::new(PASSED_OVER, |&v| {
+                let is_seen = v != [0.0; 3] && (largest(v) > 0.0 || v.iter().all(|part| part.is_nan()));
+                unit(v).or_else(|| is_seen.then_some([f64::NAN; 3]))
+            }),
+            Mistake::new(PASSED_OVER, |&v| {
+                unit(v).or_else(|| (largest(v) > 0.0 && largest(v).is_finite()).then_some([f64::NAN; 3]))
             }),
         ],
         hints: &[
@@ -92,10 +157,40 @@ fn unit(v: Vector) -> Option<Vector> {
 }
 
 fn plain(v: Vector) -> Vector {
-    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-    v.map(|part| part / length)
+    divided(v, length(v))
 }
 
 fn largest(v: Vector) -> f64 {
     v.iter().fold(0.0, |largest, part| part.abs().max(largest))
+}
+
+const NOT_0: &str = "what has no direction is given one: 0, NaN and infinite parts must give None";
+const AS_IT_STANDS: &str = "the vector is divided by its length as it stands, whose squares overflow or vanish";
+const TURNED_AWAY: &str = "vectors whose squares overflow or vanish are given None, but they have a direction: divide \
+                           by the largest \
+                           part first";
+const PASSED_OVER: &str =
+    "a part that is NaN or infinite leaves no direction, and max passes NaN over: ask all three parts";
+const ENDS: &str =
+    "the length itself overflows, or is rounded coarsely, at the ends of f64: divide by the largest part first";
+const SHORT: &str = "short vectors are taken for 0; however short one is, it has a direction";
+const ONE_0: &str = "one part that is 0 is taken for the vector 0, which has three";
+const SIGN: &str =
+    "the largest part is taken with its sign, so that a negative one counts as small; compare absolute values";
+
+fn length(v: Vector) -> f64 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}
+
+fn divided(v: Vector, by: f64) -> Vector {
+    v.map(|part| part / by)
+}
+
+fn finite(v: Vector) -> bool {
+    v.iter().all(|part| part.is_finite())
+}
+
+/// Divided by some number first, and then by the length.
+fn scaled(v: Vector, by: f64) -> Vector {
+    plain(divided(v, by))
 }

@@ -4,8 +4,8 @@ use super::mine::mine;
 use glam::{DVec3, Vec3};
 use pinhole::shapes::sphere_intersection;
 use pinhole_lab::exercise::apart::{option, relative};
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
-use pinhole_lab::measure::oracle_sphere::{Sphere, line_roots, sphere_hit};
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
+use pinhole_lab::measure::oracle_sphere::{Sphere, line_ts, sphere_hit};
 use pinhole_lab::measure::ray_aim::{self, AimedRay, Draws};
 use pinhole_lab::naive::sphere::hit_f64_plain;
 
@@ -15,11 +15,6 @@ pub(super) type Answer = Option<f64>;
 
 /// What the reader writes.
 pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], f64) -> Answer;
-
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::nearest_sphere_t)
-}
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
@@ -39,27 +34,77 @@ fn question() -> Question<Input, Answer> {
         allowed: 1e-7,
         measured: "of t",
         mistakes: vec![
-            Mistake::new("what lies behind the origin is hit too: only t above 0 counts", |&(o, d, c, r)| {
-                line_roots(single(o), single(d), sphere(c, r)).map(|roots| roots.near.to_f64())
+            Mistake::new(BEHIND, |i| Some(both(i)?[0])),
+            Mistake::new(BEHIND, |i| both(i).map(|[near, far]| if near > 0.0 { near } else { far })),
+            Mistake::new("from inside, nothing is hit: the nearer root is behind, but the farther one is ahead", |i| {
+                both(i).map(|[near, _]| near).filter(|&t| t > 0.0)
+            }),
+            Mistake::new("the farther root is taken where the nearer one is ahead", |i| {
+                both(i).map(|[_, far]| far).filter(|&t| t > 0.0)
+            }),
+            Mistake::new("t = 0 counts as a hit; only t above 0 does", |i| both(i)?.into_iter().find(|&t| t >= 0.0)),
+            Mistake::new(SKIPPED, |i| both(i)?.into_iter().find(|&t| t > 1e-3)),
+            Mistake::new(SKIPPED, |i| both(i)?.into_iter().find(|&t| t > 1e-4)),
+            Mistake::new(SKIPPED, |i| both(i)?.into_iter().find(|&t| t > 1e-6)),
+            Mistake::new("a ray that only touches the sphere misses it; it hits", |i| {
+                ahead(both(i).filter(|[near, far]| near < far))
+            }),
+            Mistake::new(NO_ROOT, |i| both(i).map_or(Some(f64::NAN), |roots| ahead(Some(roots)))),
+            Mistake::new(NO_ROOT, |i| solved(coefficients(i), |[b, a, c]| (b * b - a * c).abs(), 1.0)),
+            Mistake::new(NO_ROOT, |i| solved(coefficients(i), |[b, a, c]| (b * b - a * c).max(0.0), 1.0)),
+            Mistake::new(LENGTH_1, |i| by_chord(i, 1.0, 1.0)),
+            Mistake::new(
+                "half the chord is added to t as a length; t counts in lengths of the direction, so divide it by |R|",
+                |i| by_chord(i, square(i), 1.0),
+            ),
+            Mistake::new("half the chord is divided by R·R; it is a length, so |R| divides it", |i| {
+                by_chord(i, square(i), square(i))
+            }),
+            Mistake::new("f·R is divided by |R| alone; s counts in lengths of R, which divides it once more", |i| {
+                by_chord(i, square(i).sqrt(), square(i).sqrt())
             }),
             Mistake::new(
-                "from inside, nothing is hit: the nearer root is behind, but the farther one is ahead",
-                |input| {
-                    let &(o, d, c, r) = input;
-                    let roots = line_roots(single(o), single(d), sphere(c, r))?;
-                    Some(roots.near.to_f64()).filter(|&t| t > 0.0)
-                },
+                "the direction is brought to length 1 and t is left so; t counts in lengths of the direction as it \
+                 was given",
+                |i| ahead(both(i)).map(|t| t * square(i).sqrt()),
             ),
-            Mistake::new("the farther root is taken where the nearer one is ahead", |&(o, d, c, r)| {
-                let roots = line_roots(single(o), single(d), sphere(c, r))?;
-                Some(roots.far.to_f64()).filter(|&t| t > 0.0)
+            Mistake::new("t is multiplied by the direction's length", |i| ahead(both(i)).map(|t| t * square(i))),
+            Mistake::new("the quotient is multiplied by R·R: / 2.0 * a divides by 2 only", |i| {
+                ahead(both(i)).map(|t| t * square(i) * square(i))
             }),
-            Mistake::new("the direction is taken to be of length 1; it may have any length", |&(o, d, c, r)| {
-                let (d, f) = (DVec3::from(d), DVec3::from(c) - DVec3::from(o));
-                let s = f.dot(d);
-                let discriminant = r * r - (f - s * d).length_squared();
-                let half_chord = (discriminant >= 0.0).then(|| discriminant.sqrt())?;
-                [s - half_chord, s + half_chord].into_iter().find(|&t| t > 0.0)
+            Mistake::new(
+                "b has the wrong sign, so that what is behind comes ahead: b = 2 f·R belongs to f = O − C, not to C − O",
+                |i| ahead(both(i).map(|[near, far]| [-far, -near])),
+            ),
+            Mistake::new("the radius is not squared: c is f·f − r²", |&(o, d, c, r)| {
+                ahead(both(&(o, d, c, r.sqrt())))
+            }),
+            Mistake::new("c is f·f + r²; the radius is to be taken off", |i| {
+                let [b, a, c] = coefficients(i);
+                solved([b, a, c + 2.0 * i.3 * i.3], right_discriminant, 1.0)
+            }),
+            Mistake::new("the radius is left out", |&(o, d, c, _)| ahead(both(&(o, d, c, 0.0)))),
+            Mistake::new("the radius is doubled or a diameter", |&(o, d, c, r)| ahead(both(&(o, d, c, 2.0 * r)))),
+            Mistake::new("the radius is halved; it is no diameter", |&(o, d, c, r)| ahead(both(&(o, d, c, r / 2.0)))),
+            Mistake::new(
+                "the centre is left out, as if the sphere were at the origin of the space",
+                |&(o, d, _, r)| ahead(both(&(o, d, [0.0; 3], r))),
+            ),
+            Mistake::new("the ray's origin is left out: f is C − O", |&(_, d, c, r)| {
+                ahead(both(&([0.0; 3], d, c, r)))
+            }),
+            Mistake::new(MIXED, |i| solved(coefficients(i), |[b, a, c]| b * b - 4.0 * a * c, 2.0)),
+            Mistake::new(MIXED, |i| solved(coefficients(i), |[b, a, c]| b * b - 4.0 * a * c, 1.0)),
+            Mistake::new(MIXED, |i| solved(coefficients(i), right_discriminant, 2.0)),
+            Mistake::new(MIXED, |i| solved(coefficients(i), right_discriminant, 0.5)),
+            Mistake::new(MIXED, |i| solved(doubled(i), right_discriminant, 2.0)),
+            Mistake::new(MIXED, |i| solved(doubled(i), right_discriminant, 1.0)),
+            Mistake::new(
+                "this is where the ray comes closest to the centre; it hits the sphere half a chord before",
+                |i| both(i).map(|[near, far]| (near + far) / 2.0).filter(|&t| t > 0.0),
+            ),
+            Mistake::new("the root of the discriminant is missing", |i| {
+                solved(coefficients(i), |[b, a, c]| (b * b - a * c) * (b * b - a * c).abs(), 1.0)
             }),
             Mistake::new(
                 "b² − ac is computed as it stands; far away it is a small difference of huge numbers",
@@ -68,6 +113,47 @@ fn question() -> Question<Input, Answer> {
                     hit_f64_plain(single(o), single(d), c.into(), r)
                 },
             ),
+            Mistake::new(
+                "b² − ac is computed as it stands; far away it is a small difference of huge numbers",
+                |i| solved(coefficients(i), right_discriminant, 1.0),
+            ),
+            Mistake::new(
+                "−b and the root are subtracted where they are nearly equal; c / (−b + root) is the nearer root with all its \
+                 digits",
+                |i| by_chord(i, square(i), square(i).sqrt()),
+            ),
+            Mistake::new(BEHIND, |i| both(i).map(|[near, far]| near.abs().min(far.abs()))),
+            Mistake::new(BEHIND, |i| both(i).map(|[near, _]| near.abs())),
+            Mistake::new(CENTRE, |i| ahead(both(i).filter(|[near, far]| near + far > 0.0))),
+            Mistake::new(CENTRE, |i| ahead(both(i).filter(|[near, far]| near + far >= 0.0))),
+            Mistake::new("the distance across the ray is squared and the radius is not; compare l·l with r²", |i| {
+                let [b, a, c] = coefficients(i);
+                let across = c + i.3 * i.3 - b * b / a;
+                ahead(both(i).filter(|_| across <= i.3))
+            }),
+            Mistake::new("half the chord is r − |l|; by Pythagoras it is √(r² − |l|²)", |i| {
+                let [b, a, c] = coefficients(i);
+                let half = (i.3 - (c + i.3 * i.3 - b * b / a).abs().sqrt()) / a.sqrt();
+                ahead((half >= 0.0).then(|| [-b / a - half, -b / a + half]))
+            }),
+            Mistake::new(LENGTH_1, |i| {
+                let [b, _, c] = coefficients(i);
+                solved([b, 1.0, c], right_discriminant, 1.0)
+            }),
+            Mistake::new(LENGTH_1, |i| solved(coefficients(i), |[b, _, c]| b * b - c, 1.0)),
+            Mistake::new("a is the length of R; it is R·R, the length squared", |i| {
+                let [b, a, c] = coefficients(i);
+                solved([b, a.sqrt(), c], right_discriminant, 1.0)
+            }),
+            Mistake::new("brackets are missing: all of −b ∓ root is divided by 2a, not the root alone", |i| {
+                let [b, a, c] = doubled(i);
+                let root = (b * b - 4.0 * a * c).sqrt() / (2.0 * a);
+                ahead((root >= 0.0).then_some([-b - root, -b + root]))
+            }),
+            Mistake::new("c is |f| − r; both are squared", |i| {
+                let [b, a, c] = coefficients(i);
+                solved([b, a, (c + i.3 * i.3).sqrt() - i.3], right_discriminant, 1.0)
+            }),
         ],
         hints: &[
             "put O + tR into |x − C| = r: a quadratic equation in t; its smallest root above 0 is asked for",
@@ -87,21 +173,33 @@ fn asked() -> Vec<Probe<Input>> {
     let mut asked: Vec<_> = probes("straight at a sphere", [([0.0; 3], ahead, ball, 1.0)]).collect();
     asked.extend(probes("past a sphere", [([3.0, 0.0, 0.0], ahead, ball, 1.0)]));
     asked.extend(probes("a sphere behind the origin", [([0.0; 3], ahead, [0.0, 0.0, 3.0], 1.0)]));
-    asked.extend(probes("from inside", [(ball, ahead, ball, 2.0), ([0.5, 0.0, -2.5], [0.0, 1.0, 0.0], ball, 1.0)]));
+    asked.extend(probes(
+        "from inside",
+        [
+            (ball, ahead, ball, 2.0),
+            ([0.0, 0.0, -3.5], ahead, ball, 1.0),
+            ([0.5, 0.0, -2.5], [0.0, 1.0, 0.0], ball, 1.0),
+        ],
+    ));
     asked.extend(probes("a direction of length 2", [([0.0; 3], [0.0, 0.0, -2.0], ball, 1.0)]));
     asked.extend(probes("a direction of length 0.5", [([0.5, 0.0, 0.0], [0.0, 0.0, -0.5], ball, 1.0)]));
     let rays = |ray: fn(u64) -> (AimedRay, Sphere), count: u64| {
         (0..count).map(ray).map(|(ray, sphere)| input(ray.origin, ray.direction, sphere)).filter(decidable)
     };
-    asked.extend(probes("any size and place", rays(|at| ray_aim::seen_sphere_of_any_size(301, at), 60)));
+    let (far, near): (Vec<Input>, _) = rays(|at| ray_aim::seen_sphere_of_any_size(301, at), 60).partition(is_far);
+    asked.extend(probes("any size and place", near));
     asked.extend(probes("close to the tangent at 1.5 radii", rays(|at| ray_aim::tangent(302, at, 1.0, 1.5), 40)));
     asked.extend(probes("touching the sphere in one point", [([1.0, 0.0, 0.0], ahead, ball, 1.0)]));
     asked.extend(probes("from a point of the sphere, outward", [([0.0, 0.0, -2.0], [0.0, 0.0, 1.0], ball, 1.0)]));
     asked.extend(probes("from a point of the sphere, inward", [([0.0, 0.0, -2.0], ahead, ball, 1.0)]));
     asked.extend(probes("the centre, 1e5 radii away", rays(|at| ray_aim::centre(303, at, 1.0, 1e5), 20)));
     asked.extend(probes("a silhouette 1e3 radii away", rays(|at| ray_aim::silhouette(304, at, 1e3), 60)));
-    asked.extend(probes("a silhouette 1e7 radii away", rays(|at| ray_aim::silhouette(305, at, 1e7), 300)));
-    asked.extend(probes("the ground of a planet, 1e8 in radius, from 0.01 above", rays(|at| below(at, 1e8, 1e-2), 30)));
+    asked.extend(extremes("a sphere more than 1e4 radii away", far));
+    asked.extend(extremes("a silhouette 1e7 radii away", rays(|at| ray_aim::silhouette(305, at, 1e7), 300)));
+    asked.extend(extremes(
+        "the ground of a planet, 1e8 in radius, from 0.01 above",
+        rays(|at| below(at, 1e8, 1e-2), 30),
+    ));
     asked
 }
 
@@ -117,6 +215,11 @@ fn input(origin: Vec3, direction: Vec3, Sphere { centre, radius }: Sphere) -> In
     (origin.as_dvec3().into(), direction.as_dvec3().into(), centre.into(), radius)
 }
 
+/// Whether the squared radius has few digits left beside the squared distance.
+fn is_far(&(o, _, c, radius): &Input) -> bool {
+    DVec3::from(o).distance(c.into()) > 1e4 * radius
+}
+
 /// Whether f64 can tell a hit from a miss, and t to the digits asked for.
 fn decidable(&(origin, direction, centre, radius): &Input) -> bool {
     !sphere_intersection(DVec3::from(centre) - DVec3::from(origin), direction.into(), radius).uncertain
@@ -128,4 +231,56 @@ fn single(v: [f64; 3]) -> Vec3 {
 
 fn sphere(centre: [f64; 3], radius: f64) -> Sphere {
     Sphere { centre: centre.into(), radius }
+}
+
+const BEHIND: &str = "what lies behind the origin is hit too: only t above 0 counts";
+const SKIPPED: &str = "hits close to the origin are skipped; every t above 0 counts";
+const CENTRE: &str = "a sphere whose centre is not ahead is passed over; from inside, the ray hits it all the same";
+const LENGTH_1: &str = "the direction is taken to be of length 1; it may have any length";
+const NO_ROOT: &str =
+    "a ray past the sphere is given a t: where the number under the root is below 0, the answer is None";
+const MIXED: &str = "the formula with b and that with half of b are mixed: with b = −2 f·R it has 4ac and 2a, with b \
+                     = −f·R it \
+                     has ac and a";
+
+/// The two roots, exact but for the last rounding.
+fn both(&(o, d, c, r): &Input) -> Option<[f64; 2]> {
+    line_ts(single(o), single(d), sphere(c, r))
+}
+
+fn ahead(roots: Option<[f64; 2]>) -> Answer {
+    roots?.into_iter().find(|&t| t > 0.0)
+}
+
+/// Half of b, a, and c of the quadratic equation.
+fn coefficients(&(o, d, c, r): &Input) -> [f64; 3] {
+    let (f, d) = (DVec3::from(o) - DVec3::from(c), DVec3::from(d));
+    [f.dot(d), d.length_squared(), f.length_squared() - r * r]
+}
+
+fn doubled(input: &Input) -> [f64; 3] {
+    let [b, a, c] = coefficients(input);
+    [2.0 * b, a, c]
+}
+
+fn right_discriminant([b, a, c]: [f64; 3]) -> f64 {
+    b * b - a * c
+}
+
+fn solved(of: [f64; 3], discriminant: fn([f64; 3]) -> f64, times_a: f64) -> Answer {
+    let root = discriminant(of).sqrt();
+    ahead((root >= 0.0).then(|| [-of[0] - root, -of[0] + root].map(|part| part / (times_a * of[1]))))
+}
+
+/// R·R.
+fn square(input: &Input) -> f64 {
+    DVec3::from(input.1).length_squared()
+}
+
+/// By Pythagoras, with f·R and half the chord over these numbers.
+fn by_chord(&(o, d, c, r): &Input, along: f64, half: f64) -> Answer {
+    let (d, f) = (DVec3::from(d), DVec3::from(c) - DVec3::from(o));
+    let s = f.dot(d) / along;
+    let half_chord = (r * r - (f - s * d).length_squared()).sqrt() / half;
+    ahead((half_chord >= 0.0).then_some([s - half_chord, s + half_chord]))
 }

@@ -13,11 +13,6 @@ pub(super) type Input = ([f64; 2], f64);
 /// What the reader writes.
 pub type Yours = fn([f64; 2], f64) -> [f64; 3];
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::perspective_direction)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("perspective_direction", question, move |&(screen, tangent)| yours(screen, tangent), mine)
@@ -49,24 +44,103 @@ fn question() -> Question<Input, [f64; 3]> {
         allowed: 2e-15,
         measured: "of a part",
         mistakes: vec![
-            Mistake::new("the direction is not of length 1", |&(screen, tangent)| through(screen, tangent, tangent)),
-            Mistake::new("the tangent is left out", |&(screen, _)| unit(through(screen, 1.0, 1.0))),
-            Mistake::new("only y is scaled by the tangent; x is in half heights too", |&(screen, tangent)| {
-                unit(through(screen, 1.0, tangent))
+            Mistake::new("the direction is not of length 1", |&(s, t)| through(s, t, t)),
+            Mistake::new("the direction is divided by its squared length: a square root is missing", |&(s, t)| {
+                let v = through(s, t, t);
+                v.map(|part| part / v.iter().map(|part| part * part).sum::<f64>())
             }),
-            Mistake::new("the image plane stands at z = +1; the camera looks down −z", |&(screen, tangent)| {
-                let [x, y, z] = unit(through(screen, tangent, tangent));
+            Mistake::new("the length is that of x and y alone; −1 is a part of the direction, too", |&(s, t)| {
+                let [x, y, z] = through(s, t, t);
+                [x, y, z].map(|part| part / (x * x + y * y).sqrt())
+            }),
+            Mistake::new("the tangent is left out", |&(s, _)| unit(through(s, 1.0, 1.0))),
+            Mistake::new("the tangent is left out", |&(s, _)| through(s, 1.0, 1.0)),
+            Mistake::new("only y is scaled by the tangent; x is in half heights too", |&(s, t)| {
+                unit(through(s, 1.0, t))
+            }),
+            Mistake::new("only x is scaled by the tangent; y is in half heights too", |&(s, t)| {
+                unit(through(s, t, 1.0))
+            }),
+            Mistake::new(DISTANCE, |&([x, y], t)| unit([x, y, -t])),
+            Mistake::new(DISTANCE, |&(s, t)| unit(through(s, 1.0 / t, 1.0 / t))),
+            Mistake::new(BEFORE, |&(s, t)| {
+                let [x, y, z] = unit(through(s, 1.0, 1.0));
+                [x * t, y * t, z]
+            }),
+            Mistake::new(BEFORE, |&(s, t)| unit(through(s, 1.0, 1.0)).map(|part| part * t)),
+            Mistake::new("the tangent is halved; it is that of half the angle already", |&(s, t)| {
+                unit(through(s, t / 2.0, t / 2.0))
+            }),
+            Mistake::new("the tangent is doubled; screen y = 1 is half the height away from the centre", |&(s, t)| {
+                unit(through(s, 2.0 * t, 2.0 * t))
+            }),
+            Mistake::new("the image plane stands at z = +1; the camera looks down −z", |&(s, t)| {
+                let [x, y, z] = unit(through(s, t, t));
                 [x, y, -z]
             }),
-            Mistake::new("x and y are turned about, as on the film of a box with a hole", |&([x, y], tangent)| {
-                unit(through([-x, -y], tangent, tangent))
+            Mistake::new("the direction leads from the screen point to the eye; the opposite is meant", |&(s, t)| {
+                unit(through(s, t, t)).map(|part| -part)
             }),
-            Mistake::new("y points down; on the screen and in camera space it points up", |&([x, y], tangent)| {
-                unit(through([x, -y], tangent, tangent))
+            Mistake::new("x and y are turned about, as on the film of a box with a hole", |&([x, y], t)| {
+                unit(through([-x, -y], t, t))
             }),
-            Mistake::new("a tangent is taken of the tangent, which is one already", |&(screen, tangent)| {
-                let twice = libm::tan(tangent);
-                unit(through(screen, twice, twice))
+            Mistake::new("y points down; on the screen and in camera space it points up", |&([x, y], t)| {
+                unit(through([x, -y], t, t))
+            }),
+            Mistake::new("x points left; on the screen and in camera space it points right", |&([x, y], t)| {
+                unit(through([-x, y], t, t))
+            }),
+            Mistake::new("x and y are swapped", |&([x, y], t)| unit(through([y, x], t, t))),
+            Mistake::new(TWICE, |&(s, t)| unit(through(s, libm::tan(t), libm::tan(t)))),
+            Mistake::new(TWICE, |&(s, t)| unit(through(s, libm::tan(t / 2.0), libm::tan(t / 2.0)))),
+            Mistake::new(TWICE, |&(s, t)| {
+                let tangent = libm::tan((t / 2.0).to_radians());
+                unit(through(s, tangent, tangent))
+            }),
+            Mistake::new("the tangent is turned back into an angle; the plane's height is asked for", |&(s, t)| {
+                unit(through(s, libm::atan(t), libm::atan(t)))
+            }),
+            Mistake::new(WIDE, |&([x, y], t)| unit(through([x * (480.0 / 270.0), y], t, t))),
+            Mistake::new(WIDE, |&([x, y], t)| unit(through([x / (480.0 / 270.0), y], t, t))),
+            Mistake::new("the screen point is counted from a corner; the screen has its centre at the origin", |i| {
+                let &([x, y], t) = i;
+                unit(through([x - 1.0, y - 1.0], t, t))
+            }),
+            Mistake::new("the tangent is a factor twice; x and y are scaled by it once", |&(s, t)| {
+                unit(through(s, t * t, t * t))
+            }),
+            Mistake::new("only x and y are divided by the length; z is a part of the direction, too", |&(s, t)| {
+                let [x, y, _] = unit(through(s, t, t));
+                [x, y, -1.0]
+            }),
+            Mistake::new("the length is taken for |x| + |y| + |z|; it is √(x² + y² + z²)", |&(s, t)| {
+                let v = through(s, t, t);
+                v.map(|part| part / v.iter().map(|part| part.abs()).sum::<f64>())
+            }),
+            Mistake::new(
+                "angles are taken to be in proportion to the screen; on a plane their tangents are",
+                |&([x, y], t)| {
+                    let half = libm::atan(t);
+                    unit([libm::tan(x * half), libm::tan(y * half), -1.0])
+                },
+            ),
+            Mistake::new(
+                "angles are taken to be in proportion to the screen; on a plane their tangents are",
+                |&([x, y], t)| {
+                    let [x, y] = [x, y].map(|part| part * libm::atan(t));
+                    [libm::sin(x) * libm::cos(y), libm::sin(y), -libm::cos(x) * libm::cos(y)]
+                },
+            ),
+            Mistake::new(TWICE, |&(s, t)| {
+                let tangent = libm::tan(t.to_radians());
+                unit(through(s, tangent, tangent))
+            }),
+            Mistake::new("z is scaled by the tangent, too; the image plane stands at z = −1", |&([x, y], t)| {
+                unit([x * t, y * t, -t])
+            }),
+            Mistake::new("1 is taken off under the root: the square of −1 is 1, and it is added", |&(s, t)| {
+                let [x, y, z] = through(s, t, t);
+                [x, y, z].map(|part| part / (x * x + y * y - 1.0).sqrt())
             }),
         ],
         hints: &[
@@ -85,3 +159,9 @@ fn unit([x, y, z]: [f64; 3]) -> [f64; 3] {
     let length = (x * x + y * y + z * z).sqrt();
     [x / length, y / length, z / length]
 }
+
+const TWICE: &str = "a tangent is taken of the tangent, which is one already";
+const DISTANCE: &str =
+    "the tangent is the plane's distance, or divides x and y: the wider the angle, the wider the rays must spread";
+const BEFORE: &str = "the direction is brought to length 1 before the tangent widens it; length 1 comes last";
+const WIDE: &str = "the aspect is put into x once more; the screen's x has it already, in half heights as y is";

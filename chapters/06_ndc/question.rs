@@ -14,11 +14,6 @@ pub(super) type Pixel = Option<[u32; 2]>;
 /// What the reader writes.
 pub type Yours = fn([f64; 2], u32, u32) -> Pixel;
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::pixel_from_ndc)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("pixel_from_ndc", question, move |&(ndc, width, height)| yours(ndc, width, height), mine)
@@ -29,42 +24,101 @@ fn question() -> Question<Input, Pixel> {
         pinhole_has: ("src/pinhole/rays/ndc.rs", "ndc_from_raster"),
         probes: asked(),
         tell: |(ndc, width, height)| format!("ndc {}, width {width}, height {height}", ndc.shown()),
-        right: |&([x, y], width, height)| Some([holder(x, width)?, holder(y, height)?]),
+        right,
         apart: exact,
         allowed: 0.0,
         measured: "pixels",
         mistakes: vec![
-            Mistake::new("what lies outside is put into the nearest pixel; it belongs to none", |&([x, y], w, h)| {
-                let inside = |n: f64, size: u32| ((n * f64::from(size)) as u32).min(size - 1);
-                Some([inside(x, w), inside(y, h)])
+            Mistake::new(NEAREST_PIXEL, |i| Some(scaled(i, 0.0, |n, size| n.clamp(0.0, size - 1.0)))),
+            Mistake::new("nothing is outside: a cast to u32 turns what is below 0 or NaN into 0", |i| {
+                Some(scaled(i, 0.0, |n, _| n))
             }),
-            Mistake::new("nothing is outside: a cast to u32 turns what is below 0 or NaN into 0", |&([x, y], w, h)| {
-                Some([(x * f64::from(w)) as u32, (y * f64::from(h)) as u32])
+            Mistake::new("what is below 0, or NaN, is given pixel 0: a cast to u32 does that, so ask before it", |i| {
+                in_image(i, scaled(i, 0.0, |n, _| n))
             }),
-            Mistake::new("1 counts as inside, and gives a pixel that the image does not have", |&([x, y], w, h)| {
-                let pixel = |n: f64, size| (0.0..=1.0).contains(&n).then(|| (n * f64::from(size)) as u32);
+            Mistake::new(
+                "what is below 0 is given pixel 0: the whole part of −0.2 is 0, so ask before it is taken",
+                |&([x, y], w, h)| {
+                    let pixel = |n: f64, size| if n < 0.0 { Some(0) } else { holder(n, size) };
+                    Some([pixel(x, w)?, pixel(y, h)?])
+                },
+            ),
+            Mistake::new(PASSES, |&([x, y], w, h)| {
+                let pixel = |n: f64, size| if n.is_nan() { Some(0) } else { holder(n, size) };
                 Some([pixel(x, w)?, pixel(y, h)?])
+            }),
+            Mistake::new("what lies beyond 1 is given a pixel; it belongs to none", |i| {
+                (i.0[0] >= 0.0 && i.0[1] >= 0.0).then(|| scaled(i, 0.0, |n, _| n))
+            }),
+            Mistake::new("what lies beyond 1 is given a pixel; it belongs to none", |i| {
+                (i.0[0] >= 0.0 && i.0[1] >= 0.0).then(|| scaled(i, 0.0, |n, size| n.min(size - 1.0)))
+            }),
+            Mistake::new("only x is asked whether it is inside; y may be outside, too", |i| {
+                holder(i.0[0], i.1).map(|_| scaled(i, 0.0, |n, _| n))
+            }),
+            Mistake::new("only y is asked whether it is inside; x may be outside, too", |i| {
+                holder(i.0[1], i.2).map(|_| scaled(i, 0.0, |n, _| n))
+            }),
+            Mistake::new("a point counts as inside where either x or y is; both must be", |i| {
+                holder(i.0[0], i.1).or(holder(i.0[1], i.2)).map(|_| scaled(i, 0.0, |n, _| n))
+            }),
+            Mistake::new("1 counts as inside, and gives a pixel that the image does not have", |i| {
+                i.0.iter().all(|n| (0.0..=1.0).contains(n)).then(|| scaled(i, 0.0, |n, _| n))
             }),
             Mistake::new("1 counts as inside; the lower and right edges belong to no pixel", |&([x, y], w, h)| {
                 let pixel = |n: f64, size| if n == 1.0 { Some(size - 1) } else { holder(n, size) };
                 Some([pixel(x, w)?, pixel(y, h)?])
             }),
-            Mistake::new(
-                "the product is rounded to the nearest; a pixel reaches from its number to the next",
-                |input| {
-                    let &([x, y], w, h) = input;
-                    holder(x, w).and(holder(y, h))?;
-                    Some([(x * f64::from(w)).round() as u32, (y * f64::from(h)).round() as u32])
-                },
-            ),
-            Mistake::new("the point is scaled by the size less 1; n pixels are n wide", |&([x, y], w, h)| {
-                holder(x, w).and(holder(y, h))?;
-                Some([(x * f64::from(w - 1)) as u32, (y * f64::from(h - 1)) as u32])
+            Mistake::new("0 counts as outside; the upper and left edges belong to pixels", |i| {
+                i.0.iter().all(|&n| n > 0.0).then(|| right(i))?
+            }),
+            Mistake::new(ROUNDED, |i| right(i).map(|_| scaled(i, 0.0, |n, _| n.round()))),
+            Mistake::new(ROUNDED, |i| in_image(i, scaled(i, 0.0, |n, _| n.round()))),
+            Mistake::new(ROUNDED, |i| inside(i, |n, _| n.round())),
+            Mistake::new(ROUNDED, |i| right(i).map(|_| scaled(i, 0.0, |n, size| n.round().min(size - 1.0)))),
+            Mistake::new(UP, |i| right(i).map(|_| scaled(i, 0.0, |n, _| n.ceil() - 1.0))),
+            Mistake::new(UP, |i| right(i).map(|_| scaled(i, 0.0, |n, _| n.ceil()))),
+            Mistake::new(HALF, |i| inside(i, |n, _| (n - 0.5).floor())),
+            Mistake::new(HALF, |i| right(i).map(|_| scaled(i, 0.0, |n, _| n - 0.5))),
+            Mistake::new(HALF, |i| in_image(i, scaled(i, 0.0, |n, _| n - 0.5))),
+            Mistake::new(HALF, |i| inside(i, |n, _| (n + 0.5).floor())),
+            Mistake::new("the pixel is a half too far: a pixel reaches from its number to the next", |i| {
+                right(i).map(|_| scaled(i, 0.0, |n, _| n + 0.5))
+            }),
+            Mistake::new(LESS_1, |i| right(i).map(|_| scaled(i, -1.0, |n, _| n))),
+            Mistake::new(LESS_1, |i| right(i).map(|_| scaled(i, -1.0, |n, _| n.round()))),
+            Mistake::new("pixels are counted from 1; the first is number 0", |i| {
+                right(i).map(|pixel| pixel.map(|n| n + 1))
             }),
             Mistake::new("y is counted from the bottom; in NDC it points down", |&([x, y], w, h)| {
                 Some([holder(x, w)?, h - 1 - holder(y, h)?])
             }),
+            Mistake::new("y is counted from the bottom; in NDC it points down", |&([x, y], w, h)| {
+                right(&([x, 1.0 - y], w, h))
+            }),
+            Mistake::new("x is counted from the right; in NDC it points right", |&([x, y], w, h)| {
+                Some([w - 1 - holder(x, w)?, holder(y, h)?])
+            }),
             Mistake::new("x and y are swapped", |&([x, y], w, h)| Some([holder(y, h)?, holder(x, w)?])),
+            Mistake::new("width and height are swapped", |&(ndc, w, h)| right(&(ndc, h, w))),
+            Mistake::new("both are scaled by the width; y is in heights", |&(ndc, w, _)| right(&(ndc, w, w))),
+            Mistake::new("both are scaled by the height; x is in widths", |&(ndc, _, h)| right(&(ndc, h, h))),
+            Mistake::new("NDC are taken to run from −1 to 1; they run from 0 to 1", |&([x, y], w, h)| {
+                right(&([(x + 1.0) / 2.0, (y + 1.0) / 2.0], w, h))
+            }),
+            Mistake::new("f32 is computed in, which has too few digits for a large image", |&([x, y], w, h)| {
+                let pixel = |n: f64, size: u32| holder(n, size).map(|_| (n as f32 * size as f32) as u32);
+                Some([pixel(x, w)?, pixel(y, h)?])
+            }),
+            Mistake::new(TRUNCATED, |i| inside(i, |n, _| n.trunc())),
+            Mistake::new(TRUNCATED, |i| inside(i, |n, _| n as i64 as f64)),
+            Mistake::new("what lies outside comes in again on the other side; it belongs to no pixel", |i| {
+                Some(scaled(i, 0.0, |n, size| n.rem_euclid(size)))
+            }),
+            Mistake::new("what lies outside comes in again on the other side; it belongs to no pixel", |i| {
+                Some(scaled(i, 0.0, |n, size| n.max(0.0) % size))
+            }),
+            Mistake::new(NEAREST_PIXEL, |i| Some(scaled(i, 0.0, |n, size| n.clamp(0.0, size)))),
         ],
         hints: &[
             "undo the division by the size, then ask in which unit square the raster point lies",
@@ -125,3 +179,36 @@ fn holder(n: f64, size: u32) -> Option<u32> {
     let rounded = product.to_f64() as u32;
     Some(if Dyadic::of(rounded) > product { rounded - 1 } else { rounded })
 }
+
+const NEAREST_PIXEL: &str = "what lies outside is put into the nearest pixel; it belongs to none";
+const PASSES: &str =
+    "NaN passes for inside: every comparison with it is false, so ask whether a point is inside, not outside";
+const ROUNDED: &str = "the product is rounded to the nearest; a pixel reaches from its number to the next";
+const UP: &str = "the product is rounded up; a point on an edge belongs to the right or the lower pixel";
+const HALF: &str =
+    "a half is put in or taken off; it belongs to a pixel's centre, but any point of the pixel is asked for";
+const LESS_1: &str = "the point is scaled by the size less 1; n pixels are n wide";
+
+fn right(&([x, y], width, height): &Input) -> Pixel {
+    Some([holder(x, width)?, holder(y, height)?])
+}
+
+/// The point in pixels, of a size that differs by so much from the image's, and what a function makes of it.
+fn scaled(&([x, y], width, height): &Input, more: f64, whole: fn(f64, f64) -> f64) -> [u32; 2] {
+    let along = |n: f64, size: u32| whole(n * (f64::from(size) + more), f64::from(size)) as u32;
+    [along(x, width), along(y, height)]
+}
+
+fn in_image(&(_, width, height): &Input, [x, y]: [u32; 2]) -> Pixel {
+    (x < width && y < height).then_some([x, y])
+}
+
+/// Asked only after the point has become a whole number, still with its sign.
+fn inside(input: &Input, whole: fn(f64, f64) -> f64) -> Pixel {
+    let &([x, y], width, height) = input;
+    let along = |n: f64, size: u32| (0.0..f64::from(size)).contains(&whole(n * f64::from(size), 0.0));
+    (along(x, width) && along(y, height)).then(|| scaled(input, 0.0, whole))
+}
+
+const TRUNCATED: &str =
+    "what is less than a pixel below 0, or NaN, is given pixel 0: ask before the whole part is taken";

@@ -15,11 +15,6 @@ pub(super) type Input = ([Vector; 3], Vector);
 /// What the reader writes.
 pub type Yours = fn([Vector; 3], Vector) -> Vector;
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::normal_world_from_object)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("normal_world_from_object", question, move |&(columns, normal)| yours(columns, normal), mine)
@@ -41,25 +36,74 @@ fn question() -> Question<Input, Vector> {
         mistakes: vec![
             Mistake::new(
                 "the normal is mapped as a direction is; where the map stretches unevenly it tips over",
-                |input| (matrix(input) * DVec3::from(input.1)).normalize().into(),
+                |i| (matrix(i) * normal(i)).normalize().into(),
             ),
-            Mistake::new("the normal is not of length 1", |input| {
-                (inverse_transpose(input) * DVec3::from(input.1)).into()
+            Mistake::new("the normal is mapped as a direction is, and not brought to length 1", |i| {
+                (matrix(i) * normal(i)).into()
             }),
-            Mistake::new("the inverse is not transposed, or the columns are taken for rows", |input| {
-                (matrix(input).inverse() * DVec3::from(input.1)).normalize().into()
+            Mistake::new("the normal is not of length 1", |i| (inverse_transpose(i) * normal(i)).into()),
+            Mistake::new("the normal is not of length 1", |i| (cofactors(i) * normal(i)).into()),
+            Mistake::new("the normal is divided by its squared length: a square root is missing", |i| {
+                let n = inverse_transpose(i) * normal(i);
+                (n / n.length_squared()).into()
+            }),
+            Mistake::new("the inverse is not transposed, or the columns are taken for rows", |i| {
+                (matrix(i).inverse() * normal(i)).normalize().into()
+            }),
+            Mistake::new("the inverse is not transposed, or the columns are taken for rows", |i| {
+                (cofactors(i).transpose() * normal(i)).normalize().into()
             }),
             Mistake::new(
-                "a mirroring map turns the normal inside out: the sign of the determinant is missing",
-                |input| {
-                    let turn = if matrix(input).determinant() < 0.0 { -1.0 } else { 1.0 };
-                    (turn * (inverse_transpose(input) * DVec3::from(input.1)).normalize()).into()
-                },
+                "the normal is multiplied by the transpose; in Mᵀn' = n the unknown is n', so the transpose must be \
+                 inverted",
+                |i| (matrix(i).transpose() * normal(i)).normalize().into(),
             ),
+            Mistake::new("a mirroring map turns the normal inside out: the sign of the determinant is missing", |i| {
+                (cofactors(i) * normal(i)).normalize().into()
+            }),
             Mistake::new(
                 "the normal points inward: nothing may turn it, for the inverse transpose keeps its side",
-                |input| (-(inverse_transpose(input) * DVec3::from(input.1)).normalize()).into(),
+                |i| (-(inverse_transpose(i) * normal(i)).normalize()).into(),
             ),
+            Mistake::new(OLD_SIDE, |i| towards(inverse_transpose(i) * normal(i), normal(i))),
+            Mistake::new(OLD_SIDE, |i| towards(matrix(i) * normal(i), normal(i))),
+            Mistake::new(SHEARED, |i| (scaled_axes(i, 2) * normal(i)).normalize().into()),
+            Mistake::new(SHEARED, |i| (scaled_axes(i, 2) * normal(i)).into()),
+            Mistake::new("the scale is left out, as if the map only turned", |i| {
+                (scaled_axes(i, 1) * normal(i)).normalize().into()
+            }),
+            Mistake::new("the scale is left out, as if the map only turned", |i| {
+                (scaled_axes(i, 1) * normal(i)).into()
+            }),
+            Mistake::new(ORDER, |i| crossed(i, DVec3::new(1.0, -1.0, 1.0), true)),
+            Mistake::new(ORDER, |i| crossed(i, DVec3::new(1.0, -1.0, 1.0), false)),
+            Mistake::new(ORDER, |i| crossed(i, DVec3::new(-1.0, 1.0, 1.0), true)),
+            Mistake::new(ORDER, |i| crossed(i, DVec3::new(1.0, 1.0, -1.0), true)),
+            Mistake::new(ORDER, |i| crossed(i, DVec3::NEG_ONE, false)),
+            Mistake::new(
+                "the cross products are given to the wrong parts: x of the normal goes with y × z, y with z × x, z \
+                 with x × y",
+                |i| {
+                    let [x, y, z] = i.1;
+                    (inverse_transpose(i) * DVec3::new(z, x, y)).normalize().into()
+                },
+            ),
+            Mistake::new("the normal is handed back as it is; it turns with its surface", |i| i.1),
+            Mistake::new(
+                "the normal is multiplied by the inverse, which is not transposed, and not brought to length 1",
+                |i| (matrix(i).inverse() * normal(i)).into(),
+            ),
+            Mistake::new("the normal is multiplied by the transpose, and not brought to length 1", |i| {
+                (matrix(i).transpose() * normal(i)).into()
+            }),
+            Mistake::new(
+                "the normal is mapped as a direction is, and only turned where the map mirrors; uneven stretching \
+                 tips it over",
+                |i| (matrix(i) * normal(i) * matrix(i).determinant()).normalize().into(),
+            ),
+            Mistake::new("only the numbers on the diagonal count; a map that turns has others", |i| {
+                (normal(i) / DVec3::new(i.0[0][0], i.0[1][1], i.0[2][2])).normalize().into()
+            }),
         ],
         hints: &[
             "the normal must stay at a right angle to everything that lies in the surface: n · v = 0 must become \
@@ -133,4 +177,35 @@ fn matrix(&(columns, _): &Input) -> DMat3 {
 
 fn inverse_transpose(input: &Input) -> DMat3 {
     matrix(input).inverse().transpose()
+}
+
+const SHEARED: &str =
+    "the normal is divided by the length of each column; that is right only while the columns are at right angles";
+const OLD_SIDE: &str = "the normal is turned to the side of the old one; a rotation may rightly take it beyond 90° \
+                        from there";
+const ORDER: &str = "a cross product is in the wrong order: they go round, y × z, z × x, x × y";
+
+fn normal(&(_, normal): &Input) -> DVec3 {
+    normal.into()
+}
+
+/// The inverse transpose times the determinant: its columns are y × z, z × x and x × y.
+fn cofactors(input: &Input) -> DMat3 {
+    inverse_transpose(input) * matrix(input).determinant()
+}
+
+/// With these signs of the cross products, and with the determinant's or without it.
+fn crossed(input: &Input, signs: DVec3, by_determinant: bool) -> Vector {
+    let matrix = if by_determinant { inverse_transpose(input) } else { cofactors(input) };
+    (matrix * (normal(input) * signs)).normalize().into()
+}
+
+/// The columns, each over a power of its length.
+fn scaled_axes(input: &Input, power: i32) -> DMat3 {
+    let [a, b, c] = input.0.map(|column| DVec3::from(column) / DVec3::from(column).length().powi(power));
+    DMat3::from_cols(a, b, c)
+}
+
+fn towards(vector: DVec3, side: DVec3) -> Vector {
+    (vector.normalize() * if vector.dot(side) < 0.0 { -1.0 } else { 1.0 }).into()
 }

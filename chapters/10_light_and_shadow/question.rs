@@ -15,11 +15,6 @@ pub(super) type Input = (f64, f64, Vector, Vector, Vector);
 /// What the reader writes.
 pub type Yours = fn(f64, f64, Vector, Vector, Vector) -> f64;
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::reflected_radiance)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered(
@@ -38,40 +33,96 @@ fn question() -> Question<Input, f64> {
             let [position, normal, light] = [position, normal, light].map(Shown::shown);
             format!("colour {colour:?}, intensity {intensity:?}, position {position}, normal {normal}, light {light}")
         },
-        right: |input| radiance(input, cosine(input)),
+        right,
         apart: |yours, right| relative(&[*yours], &[*right]),
         allowed: 1e-10,
         measured: "of the radiance",
         mistakes: vec![
-            Mistake::new("a surface that faces away sends on a negative light; it gets none", |input| {
-                sent(input, cosine(input), distance(input) * distance(input))
+            Mistake::new("a surface that faces away sends on a negative light; it gets none", |i| {
+                faded(i, cosine(i), 2)
             }),
-            Mistake::new("a surface that faces away is lit from behind: the cosine lost its sign", |input| {
-                sent(input, cosine(input).abs(), distance(input) * distance(input))
+            Mistake::new("a surface that faces away sends on a negative light; it gets none", |i| {
+                if distance(i) == 0.0 { 0.0 } else { faded(i, cosine(i), 2) }
+            }),
+            Mistake::new("a surface that faces away is lit from behind: the cosine lost its sign", |i| {
+                faded(i, cosine(i).abs(), 2)
+            }),
+            Mistake::new("a surface that faces away is lit from behind: the cosine lost its sign", |i| {
+                if distance(i) == 0.0 { 0.0 } else { faded(i, cosine(i).abs(), 2) }
             }),
             Mistake::new(
                 "where the light is at the very point, 0 / 0 is NaN: no direction leads to it, so no light",
-                |i| {
-                    if distance(i) == 0.0 { f64::NAN } else { radiance(i, cosine(i)) }
-                },
+                |i| if distance(i) == 0.0 { f64::NAN } else { radiance(i, cosine(i)) },
             ),
             Mistake::new(
-                "the light thins out with the distance once, not twice: either it is not squared, or the vector to the light was \
-             not of length 1 when its cosine was taken",
-                |input| sent(input, cosine(input).max(0.0), distance(input)),
+                "where the light is at the very point, its distance of 0 is divided by: no direction leads to it, so \
+                 no light",
+                |i| if distance(i) == 0.0 { f64::INFINITY } else { radiance(i, cosine(i)) },
             ),
-            Mistake::new("the light does not thin out with the distance", |input| {
-                sent(input, cosine(input).max(0.0), 1.0)
+            Mistake::new(CLOSE, |i| if distance(i) < 1e-3 { 0.0 } else { right(i) }),
+            Mistake::new(CLOSE, |i| radiance(i, cosine(i)) * f64::from(u8::from(to_light(i).length_squared() > 1e-12))),
+            Mistake::new(
+                "the light thins out with the distance once, not twice: either it is not squared, or the vector to the light was \
+                 not of length 1 when its cosine was taken",
+                |i| faded(i, lit(i), 1),
+            ),
+            Mistake::new("the light does not thin out with the distance", |i| faded(i, lit(i), 0)),
+            Mistake::new(
+                "the light does not thin out, and the vector to it was not of length 1 when its cosine was taken",
+                |i| faded(i, lit(i), -1),
+            ),
+            Mistake::new(TOO_MUCH, |i| faded(i, lit(i), 3)),
+            Mistake::new(TOO_MUCH, |i| faded(i, lit(i), 4)),
+            Mistake::new("the BRDF is colour / π; the π is missing", |i| PI * right(i)),
+            Mistake::new("the BRDF is colour / π; it is not multiplied by π", |i| PI * PI * right(i)),
+            Mistake::new(
+                "the BRDF is colour / π, not colour / 2π: the cosine halves what the hemisphere's 2π gives",
+                |i| right(i) / 2.0,
+            ),
+            Mistake::new(SPHERE, |i| right(i) / (4.0 * PI)),
+            Mistake::new(SPHERE, |i| right(i) / 4.0),
+            Mistake::new("the intensity is divided by π as well; only the colour is", |i| right(i) / PI),
+            Mistake::new("the cosine is missing: oblique light spreads over a larger area", |i| {
+                if cosine(i) > 0.0 { faded(i, 1.0, 2) } else { 0.0 }
             }),
-            Mistake::new("the BRDF is colour / π; the π is missing", |input| PI * radiance(input, cosine(input))),
-            Mistake::new("the cosine is missing: oblique light spreads over a larger area", |input| {
-                if cosine(input) > 0.0 { radiance(input, 1.0) } else { 0.0 }
+            Mistake::new("the cosine is missing: oblique light spreads over a larger area", |i| faded(i, 1.0, 2)),
+            Mistake::new("the cosine is squared; the light spreads over a larger area once", |i| {
+                faded(i, lit(i) * lit(i), 2)
             }),
-            Mistake::new("the direction leads from the light to the surface; the opposite is meant", |input| {
-                radiance(input, -cosine(input))
+            Mistake::new("the angle itself is taken, not its cosine", |i| faded(i, libm::acos(cosine(i)).max(0.0), 2)),
+            Mistake::new("the sine is taken; light straight from above falls fully", |i| {
+                if cosine(i) > 0.0 { faded(i, (1.0 - cosine(i) * cosine(i)).sqrt(), 2) } else { 0.0 }
             }),
-            Mistake::new("the distance is measured from the origin; it is that from position to light", |input| {
-                sent(input, cosine(input).max(0.0), DVec3::from(input.4).length_squared())
+            Mistake::new(TURNED, |i| radiance(i, -cosine(i))),
+            Mistake::new(TURNED, |i| faded(i, (-cosine(i)).max(0.0), 2)),
+            Mistake::new(TURNED, |i| faded(i, -cosine(i), 2)),
+            Mistake::new("the distance is measured from the origin; it is that from position to light", |i| {
+                sent(i, lit(i), DVec3::from(i.4).length_squared())
+            }),
+            Mistake::new("the position is left out: the light is seen from there, not from the origin", |i| {
+                right(&(i.0, i.1, [0.0; 3], i.3, i.4))
+            }),
+            Mistake::new("the position is added; the vector to the light is light − position", |i| {
+                right(&(i.0, i.1, i.2.map(|part| -part), i.3, i.4))
+            }),
+            Mistake::new("the colour is left out", |i| right(&(1.0, i.1, i.2, i.3, i.4))),
+            Mistake::new("the intensity is left out", |i| right(&(i.0, 1.0, i.2, i.3, i.4))),
+            Mistake::new("this is what arrives, the irradiance; the surface sends colour / π of it on", |i| {
+                PI * right(&(1.0, i.1, i.2, i.3, i.4))
+            }),
+            Mistake::new("the cosine is taken at the origin; the direction to the light is light − position", |i| {
+                let light = DVec3::from(i.4);
+                radiance(i, DVec3::from(i.3).dot(light) / light.length())
+            }),
+            Mistake::new("the answer is cut off at 1; radiance may be as large as it likes", |i| right(i).min(1.0)),
+            Mistake::new("the normal is not asked where it points: only its y counts, as if it pointed up", |i| {
+                radiance(i, to_light(i).y / distance(i))
+            }),
+            Mistake::new("the cosine is halved and has 1/2 added, which lights what faces away", |i| {
+                faded(i, 0.5 * cosine(i) + 0.5, 2)
+            }),
+            Mistake::new("1 is added to d²; the light thins out with the distance squared alone", |i| {
+                sent(i, lit(i), 1.0 + to_light(i).length_squared())
             }),
         ],
         hints: &[
@@ -143,4 +194,24 @@ fn radiance(input: &Input, cosine: f64) -> f64 {
 fn sent(&(colour, intensity, ..): &Input, cosine: f64, distance_squared: f64) -> f64 {
     let irradiance = lights::irradiance_from_point([intensity; 3], cosine, distance_squared);
     shade::matte_radiance([colour; 3], irradiance)[0]
+}
+
+const TURNED: &str = "the direction leads from the light to the surface; the opposite is meant";
+const CLOSE: &str = "a light close by counts as one at the very point; only a distance of 0 does";
+const TOO_MUCH: &str = "the light thins out too fast: a distance is divided by once too often, beside the d² there is \
+                        only the d of the \
+                        cosine";
+const SPHERE: &str = "the intensity is divided by 4π; it is what the light sends into each steradian already";
+
+fn right(input: &Input) -> f64 {
+    radiance(input, cosine(input))
+}
+
+fn lit(input: &Input) -> f64 {
+    cosine(input).max(0.0)
+}
+
+/// Thinned out with this power of the distance.
+fn faded(input: &Input, cosine: f64, power: i32) -> f64 {
+    sent(input, cosine, distance(input).powi(power))
 }

@@ -30,11 +30,6 @@ pub struct StageWords {
 /// What the reader writes.
 pub type Yours = fn(&[StageWords], &str) -> Vec<String>;
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::kept)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("kept", question, move |(stages, asked)| yours(stages, asked), mine)
@@ -48,7 +43,7 @@ fn question() -> Question<Input, Vec<String>> {
             let told: Vec<String> = stages.iter().map(told).collect();
             format!("asked for {asked}, of the stages\n               {}", told.join("\n               "))
         },
-        right: |input| by_the_plan(input).unwrap_or_default(),
+        right,
         apart: exact,
         allowed: 0.0,
         measured: "stages",
@@ -57,30 +52,96 @@ fn question() -> Question<Input, Vec<String>> {
             Mistake::new("whether anything reads what a stage writes is left out", |(stages, _)| {
                 named(stages, |stage| stage.needed)
             }),
-            Mistake::new("the stages come out last to first", |input| {
-                by_the_plan(input).unwrap_or_default().into_iter().rev().collect()
-            }),
+            Mistake::new("the stages come out last to first", |input| turned(right(input))),
             Mistake::new(
                 "a stage counts as read if an earlier one reads what it writes; only later ones can",
                 |input| by_rule(input, |stage| stage.needed, false),
             ),
+            Mistake::new(FORWARD, |input| forward(input, |stage| stage.needed)),
+            Mistake::new(FORWARD, |input| forward(input, |_| true)),
             Mistake::new(
-                "what a dropped stage reads is wanted too; only kept stages want anything",
-                |(stages, asked)| {
-                    let wanted = |at: usize, column: &String| {
-                        column == asked || stages[at + 1..].iter().any(|later| later.reads.contains(column))
-                    };
-                    let kept = |(at, stage): (usize, &StageWords)| {
-                        (stage.needed && stage.writes.iter().any(|column| wanted(at, column)))
-                            .then(|| stage.name.clone())
-                    };
-                    stages.iter().enumerate().filter_map(kept).collect()
+                "what a stage that the scene does not need reads is wanted too; only kept stages want anything",
+                |input| {
+                    let wanted = by_rule(input, |_| true, true);
+                    named(&input.0, |stage| stage.needed && wanted.contains(&stage.name))
                 },
             ),
+            Mistake::new(DROPPED, |input| read_by(input, |_| true, false)),
+            Mistake::new(DROPPED, |input| read_by(input, |later| later.needed, false)),
+            Mistake::new(DROPPED, |input| read_by(input, |later| later.needed, true)),
+            Mistake::new(
+                "the column asked for is not wanted at first, so that nothing is kept that only it needs",
+                |(stages, _)| right(&(stages.clone(), String::new())),
+            ),
+            Mistake::new(
+                "a stage is kept only if all that it writes is wanted; one wanted column is enough",
+                |input| {
+                    backward(input, |stage, wanted| stage.writes.iter().all(|column| wanted.contains(column)), KEEP)
+                },
+            ),
+            Mistake::new(
+                "a stage is kept only if all that it writes is wanted; one wanted column is enough",
+                |input| {
+                    let all = |stage: &StageWords, wanted: &[String]| {
+                        !stage.writes.is_empty() && stage.writes.iter().all(|column| wanted.contains(column))
+                    };
+                    backward(input, all, KEEP)
+                },
+            ),
+            Mistake::new("only the first column that a stage writes is looked at", |input| {
+                backward(input, |stage, wanted| stage.writes.first().is_some_and(|c| wanted.contains(c)), KEEP)
+            }),
+            Mistake::new(PROVIDED, |input| backward(input, writes_any, |stage, c| stage.writes.contains(c))),
+            Mistake::new(PROVIDED, |(stages, asked)| {
+                let (mut wanted, mut kept, mut at) = (vec![asked], vec![false; stages.len()], 0);
+                while at < wanted.len() {
+                    let writes = |stage: &StageWords| stage.needed && stage.writes.contains(wanted[at]);
+                    if let Some(first) = stages.iter().position(writes).filter(|&first| !kept[first]) {
+                        kept[first] = true;
+                        wanted.extend(&stages[first].reads);
+                    }
+                    at += 1;
+                }
+                stages.iter().zip(kept).filter(|(_, kept)| *kept).map(|(stage, _)| stage.name.clone()).collect()
+            }),
+            Mistake::new("only what the last kept stage reads is wanted; what the others read stays wanted", |input| {
+                backward(input, writes_any, |_, _| true)
+            }),
+            Mistake::new("what a stage reads and what it writes are swapped", |(stages, asked)| {
+                let swap = |stage: &StageWords| StageWords {
+                    reads: stage.writes.clone(),
+                    writes: stage.reads.clone(),
+                    ..stage.clone()
+                };
+                by_rule(&(stages.iter().map(swap).collect(), asked.clone()), |stage| stage.needed, true)
+            }),
+            Mistake::new("a stage is kept only if it reads what is wanted; it must write that", |input| {
+                backward(input, |stage, wanted| stage.reads.iter().any(|c| wanted.contains(c)), KEEP)
+            }),
             Mistake::new(
                 "only the stage that writes the column asked for is kept; it reads columns too",
                 |(stages, asked)| named(stages, |stage| stage.needed && stage.writes.contains(asked)),
             ),
+            Mistake::new(
+                "only the stages that those of the column asked for read are kept; these read columns in their turn",
+                |(stages, asked)| {
+                    let last = |stage: &&StageWords| stage.needed && stage.writes.contains(asked);
+                    let wanted: Vec<&String> = stages.iter().filter(last).flat_map(|stage| &stage.reads).collect();
+                    named(stages, |stage| {
+                        stage.needed && stage.writes.iter().any(|c| c == asked || wanted.contains(&c))
+                    })
+                },
+            ),
+            Mistake::new("the stages come out in another order; they are named in theirs", |input| {
+                let mut names = right(input);
+                names.sort_unstable();
+                names
+            }),
+            Mistake::new("the search ends at the first stage that is not kept; one before it may be", |input| {
+                let kept = right(input);
+                let ends = input.0.iter().rev().take_while(|stage| kept.contains(&stage.name)).count();
+                named(&input.0[input.0.len() - ends..], |_| true)
+            }),
         ],
         hints: &[
             "a stage is kept when the scene needs it and a kept stage after it, or the one who asks, reads what it \
@@ -201,4 +262,67 @@ fn told(stage: &StageWords) -> String {
     let list = |columns: &[String]| if columns.is_empty() { "nothing".into() } else { columns.join(", ") };
     let needed = if stage.needed { "needed" } else { "not needed" };
     format!("{}: {needed}, reads {}, writes {}", stage.name, list(&stage.reads), list(&stage.writes))
+}
+
+const FORWARD: &str =
+    "the stages are gone through first to last; who reads a column comes later, so begin with the last";
+const DROPPED: &str = "what a dropped stage reads is wanted too; only kept stages want anything";
+const PROVIDED: &str =
+    "a column counts as provided for once a stage writes it; every needed stage that writes it is kept";
+
+/// Wanted columns stay wanted.
+const KEEP: fn(&StageWords, &String) -> bool = |_, _| false;
+
+fn right(input: &Input) -> Vec<String> {
+    by_the_plan(input).unwrap_or_default()
+}
+
+fn turned(mut names: Vec<String>) -> Vec<String> {
+    names.reverse();
+    names
+}
+
+fn writes_any(stage: &StageWords, wanted: &[String]) -> bool {
+    stage.writes.iter().any(|column| wanted.contains(column))
+}
+
+/// From the last stage to the first: which of the needed ones are kept, and which columns are wanted no longer then.
+fn backward(
+    (stages, asked): &Input,
+    kept: fn(&StageWords, &[String]) -> bool,
+    no_longer: fn(&StageWords, &String) -> bool,
+) -> Vec<String> {
+    let (mut wanted, mut names) = (vec![asked.clone()], Vec::new());
+    for stage in stages.iter().rev().filter(|stage| stage.needed) {
+        if kept(stage, &wanted) {
+            names.push(stage.name.clone());
+            wanted.retain(|column| !no_longer(stage, column));
+            wanted.extend(stage.reads.iter().cloned());
+        }
+    }
+    turned(names)
+}
+
+/// In one round from the first stage to the last.
+fn forward((stages, asked): &Input, needed: fn(&StageWords) -> bool) -> Vec<String> {
+    let mut wanted = vec![asked.clone()];
+    let mut kept = |stage: &StageWords| {
+        let kept = needed(stage) && writes_any(stage, &wanted);
+        wanted.extend(stage.reads.iter().filter(|_| kept).cloned());
+        kept
+    };
+    let kept: Vec<&StageWords> = stages.iter().filter(|stage| kept(stage)).collect();
+    kept.into_iter().map(|stage| stage.name.clone()).collect()
+}
+
+/// The needed stages that write what is asked for, or what another reads that counts: one after them, or any.
+fn read_by((stages, asked): &Input, counts: fn(&StageWords) -> bool, any: bool) -> Vec<String> {
+    let wanted = |at: usize, column: &String| {
+        let others = if any { &stages[..] } else { &stages[at + 1..] };
+        column == asked || others.iter().any(|other| counts(other) && other.reads.contains(column))
+    };
+    let kept = |(at, stage): (usize, &StageWords)| {
+        (stage.needed && stage.writes.iter().any(|column| wanted(at, column))).then(|| stage.name.clone())
+    };
+    stages.iter().enumerate().filter_map(kept).collect()
 }

@@ -4,7 +4,7 @@ use super::mine::mine;
 use glam::{DVec3, Vec3};
 use pinhole::shapes::Slabs;
 use pinhole_lab::exercise::apart::{option, relative};
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::oracle_cuboid::cuboid_hit;
 use pinhole_lab::measure::ray_aim::Draws;
 
@@ -14,11 +14,6 @@ pub(super) type Answer = Option<f64>;
 
 /// What the reader writes.
 pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], [f64; 3]) -> Answer;
-
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::nearest_box_t)
-}
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
@@ -38,32 +33,143 @@ fn question() -> Question<Input, Answer> {
         allowed: 1e-12,
         measured: "of t",
         mistakes: vec![
-            Mistake::new("what lies behind the origin is hit too: only t above 0 counts", |input| {
-                passed(input, Along::Given).map(|[enters, _]| enters)
+            Mistake::new(BEHIND, |i| by_slabs(i, Zero::Checked, &sorted, &common).map(|[enters, _]| enters)),
+            Mistake::new(BEHIND, |i| {
+                by_slabs(i, Zero::Checked, &sorted, &common)
+                    .map(|[enters, leaves]| if enters > 0.0 { enters } else { leaves })
+            }),
+            Mistake::new("from inside, nothing is hit: the ray entered behind the origin, but it leaves ahead", |i| {
+                by_slabs(i, Zero::Checked, &sorted, &common).map(|[enters, _]| enters).filter(|&t| t > 0.0)
+            }),
+            Mistake::new("from inside, the origin counts as the hit; the ray hits the box where it leaves", |i| {
+                by_slabs(i, Zero::Checked, &sorted, &common).filter(|t| t[1] >= 0.0).map(|[enters, _]| enters.max(0.0))
+            }),
+            Mistake::new("the far side is taken where the near one is ahead", |i| {
+                by_slabs(i, Zero::Checked, &sorted, &common).map(|[_, leaves]| leaves).filter(|&t| t > 0.0)
+            }),
+            Mistake::new("t = 0 counts as a hit; only t above 0 does", |i| {
+                by_slabs(i, Zero::Checked, &sorted, &common)?.into_iter().find(|&t| t >= 0.0)
             }),
             Mistake::new(
-                "from inside, nothing is hit: the ray entered behind the origin, but it leaves ahead",
-                |input| passed(input, Along::Given).map(|[enters, _]| enters).filter(|&t| t > 0.0),
+                "the slab is entered at its smaller coordinate; where the direction is negative it is left there",
+                |i| ahead(by_slabs(i, Zero::Divided, &|t, _| t, &common)),
             ),
-            Mistake::new("the far side is taken where the near one is ahead", |input| {
-                passed(input, Along::Given).map(|[_, leaves]| leaves).filter(|&t| t > 0.0)
+            Mistake::new(
+                "the slab is entered at its smaller coordinate; where the direction is negative it is left there",
+                |i| ahead(by_slabs(i, Zero::Checked, &|t, _| t, &common)),
+            ),
+            Mistake::new(
+                "the slab is entered at its larger coordinate; where the direction is positive it is left there",
+                |i| ahead(by_slabs(i, Zero::Checked, &|[low, high], _| [high, low], &common)),
+            ),
+            Mistake::new(MINUS_0, |i| {
+                ahead(by_slabs(
+                    i,
+                    Zero::Divided,
+                    &|[low, high], d| if d >= 0.0 { [low, high] } else { [high, low] },
+                    &common,
+                ))
             }),
-            Mistake::new("a ray in the plane of a face divides 0 by 0, and what is not a number loses it", |input| {
-                passed(input, Along::Divided)?.into_iter().find(|&t| t > 0.0)
+            Mistake::new(MINUS_0, |i| {
+                ahead(by_slabs(
+                    i,
+                    Zero::Divided,
+                    &|[low, high], d| if d > 0.0 { [low, high] } else { [high, low] },
+                    &common,
+                ))
+            }),
+            Mistake::new(UNION, |i| {
+                ahead(by_slabs(i, Zero::Divided, &sorted, &|a, b| [a[0].min(b[0]), a[1].max(b[1])]))
+            }),
+            Mistake::new(UNION, |i| {
+                ahead(by_slabs(i, Zero::Skipped, &sorted, &|a, b| [a[0].min(b[0]), a[1].max(b[1])]))
             }),
             Mistake::new(
-                "a ray along a face is taken for one that misses: between the faces, all t will do",
-                |input| passed(input, Along::Missed)?.into_iter().find(|&t| t > 0.0),
+                "the ray is inside until it leaves the last slab; it leaves the box with the first slab",
+                |i| {
+                    ahead(by_slabs(i, Zero::Checked, &sorted, &|a, b| {
+                        [a[0].max(b[0]), if a[1].is_infinite() { b[1] } else { a[1].max(b[1]) }]
+                    }))
+                },
+            ),
+            Mistake::new(
+                "the ray is inside from where it enters the first slab; it enters the box with the last slab",
+                |i| {
+                    ahead(by_slabs(i, Zero::Checked, &sorted, &|a, b| {
+                        [if a[0].is_infinite() { b[0] } else { a[0].min(b[0]) }, a[1].min(b[1])]
+                    }))
+                },
+            ),
+            Mistake::new("an axis along which the direction is 0 is left out; the ray may run beside that slab", |i| {
+                ahead(by_slabs(i, Zero::Skipped, &sorted, &common))
+            }),
+            Mistake::new("whether the ray leaves before it enters is never asked; then it misses the box", |i| {
+                in_order(spans(i, Zero::Checked, &sorted, &common)?)
+            }),
+            Mistake::new("whether the ray leaves before it enters is never asked; then it misses the box", |i| {
+                in_order(spans(i, Zero::Divided, &sorted, &common)?)
+            }),
+            Mistake::new(EDGES, |i| {
+                ahead(by_slabs(i, Zero::Checked, &sorted, &common).filter(|[enters, leaves]| enters < leaves))
+            }),
+            Mistake::new(EDGES, |i| faces_hit(i, |least, at, most| least < at && at < most).reduce(f64::min)),
+            Mistake::new(
+                "the direction is brought to length 1 and t is left so; t counts in lengths of the direction as it \
+                 was given",
+                |i| ahead(by_slabs(i, Zero::Checked, &sorted, &common)).map(|t| t * DVec3::from(i.1).length()),
+            ),
+            Mistake::new("z is left out: a box has three slabs", |i| {
+                let far = |v: [f64; 3], z| [v[0], v[1], z];
+                ahead(by_slabs(
+                    &(i.0, far(i.1, 0.0), far(i.2, f64::MIN), far(i.3, f64::MAX)),
+                    Zero::Checked,
+                    &sorted,
+                    &common,
+                ))
+            }),
+            Mistake::new(IN_FACE, |i| ahead(by_slabs(i, Zero::Divided, &sorted, &common))),
+            Mistake::new(IN_FACE, |i| ahead(by_slabs(i, Zero::Lost, &sorted, &common))),
+            Mistake::new(IN_FACE, |i| ahead(by_slabs(i, Zero::Within, &sorted, &common))),
+            Mistake::new(IN_FACE, |i| {
+                let larger = |a: f64, b: f64| if b > a || a.is_nan() { b } else { a };
+                ahead(by_slabs(i, Zero::Divided, &|[a, b], _| if a > b { [b, a] } else { [a, b] }, &|a, b| {
+                    [larger(a[0], b[0]), -larger(-a[1], -b[1])]
+                }))
+            }),
+            Mistake::new(
+                "a direction of 0 along an axis is taken for a miss: between that axis's faces, all t will do",
+                |i| ahead(by_slabs(i, Zero::Missed, &sorted, &common)),
             ),
             Mistake::new(
                 "the ray is not yet inside where it enters the first slab, only where it enters the last slab",
                 |input| {
                     let &(o, d, least, most) = input;
-                    passed(input, Along::Given)?;
+                    by_slabs(input, Zero::Checked, &sorted, &common)?;
                     let near =
                         |axis: usize| f64::min((least[axis] - o[axis]) / d[axis], (most[axis] - o[axis]) / d[axis]);
                     (0..3).filter(|&axis| d[axis] != 0.0).map(near).filter(|&t| t > 0.0).reduce(f64::min)
                 },
+            ),
+            Mistake::new(
+                "the nearest of the six planes counts, though the ray may hit it beside the box",
+                |&(o, d, l, m)| {
+                    let of_axis = |axis: usize| [l, m].map(|face| (face[axis] - o[axis]) / d[axis]);
+                    (0..3).flat_map(of_axis).filter(|t| *t > 0.0 && t.is_finite()).reduce(f64::min)
+                },
+            ),
+            Mistake::new(BEHIND, |i| {
+                by_slabs(i, Zero::Checked, &sorted, &common).filter(|t| t[1] > 0.0).map(|[enters, _]| enters)
+            }),
+            Mistake::new(BEHIND, |i| {
+                by_slabs(i, Zero::Checked, &sorted, &common).map(|[enters, leaves]| enters.abs().min(leaves.abs()))
+            }),
+            Mistake::new(
+                "the first or last face that is found counts; the ray hits two of them, and the nearer one is meant",
+                |i| faces_hit(i, |least, at, most| least <= at && at <= most).last(),
+            ),
+            Mistake::new(
+                "the first or last face that is found counts; the ray hits two of them, and the nearer one is meant",
+                |i| faces_hit(i, |least, at, most| least <= at && at <= most).next(),
             ),
         ],
         hints: &[
@@ -80,29 +186,82 @@ fn question() -> Question<Input, Answer> {
 
 /// What is done with a direction that is 0 along an axis.
 #[derive(Clone, Copy, PartialEq)]
-enum Along {
-    Given,
+enum Zero {
+    /// Whether the ray runs between the faces, or in one.
+    Checked,
+    /// The same, but not in one.
+    Within,
+    /// Divided by, and what is not a number is passed over.
     Divided,
+    /// Divided by, and what is not a number is a miss.
+    Lost,
+    Skipped,
     Missed,
 }
 
-/// From where to where a ray is inside a box, whatever lies behind it.
-fn passed(&(o, d, least, most): &Input, along: Along) -> Option<[f64; 2]> {
-    let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
+/// From where to where a ray is inside: of each slab's quotients, and of the slabs together.
+fn spans(
+    &(o, d, least, most): &Input,
+    zero: Zero,
+    of_slab: &dyn Fn([f64; 2], f64) -> [f64; 2],
+    together: &dyn Fn([f64; 2], [f64; 2]) -> [f64; 2],
+) -> Option<[f64; 2]> {
+    let mut span: Option<[f64; 2]> = None;
     for axis in 0..3 {
-        if d[axis] == 0.0 && along != Along::Divided {
-            if along == Along::Missed || o[axis] < least[axis] || o[axis] > most[axis] {
-                return None;
+        if d[axis] == 0.0 && !matches!(zero, Zero::Divided | Zero::Lost) {
+            let outside = o[axis] < least[axis] || o[axis] > most[axis];
+            let in_face = o[axis] == least[axis] || o[axis] == most[axis];
+            match zero {
+                Zero::Missed => return None,
+                Zero::Checked | Zero::Within if outside => return None,
+                Zero::Within if in_face => return None,
+                _ => continue,
             }
-            continue;
         }
-        let [low, high] = [(least[axis] - o[axis]) / d[axis], (most[axis] - o[axis]) / d[axis]];
-        if low.is_nan() || high.is_nan() {
+        let quotients = [least, most].map(|face| (face[axis] - o[axis]) / d[axis]);
+        if zero == Zero::Lost && quotients.iter().any(|t| t.is_nan()) {
             return None;
         }
-        (enters, leaves) = (enters.max(low.min(high)), leaves.min(low.max(high)));
+        let slab = of_slab(quotients, d[axis]);
+        span = Some(span.map_or(slab, |span| together(span, slab)));
     }
-    (enters <= leaves).then_some([enters, leaves])
+    span
+}
+
+/// The same, and nothing where the ray leaves before it enters.
+fn by_slabs(
+    input: &Input,
+    zero: Zero,
+    of_slab: &dyn Fn([f64; 2], f64) -> [f64; 2],
+    together: &dyn Fn([f64; 2], [f64; 2]) -> [f64; 2],
+) -> Option<[f64; 2]> {
+    spans(input, zero, of_slab, together).filter(|[enters, leaves]| enters <= leaves)
+}
+
+fn sorted([low, high]: [f64; 2], _: f64) -> [f64; 2] {
+    [low.min(high), low.max(high)]
+}
+
+fn common(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].max(b[0]), a[1].min(b[1])]
+}
+
+fn in_order(span: [f64; 2]) -> Answer {
+    span.into_iter().find(|&t| t > 0.0)
+}
+
+fn ahead(span: Option<[f64; 2]>) -> Answer {
+    in_order(span?)
+}
+
+/// Where the ray hits a face, face by face: whether a coordinate is between the other faces is told by a function.
+fn faces_hit(&(o, d, least, most): &Input, between: fn(f64, f64, f64) -> bool) -> impl Iterator<Item = f64> {
+    let faces = (0..3).flat_map(move |axis| [least, most].map(|face| (axis, (face[axis] - o[axis]) / d[axis])));
+    let is_hit = move |&(axis, t): &(usize, f64)| {
+        let is_within = |other| other == axis || between(least[other], o[other] + t * d[other], most[other]);
+        t > 0.0 && t.is_finite() && (0..3).all(is_within)
+    };
+    faces.filter(is_hit).map(|(_, t)| t)
 }
 
 fn asked() -> Vec<Probe<Input>> {
@@ -124,18 +283,29 @@ fn asked() -> Vec<Probe<Input>> {
         "a zero below zero",
         [at([0.25, 0.5, 0.0], [-0.0, -0.0, -1.0]), at([-3.0, 0.5, -3.0], [1.0, -0.0, 0.0])],
     ));
+    asked.extend(probes("beside a face", [at([1.125, 0.5, 0.0], [0.0, 0.0, -1.0])]));
+    asked
+        .extend(probes("at an edge", [at([3.0, 0.0, 0.0], [-1.0, 0.0, -1.0]), at([0.0, 4.0, 0.0], [0.0, -1.0, -1.0])]));
     asked.extend(probes(
+        "touching an edge",
+        [at([0.0, 3.0, -3.0], [1.0, -1.0, 0.0]), at([0.0, 0.0, -5.0], [-1.0, 0.0, 1.0])],
+    ));
+    asked.extend(probes("from a face, outward", [at([1.0, 0.0, -3.0], [1.0, 0.0, 0.0])]));
+    asked.extend(probes("from a face, inward", [at([1.0, 0.0, -3.0], [-1.0, 0.0, 0.0])]));
+    let (in_faces, others): (Vec<Input>, _) = (0..200).map(drawn).partition(is_in_face);
+    asked.extend(probes("anything", others));
+    asked.extend(extremes(
         "along a face",
         [at([1.0, 0.5, 0.0], [0.0, 0.0, -1.0]), at([-3.0, 2.0, -3.0], [1.0, -0.0, 0.0])],
     ));
-    asked.extend(probes("beside a face", [at([1.125, 0.5, 0.0], [0.0, 0.0, -1.0])]));
-    asked.extend(probes("along an edge", [at([1.0, 2.0, 0.0], [0.0, 0.0, -1.0])]));
+    asked.extend(extremes("along an edge", [at([1.0, 2.0, 0.0], [0.0, 0.0, -1.0])]));
+    asked.extend(extremes("anything in the plane of a face", in_faces));
     asked
-        .extend(probes("at an edge", [at([3.0, 0.0, 0.0], [-1.0, 0.0, -1.0]), at([0.0, 4.0, 0.0], [0.0, -1.0, -1.0])]));
-    asked.extend(probes("from a face, outward", [at([1.0, 0.0, -3.0], [1.0, 0.0, 0.0])]));
-    asked.extend(probes("from a face, inward", [at([1.0, 0.0, -3.0], [-1.0, 0.0, 0.0])]));
-    asked.extend(probes("anything", (0..200).map(drawn)));
-    asked
+}
+
+/// Whether the ray runs in the plane of a face, where the textbook's formula divides 0 by 0.
+fn is_in_face(&(o, d, least, most): &Input) -> bool {
+    (0..3).any(|axis| d[axis] == 0.0 && (o[axis] == least[axis] || o[axis] == most[axis]))
 }
 
 /// A box and a ray of numbers with few digits, mostly at it; directions are powers of two or 0, so that no quotient rounds.
@@ -164,3 +334,12 @@ fn slabs(least: [f64; 3], most: [f64; 3]) -> Slabs {
     let half = (most - least) / 2.0;
     Slabs::new((least + most) / 2.0, DVec3::AXES, [DVec3::X * half.x, DVec3::Y * half.y, DVec3::Z * half.z])
 }
+
+const BEHIND: &str = "what lies behind the origin is hit too: only t above 0 counts";
+const MINUS_0: &str = "near and far are told apart by the direction's sign, which a zero below zero has not when it \
+                       is compared: take \
+                       the smaller and the larger quotient";
+const UNION: &str = "the ray is taken to be inside while any slab has it; the box is what all three have in common";
+const IN_FACE: &str =
+    "a ray in the plane of a face is lost: 0 by 0 is not a number, or what lies in that plane is taken to be outside";
+const EDGES: &str = "a ray through an edge or in a face is lost: they belong to the box, so compare with ≤";

@@ -1,7 +1,7 @@
 //! Chapter 18: the variance of a pixel from run to run, and the square of its bias.
 
 use pinhole_lab::exercise::apart::option;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// Runs, truth.
@@ -14,11 +14,6 @@ const NOT_SEEN: &str = "variance_and_bias_squared stands in no stage: it compare
 
 /// What the reader writes.
 pub type Yours = fn(&[f64], f64) -> Answer;
-
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::variance_and_bias_squared)
-}
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
@@ -35,35 +30,119 @@ fn question() -> Question<Input, Answer> {
         allowed: 1e-9,
         measured: "of the two numbers together",
         mistakes: vec![
-            Mistake::new("one run tells no variance, and none tells nothing: the answer there is None", |input| {
-                answer(input, variance, pairs).or_else(|| Some([0.0, square(&off(input))]))
+            Mistake::new(NONE, |i| answer(i, variance, pairs).or_else(|| Some([0.0, square(&off(i))]))),
+            Mistake::new(NONE, |i| answer(i, variance, pairs).or(Some([0.0, 0.0]))),
+            Mistake::new(NONE, |i| answer(i, variance, pairs).or(Some([f64::NAN; 2]))),
+            Mistake::new(NONE, |i| {
+                answer(i, variance, pairs).or_else(|| (i.0.len() == 1).then(|| [0.0, square(&off(i))]))
+            }),
+            Mistake::new(NONE, |i| answer(i, variance, pairs).or_else(|| (i.0.len() == 1).then_some([0.0; 2]))),
+            Mistake::new(NONE, |i| answer(i, variance, pairs).or_else(|| (i.0.len() == 1).then_some([f64::NAN; 2]))),
+            Mistake::new("two runs tell nothing; they tell both numbers, if roughly", |i| {
+                answer(i, variance, pairs).filter(|_| i.0.len() > 2)
             }),
             Mistake::new(
                 "the variance is divided by the number of runs; their mean lies amid them, so it comes out too small, and one \
                  less is right",
-                |input| {
-                    answer(input, |input| variance(input) * (input.0.len() - 1) as f64 / input.0.len() as f64, pairs)
-                },
+                |i| answer(i, |i| variance(i) * (count(i) - 1.0) / count(i), pairs),
+            ),
+            Mistake::new("the variance is not divided: it is the sum over one less than the number of runs", |i| {
+                answer(i, |i| variance(i) * (count(i) - 1.0), pairs)
+            }),
+            Mistake::new("this is the variance of the mean of all runs; that of one run is asked for", |i| {
+                answer(i, |i| variance(i) / count(i), pairs)
+            }),
+            Mistake::new("this is the standard deviation; the variance is its square", |i| {
+                answer(i, |i| variance(i).sqrt(), pairs)
+            }),
+            Mistake::new(TRUTH, |i| answer(i, about_truth, pairs)),
+            Mistake::new(TRUTH, |i| answer(i, |i| about_truth(i) * (count(i) - 1.0) / count(i), pairs)),
+            Mistake::new("the distances are not squared; without that they cancel or are no variance", |i| {
+                answer(i, |i| spread(i, f64::abs), pairs)
+            }),
+            Mistake::new("the distances are not squared; without that they cancel or are no variance", |i| {
+                answer(i, |i| spread(i, |off| off), pairs)
+            }),
+            Mistake::new(SELF, |i| answer(i, variance, |i| square(&off(i)))),
+            Mistake::new(SELF, |i| answer(i, variance, |i| square(&off(i)) * count(i) / (count(i) - 1.0))),
+            Mistake::new(
+                "bias² is the mean of squared distances from the truth; only pairs of two different runs count",
+                |i| answer(i, variance, |i| about_truth(i) * (count(i) - 1.0) / count(i)),
+            ),
+            Mistake::new(NOT_ALL, |i| answer(i, variance, |i| square(&off(i)) - variance(i))),
+            Mistake::new(
+                "the square of the mean's distance is lessened by the variance over n − 1 or by one that is too small; it is \
+                 too large by variance / n",
+                |i| answer(i, variance, |i| square(&off(i)) - variance(i) / (count(i) - 1.0)),
             ),
             Mistake::new(
-                "the variance is taken about the truth; it is the scatter about the runs' own mean",
-                |input| answer(input, about_truth, pairs),
+                "the square of the mean's distance is lessened by the variance over n − 1 or by one that is too small; it is \
+                 too large by variance / n",
+                |i| answer(i, variance, |i| square(&off(i)) - variance(i) * (count(i) - 1.0) / count(i) / count(i)),
             ),
             Mistake::new(
-                "bias² is the square of the mean's distance from the truth, or pairs a run with itself: a part of the \
-                 variance is left in it",
-                |input| answer(input, variance, |input| square(&off(input))),
+                "the variance over n is added to the square of the mean's distance; it is in it already: subtract it",
+                |i| answer(i, variance, |i| square(&off(i)) + variance(i) / count(i)),
             ),
-            Mistake::new("a bias² below 0 is cut off; then its mean over many pixels is too large", |input| {
-                answer(input, variance, |input| pairs(input).max(0.0))
+            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) / 2.0)),
+            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * 2.0)),
+            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * (count(i) - 1.0) / count(i))),
+            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * (count(i) - 1.0) / count(i) / 2.0)),
+            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * count(i) / (count(i) - 1.0))),
+            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * (count(i) - 1.0))),
+            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * (count(i) - 1.0) / 2.0)),
+            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * (count(i) - 1.0) * count(i))),
+            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * (count(i) - 1.0) * count(i) / 2.0)),
+            Mistake::new(NEXT, |i| answer(i, variance, |i| neighbours(i, 1) / (count(i) - 1.0))),
+            Mistake::new(NEXT, |i| answer(i, variance, |i| neighbours(i, 1) / count(i))),
+            Mistake::new(NEXT, |i| answer(i, variance, |i| neighbours(i, 1) / (count(i) * (count(i) - 1.0)))),
+            Mistake::new(NEXT, |i| answer(i, variance, |i| neighbours(i, 0) / count(i))),
+            Mistake::new("the truth is left out of bias²: the products are those of the distances from it", |i| {
+                answer(i, variance, |(runs, _)| pairs(&(runs.clone(), 0.0)))
+            }),
+            Mistake::new("bias² is taken about the runs' own mean; it tells how far they lie from the truth", |i| {
+                answer(i, variance, |(runs, _)| pairs(&(runs.clone(), mean(runs))))
+            }),
+            Mistake::new("this is the bias, not its square", |i| answer(i, variance, |i| mean(&off(i)))),
+            Mistake::new("this is the bias, not its square", |i| answer(i, variance, |i| mean(&off(i)).abs())),
+            Mistake::new("a bias² below 0 is cut off; then its mean over many pixels is too large", |i| {
+                answer(i, variance, |i| pairs(i).max(0.0))
+            }),
+            Mistake::new("a bias² below 0 has lost its sign; then its mean over many pixels is too large", |i| {
+                answer(i, variance, |i| pairs(i).abs())
+            }),
+            Mistake::new(BY_SQUARES, |i| answer(i, by_squares, pairs)),
+            Mistake::new(
+                "the mean is taken before the truth is: where the noise is small against the value, its rounding is \
+                 all of the bias",
+                |i| answer(i, variance, |i| (mean(&i.0) - i.1) * (mean(&i.0) - i.1) - variance(i) / count(i)),
+            ),
+            Mistake::new("the two numbers are swapped", |i| {
+                answer(i, variance, pairs).map(|[variance, bias]| [bias, variance])
             }),
             Mistake::new(
-                "the variance is the mean of squares less the square of the mean: where the noise is small against the value, \
-                 nothing is left but rounding",
-                |input| answer(input, by_squares, pairs),
+                "the variance is divided by the number of runs instead of one less, and a part of the variance is \
+                 left in bias²",
+                |i| answer(i, |i| variance(i) * (count(i) - 1.0) / count(i), |i| square(&off(i))),
             ),
-            Mistake::new("the two numbers are swapped", |input| {
-                answer(input, variance, pairs).map(|[variance, bias]| [bias, variance])
+            Mistake::new(
+                "the variance is taken about the truth, and a part of the variance is left in bias², which pairs \
+                 different runs",
+                |i| answer(i, about_truth, |i| square(&off(i))),
+            ),
+            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * count(i))),
+            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * count(i) / 2.0)),
+            Mistake::new(NOT_ALL, |i| {
+                answer(i, variance, |i| square(&off(i)) - variance(i) * (count(i) - 1.0) / count(i))
+            }),
+            Mistake::new(BY_SQUARES, |i| {
+                answer(i, |i| by_sums(i, |squares, sum, n| (squares - sum * sum / n) / (n - 1.0)), pairs)
+            }),
+            Mistake::new(BY_SQUARES, |i| {
+                answer(i, |i| by_sums(i, |squares, sum, n| (squares - n * (sum / n) * (sum / n)) / (n - 1.0)), pairs)
+            }),
+            Mistake::new(BY_SQUARES, |i| {
+                answer(i, |i| by_sums(i, |squares, sum, n| (squares - n * (sum / n * (sum / n))) / (n - 1.0)), pairs)
             }),
         ],
         hints: &[
@@ -104,7 +183,7 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("runs that agree", [(vec![0.25; 5], 0.25), (vec![0.5; 4], 0.25)]));
     asked.extend(probes("a single run", [(vec![0.5], 0.25)]));
     asked.extend(probes("no run at all", [(vec![], 0.25)]));
-    asked.extend(probes("a value of about 1e9 with noise of about 1", scattered(1803, 1e9, 0.0)));
+    asked.extend(extremes("a value of about 1e9 with noise of about 1", scattered(1803, 1e9, 0.0)));
     asked
 }
 
@@ -125,9 +204,7 @@ fn square(values: &[f64]) -> f64 {
 }
 
 fn variance(input: &Input) -> f64 {
-    let off = off(input);
-    let mean = mean(&off);
-    off.iter().map(|off| (off - mean) * (off - mean)).sum::<f64>() / (off.len() - 1) as f64
+    spread(input, |off| off * off)
 }
 
 /// Pair by pair, as the words have it.
@@ -144,8 +221,41 @@ fn about_truth(input: &Input) -> f64 {
     off(input).iter().map(|off| off * off).sum::<f64>() / (input.0.len() - 1) as f64
 }
 
-fn by_squares((runs, _): &Input) -> f64 {
-    let n = runs.len() as f64;
-    let squares: f64 = runs.iter().map(|run| run * run).sum();
-    (squares / n - square(runs)) * n / (n - 1.0)
+fn by_squares(input: &Input) -> f64 {
+    by_sums(input, |squares, sum, n| (squares / n - sum / n * (sum / n)) * n / (n - 1.0))
+}
+
+/// A function of the sum of squares, the sum and the number of runs.
+fn by_sums((runs, _): &Input, made: fn(f64, f64, f64) -> f64) -> f64 {
+    made(runs.iter().map(|run| run * run).sum(), runs.iter().sum(), runs.len() as f64)
+}
+
+const NONE: &str = "one run tells no variance, and none tells nothing: the answer there is None";
+const TRUTH: &str = "the variance is taken about the truth; it is the scatter about the runs' own mean";
+const SELF: &str = "bias² is the square of the mean's distance from the truth, or pairs a run with itself: a part of \
+                    the variance is \
+                    left in it";
+const NOT_ALL: &str =
+    "the whole variance is taken off the square of the mean's distance, which is too large by variance / n only";
+const COUNT: &str = "the pairs are miscounted: n runs make n (n − 1) ordered pairs of two different ones, or half as \
+                     many without order";
+const BY_SQUARES: &str = "the variance is the mean of squares less the square of the mean: where the noise is small \
+                          against the value, nothing is left but rounding";
+const NEXT: &str = "only neighbours are paired; every run makes a pair with every other";
+
+fn count((runs, _): &Input) -> f64 {
+    runs.len() as f64
+}
+
+/// The sum over one less than the number of runs, of what is made of the distances from their mean.
+fn spread(input: &Input, made: fn(f64) -> f64) -> f64 {
+    let off = off(input);
+    let mean = mean(&off);
+    off.iter().map(|off| made(off - mean)).sum::<f64>() / (off.len() - 1) as f64
+}
+
+/// The sum of the products of each run and the next: up to the last but one, or of the last and the first, too.
+fn neighbours(input: &Input, but: usize) -> f64 {
+    let off = off(input);
+    (0..off.len() - but).map(|at| off[at] * off[(at + 1) % off.len()]).sum()
 }

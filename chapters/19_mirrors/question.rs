@@ -14,11 +14,6 @@ pub(super) type Input = (Vector, Vector);
 /// What the reader writes.
 pub type Yours = fn(Vector, Vector) -> Vector;
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::mirrored)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("mirrored", question, move |&(direction, normal)| yours(direction, normal), mine)
@@ -34,21 +29,71 @@ fn question() -> Question<Input, Vector> {
         allowed: 1e-12,
         measured: "in a part",
         mistakes: vec![
-            Mistake::new("the normal is taken for a unit vector: divide by n · n", |input| {
-                mirror_direction(input.0.into(), input.1.into()).into()
-            }),
+            Mistake::new("the normal is taken for a unit vector: divide by n · n", |input| turned(input, -2.0, 0)),
+            Mistake::new(
+                "what comes out is divided by the normal's length once, but n is in the formula twice: divide by n · n",
+                |input| turned(input, -2.0, 1),
+            ),
+            Mistake::new(
+                "the normal's length is divided out too often: n is in the formula twice, so divide by n · n",
+                |input| turned(input, -2.0, 3),
+            ),
+            Mistake::new(
+                "the normal's length is divided out too often: n is in the formula twice, so divide by n · n",
+                |input| turned(input, -2.0, 4),
+            ),
+            Mistake::new(
+                "the result is normalised instead of the normal; that does not undo the normal's length",
+                |input| DVec3::from(turned(input, -2.0, 0)).normalize().into(),
+            ),
             Mistake::new(
                 "what comes out goes into the mirror: it is d − 2 (d · n) n, not 2 (d · n) n − d",
-                |input| (-mirror_direction(input.0.into(), unit(input))).into(),
+                |input| negative(turned(input, -2.0, 2)),
+            ),
+            Mistake::new(
+                "what comes out goes into the mirror: it is d − 2 (d · n) n, not 2 (d · n) n − d",
+                |input| negative(turned(input, -2.0, 0)),
             ),
             Mistake::new("the 2 is missing: the part along the normal is taken off, and not turned round", |input| {
-                let (direction, normal) = (DVec3::from(input.0), unit(input));
-                (direction - direction.dot(normal) * normal).into()
+                turned(input, -1.0, 2)
             }),
-            Mistake::new("the direction is sent back where it came from", |input| input.0.map(|part| -part)),
+            Mistake::new("the 2 is missing: the part along the normal is taken off, and not turned round", |input| {
+                turned(input, -1.0, 0)
+            }),
+            Mistake::new("the part along the normal is taken off four times; twice turns it round", |input| {
+                turned(input, -4.0, 2)
+            }),
+            Mistake::new("the part along the normal is added; it is taken off twice: d − 2 (d · n) n", |input| {
+                turned(input, 2.0, 2)
+            }),
+            Mistake::new("the part along the normal is added; it is taken off twice: d − 2 (d · n) n", |input| {
+                turned(input, 2.0, 0)
+            }),
+            Mistake::new(
+                "d · n is missing: the normal is to be multiplied by the length of the part along it",
+                |input| (DVec3::from(input.0) + 2.0 * unit(input)).into(),
+            ),
+            Mistake::new(
+                "d · n is missing: the normal is to be multiplied by the length of the part along it",
+                |input| (DVec3::from(input.0) - 2.0 * unit(input)).into(),
+            ),
+            Mistake::new("the signs are mixed: it is d − 2 (d · n) n, with d in both places", |input| {
+                negative(turned(input, 2.0, 2))
+            }),
+            Mistake::new("the direction is sent back where it came from", |input| negative(input.0)),
+            Mistake::new("the direction goes on through the mirror as it came", |input| input.0),
+            Mistake::new("only y is turned round; the normal may point anywhere", |&([x, y, z], _)| [x, -y, z]),
             Mistake::new("from behind a mirror works too; no sign of d · n needs to be asked for", |input| {
-                let (direction, normal) = (DVec3::from(input.0), unit(input));
-                (direction + 2.0 * direction.dot(normal).abs() * normal).into()
+                if facing(input) > 0.0 { turned(input, 2.0, 2) } else { turned(input, -2.0, 2) }
+            }),
+            Mistake::new("from behind a mirror works too; no sign of d · n needs to be asked for", |input| {
+                if facing(input) > 0.0 { input.0 } else { turned(input, -2.0, 2) }
+            }),
+            Mistake::new("from behind a mirror works too; no sign of d · n needs to be asked for", |input| {
+                if facing(input) > 0.0 { [0.0; 3] } else { turned(input, -2.0, 2) }
+            }),
+            Mistake::new("the absolute value of d · n is taken off; the sign of d · n must stay", |input| {
+                if facing(input) > 0.0 { turned(input, -2.0, 2) } else { turned(input, 2.0, 2) }
             }),
         ],
         hints: &[
@@ -62,6 +107,20 @@ fn question() -> Question<Input, Vector> {
 
 fn unit(input: &Input) -> DVec3 {
     DVec3::from(input.1).normalize()
+}
+
+fn facing(&(direction, normal): &Input) -> f64 {
+    DVec3::from(direction).dot(normal.into())
+}
+
+fn negative(direction: Vector) -> Vector {
+    direction.map(|part| -part)
+}
+
+/// d + factor (d · n) n over a power of the normal's length.
+fn turned(input: &Input, factor: f64, power: i32) -> Vector {
+    let (direction, normal) = (DVec3::from(input.0), DVec3::from(input.1));
+    (direction + factor * facing(input) / normal.length().powi(power) * normal).into()
 }
 
 fn asked() -> Vec<Probe<Input>> {

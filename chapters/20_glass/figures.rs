@@ -1,10 +1,16 @@
 //! The figures of chapter 20, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, fresnel, materials, path_mistakes};
+use pinhole_lab::figure::{Figure, fresnel, materials, path_mistakes, refraction};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
     vec![
+        Figure {
+            name: "20_refraction",
+            chapter,
+            about: "a ray at a surface of glass: reflected, refracted, and the parts that Snell's law is about",
+            draw: refraction::draw,
+        },
         Figure {
             name: "20_glass",
             chapter,

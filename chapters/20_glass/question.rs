@@ -14,11 +14,6 @@ pub(super) type Input = (Vector, Vector, f64);
 /// What the reader writes.
 pub type Yours = fn(Vector, Vector, f64) -> Option<Vector>;
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::refracted)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("refracted", question, move |&(direction, normal, eta)| yours(direction, normal, eta), mine)
@@ -38,29 +33,108 @@ fn question() -> Question<Input, Option<Vector>> {
         mistakes: vec![
             Mistake::new("the root of a negative number is NaN: ask before you take it, and answer None", |i| {
                 let (d, n) = (DVec3::from(i.0), DVec3::from(i.1));
-                let cosine = -d.dot(n);
-                let root = (i.2 * i.2 - 1.0 + cosine * cosine).sqrt();
-                Some(((d + (cosine - root) * n) / i.2).into())
+                Some(((d + (cosine(i) - squared(i).sqrt()) * n) / i.2).into())
             }),
             Mistake::new("η is inverted: it is the far side's index over the near side's", |i| {
                 refract(i.0.into(), i.1.into(), 1.0 / i.2).map(Into::into)
             }),
+            Mistake::new("under the root η is inverted: √(1 − sin² / η²) is the cosine on the far side", |i| {
+                let c = cosine(i);
+                parts(i, 1.0 / i.2, root(1.0 - i.2 * i.2 * (1.0 - c * c))?)
+            }),
+            Mistake::new(
+                "under the root η is inverted: it is η² − 1 + c², and then (c − g) n is divided by η",
+                |i| {
+                    let c = cosine(i);
+                    bent(i, c - root(1.0 / (i.2 * i.2) - 1.0 + c * c)?)
+                },
+            ),
+            Mistake::new("the minus is missing: the direction comes towards the surface, so c is −d · n", |i| {
+                bent(i, -cosine(i) - root(squared(i))?)
+            }),
+            Mistake::new("the minus is missing: the direction comes towards the surface, so c is −d · n", |i| {
+                bent(i, -cosine(i) + root(squared(i))?)
+            }),
             Mistake::new(
                 "what comes out goes back to the near side: the normal's part must point into the surface",
+                |i| bent(i, cosine(i) + root(squared(i))?),
+            ),
+            Mistake::new(
+                "the whole sum is to be divided by η; g = √(η² − 1 + c²) is η times the far cosine",
+                |i| parts(i, 1.0 / i.2, root(squared(i))?),
+            ),
+            Mistake::new("nothing is divided by η: what comes out is not of length 1", |i| {
+                parts(i, 1.0, root(squared(i))?)
+            }),
+            Mistake::new("the part along the surface is multiplied by η; Snell's law divides it", |i| {
+                parts(i, i.2, root(squared(i))? / i.2)
+            }),
+            Mistake::new(
+                "only the part along the surface is divided by η; the other follows from the length of 1",
+                |i| parts(i, 1.0 / i.2, cosine(i)),
+            ),
+            Mistake::new(
+                "the two parts are normalised together; the part along the surface is exactly that of before over η, \
+                 and the other makes the length 1",
+                |i| parts(i, 1.0 / i.2, cosine(i)).map(|bent| DVec3::from(bent).normalize().into()),
+            ),
+            Mistake::new("the angle is divided by η; Snell's law divides its sine", by_angle),
+            Mistake::new("the cosine is taken for the sine: g² is η² − 1 + c²", |i| {
+                bent(i, cosine(i) - root(i.2 * i.2 - cosine(i) * cosine(i))?)
+            }),
+            Mistake::new("the root is missing: g is √(η² − 1 + c²)", |i| {
+                bent(i, cosine(i) - root(squared(i)).map(|_| squared(i))?)
+            }),
+            Mistake::new(
+                "it is the sine of the far angle that goes against the normal, which is for its cosine",
+                |i| parts(i, 1.0 / i.2, root(squared(i)).map(|_| (1.0 - cosine(i).powi(2)).max(0.0).sqrt())? / i.2),
+            ),
+            Mistake::new("η is not squared under the root: g² is η² − 1 + c²", |i| {
+                bent(i, cosine(i) - root(i.2 - 1.0 + cosine(i) * cosine(i))?)
+            }),
+            Mistake::new("the signs under the root are wrong: g² is η² − 1 + c²", |i| {
+                bent(i, cosine(i) - root(1.0 - i.2 * i.2 + cosine(i) * cosine(i))?)
+            }),
+            Mistake::new(
+                "nothing is to be turned round or inverted where η is below 1: the normal is on the side that the light comes from",
                 |i| {
-                    let (bent, n) = (refract(i.0.into(), i.1.into(), i.2)?, DVec3::from(i.1));
-                    Some((bent - 2.0 * bent.dot(n) * n).into())
+                    if i.2 < 1.0 {
+                        bent(i, cosine(i) + root(squared(i))?)
+                    } else {
+                        bent(i, cosine(i) - root(squared(i))?)
+                    }
                 },
             ),
             Mistake::new(
-                "only the part along the surface is divided by η; the other follows from the length of 1",
-                |i| {
-                    let (d, n) = (DVec3::from(i.0), DVec3::from(i.1));
-                    let along = d.dot(n) * n;
-                    Some(((d - along) / i.2 + along).into())
-                },
+                "nothing is to be turned round or inverted where η is below 1: the normal is on the side that the light comes from",
+                |i| refract(i.0.into(), i.1.into(), i.2.max(1.0 / i.2)).map(Into::into),
             ),
+            Mistake::new(
+                "nothing is to be turned round or inverted where η is below 1: the normal is on the side that the light comes from",
+                |i| refract(i.0.into(), if i.2 < 1.0 { -DVec3::from(i.1) } else { i.1.into() }, i.2).map(Into::into),
+            ),
+            Mistake::new(
+                "out of a medium of a higher index some light passes, too: None only where g² is below 0",
+                |i| if i.2 < 1.0 { None } else { bent(i, cosine(i) - root(squared(i))?) },
+            ),
+            Mistake::new("the part along the surface stays as it is; by Snell's law it is divided by η", |i| {
+                parts(i, 1.0, root(squared(i))? / i.2)
+            }),
             Mistake::new("the direction goes straight on", |i| Some(i.0)),
+            Mistake::new(
+                "where nothing passes the mirror's direction is given; what is reflected is not asked for, so it is None",
+                |i| refracted_or(i, |i| DVec3::from(i.0) + 2.0 * cosine(i) * DVec3::from(i.1)),
+            ),
+            Mistake::new("where nothing passes there is no direction: answer None", |i| {
+                refracted_or(i, |i| i.0.into())
+            }),
+            Mistake::new("where nothing passes there is no direction: answer None", |i| {
+                refracted_or(i, |_| DVec3::ZERO)
+            }),
+            Mistake::new(
+                "a root of a negative number is cut off at 0; where it is negative, nothing passes: None",
+                |i| bent(i, cosine(i) - squared(i).max(0.0).sqrt()),
+            ),
         ],
         hints: &[
             "split the direction into a part along the surface, d + (−d · n) n, and a part along the normal",
@@ -69,6 +143,41 @@ fn question() -> Question<Input, Option<Vector>> {
             "with c = −d · n and g² = η² − 1 + c²: None where g² < 0, else (d + (c − g) n) / η",
         ],
     }
+}
+
+/// Between the normal and the direction that the light comes from.
+fn cosine(i: &Input) -> f64 {
+    -DVec3::from(i.0).dot(i.1.into())
+}
+
+fn squared(i: &Input) -> f64 {
+    (i.2 - 1.0) * (i.2 + 1.0) + cosine(i) * cosine(i)
+}
+
+fn root(squared: f64) -> Option<f64> {
+    (squared >= 0.0).then(|| squared.sqrt())
+}
+
+/// The direction plus so much of the normal, over η.
+fn bent(i: &Input, normal: f64) -> Option<Vector> {
+    Some(((DVec3::from(i.0) + normal * DVec3::from(i.1)) / i.2).into())
+}
+
+/// So many times the part along the surface, and so much against the normal.
+fn parts(i: &Input, along: f64, against: f64) -> Option<Vector> {
+    let normal = DVec3::from(i.1);
+    Some((along * (DVec3::from(i.0) + cosine(i) * normal) - against * normal).into())
+}
+
+fn by_angle(i: &Input) -> Option<Vector> {
+    let angle = libm::acos(cosine(i).min(1.0));
+    let beyond = angle / i.2;
+    let along = if angle > 0.0 { libm::sin(beyond) / libm::sin(angle) } else { 1.0 };
+    if beyond > std::f64::consts::FRAC_PI_2 { None } else { parts(i, along, libm::cos(beyond)) }
+}
+
+fn refracted_or(i: &Input, otherwise: fn(&Input) -> DVec3) -> Option<Vector> {
+    Some(refract(i.0.into(), i.1.into(), i.2).unwrap_or_else(|| otherwise(i)).into())
 }
 
 fn asked() -> Vec<Probe<Input>> {

@@ -14,11 +14,6 @@ pub(super) type Input = (Vector, Vector, Vector, f64);
 /// What the reader writes.
 pub type Yours = fn(Vector, Vector, Vector, f64) -> f64;
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::solid_angle_pdf)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered(
@@ -43,32 +38,82 @@ fn question() -> Question<Input, f64> {
         measured: "of the pdf",
         mistakes: vec![
             Mistake::new("that is the pdf per unit of area; of solid angle the area fills A cos θ / d²", |input| {
-                if cosine(input) == 0.0 { 0.0 } else { 1.0 / input.3 }
+                powers(input, 0, 0, -1)
             }),
             Mistake::new("the cosine at the light is missing: an area seen obliquely fills less", |input| {
-                if cosine(input) == 0.0 { 0.0 } else { squared(input) / input.3 }
+                powers(input, 2, 0, -1)
             }),
             Mistake::new(
-                "the cosine is multiplied by; seen obliquely the same points crowd into fewer directions",
-                |i| squared(i) * cosine(i).abs() / i.3,
+                "the pdf is multiplied by the cosine; seen obliquely the same points crowd into fewer directions, so divide by it",
+                |input| powers(input, 2, 1, -1),
             ),
-            Mistake::new("the distance is missing: far away the area fills less", |input| {
-                if cosine(input) == 0.0 { 0.0 } else { 1.0 / (input.3 * cosine(input).abs()) }
+            Mistake::new(
+                "the pdf is multiplied by the cosine; seen obliquely the same points crowd into fewer directions, so divide by it",
+                |input| powers(input, 3, 1, -1),
+            ),
+            Mistake::new("the distance is missing: far away the area fills less", |input| powers(input, 0, -1, -1)),
+            Mistake::new(
+                "the distance counts once, not squared; normal · v is d times the cosine, so divide it by d",
+                |input| powers(input, 1, -1, -1),
+            ),
+            Mistake::new("the distance is cubed; the cosine is normal · v over d, not over d²", |input| {
+                powers(input, 3, -1, -1)
             }),
-            Mistake::new("the distance counts once, not squared", |input| pdf(input) / squared(input).sqrt()),
+            Mistake::new("the distance is squared twice: it is d² over A cos θ", |input| powers(input, 4, -1, -1)),
             Mistake::new("that is the solid angle of the area; the pdf is one over it", |input| {
-                input.3 * cosine(input).abs() / squared(input)
+                powers(input, -2, 1, 1)
+            }),
+            Mistake::new("the conversion is upside down: of 1/A per area it makes d² / cos θ times that", |input| {
+                powers(input, -2, 1, -1)
+            }),
+            Mistake::new("it is divided by d²; far away the same points crowd into fewer directions", |input| {
+                powers(input, -2, -1, -1)
+            }),
+            Mistake::new("it is divided by d²; far away the same points crowd into fewer directions", |input| {
+                powers(input, -2, 0, -1)
+            }),
+            Mistake::new("the cosine is squared; only that at the light counts, and once", |input| {
+                powers(input, 2, -2, -1)
+            }),
+            Mistake::new(
+                "it is divided by π, which belongs to cosine-weighted directions; here it is d² / (A cos θ)",
+                |input| pdf(input) / std::f64::consts::PI,
+            ),
+            Mistake::new("the area is missing: the larger it is, the less probable is each of its points", |input| {
+                powers(input, 2, -1, 0)
+            }),
+            Mistake::new(
+                "the pdf is multiplied by the area; the larger it is, the less probable is each of its points",
+                |input| powers(input, 2, -1, 1),
+            ),
+            Mistake::new("the area is taken twice; though both sides shine, the points lie on one area A", |input| {
+                0.5 * pdf(input)
+            }),
+            Mistake::new("the pdf is doubled; though both sides shine, the points lie on one area A", |input| {
+                2.0 * pdf(input)
             }),
             Mistake::new(
                 "a light that faces away has a negative pdf; on which side its normal is makes no difference",
                 |i| pdf(i).copysign(-cosine(i)),
             ),
+            Mistake::new("the pdf is negative where the light faces you; take the cosine's absolute value", |i| {
+                pdf(i).copysign(cosine(i))
+            }),
             Mistake::new(
                 "a light that faces away has none; on which side its normal is makes no difference here",
                 |input| {
                     if cosine(input) < 0.0 { pdf(input) } else { 0.0 }
                 },
             ),
+            Mistake::new(
+                "a light that faces you has none; both of its sides shine: take the absolute value",
+                |input| {
+                    if cosine(input) > 0.0 { pdf(input) } else { 0.0 }
+                },
+            ),
+            Mistake::new("the lit point is left out: v is at − from", |&(_, at, normal, area)| {
+                pdf(&([0.0; 3], at, normal, area))
+            }),
             Mistake::new(
                 "seen from its edge the area fills no direction, and the answer is to be 0, not 1 / 0",
                 |input| squared(input) / (input.3 * cosine(input).abs()),
@@ -121,6 +166,13 @@ fn squared(input: &Input) -> f64 {
 /// Between the light's normal and the direction to it: below 0 where its front is seen.
 fn cosine(input: &Input) -> f64 {
     DVec3::from(input.2).dot(to_light(input)) / squared(input).sqrt()
+}
+
+/// Powers of the distance, the cosine and the area; 0 from the edge.
+fn powers(input: &Input, distances: i32, cosines: i32, areas: i32) -> f64 {
+    let cosine = cosine(input).abs();
+    let distance = squared(input).sqrt();
+    if cosine == 0.0 { 0.0 } else { distance.powi(distances) * cosine.powi(cosines) * input.3.powi(areas) }
 }
 
 fn pdf(input: &Input) -> f64 {

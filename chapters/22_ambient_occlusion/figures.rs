@@ -1,10 +1,16 @@
 //! The figures of chapter 22, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, integrators, path_mistakes};
+use pinhole_lab::figure::{Figure, directions, integrators, path_mistakes};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
     vec![
+        Figure {
+            name: "22_directions",
+            chapter,
+            about: "uniform and cosine-weighted directions from the side, above their points of the disk",
+            draw: directions::draw,
+        },
         Figure {
             name: "22_distance",
             chapter,

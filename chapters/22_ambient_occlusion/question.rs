@@ -3,19 +3,14 @@
 use super::mine::mine;
 use pinhole::material::cosine_direction;
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 pub(super) type Input = (f64, f64);
 
 /// What the reader writes.
 pub type Yours = fn(f64, f64) -> [f64; 3];
-
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::cosine_direction)
-}
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
@@ -25,6 +20,11 @@ pub fn exercise(yours: Yours) -> Exercise {
 /// A direction by its radius in the disk, its turn and its height.
 fn raised(radius: f64, turn: f64, height: f64) -> [f64; 3] {
     [radius * libm::cos(turn), radius * libm::sin(turn), height]
+}
+
+/// A direction by its angle to +z and its turn.
+fn tilted(angle: f64, v: f64) -> [f64; 3] {
+    raised(libm::sin(angle), TAU * v, libm::cos(angle))
 }
 
 fn question() -> Question<Input, [f64; 3]> {
@@ -41,11 +41,50 @@ fn question() -> Question<Input, [f64; 3]> {
                 "u is taken for the radius; the area within a radius grows as its square, so the root is missing",
                 |&(u, v)| raised(u, TAU * v, (1.0 - u * u).sqrt()),
             ),
-            Mistake::new("u is taken for the height: that makes all directions alike, not those near +z", |&(u, v)| {
-                raised((1.0 - u * u).sqrt(), TAU * v, u)
+            Mistake::new(
+                "u is taken for the radius; the area within a radius grows as its square, so the root is missing",
+                |&(u, v)| raised(u, TAU * v, (1.0 - u).sqrt()),
+            ),
+            Mistake::new(
+                "u is taken for the radius; the area within a radius grows as its square, so the root is missing",
+                |&(u, v)| raised(u, TAU * v, 1.0 - u),
+            ),
+            Mistake::new("the radius is u squared; u is the radius squared, so take its root", |&(u, v)| {
+                raised(u * u, TAU * v, (1.0 - u * u * u * u).sqrt())
             }),
-            Mistake::new("1 − u is taken for the height: that makes all directions alike", |&(u, v)| {
-                raised((u * (2.0 - u)).sqrt(), TAU * v, 1.0 - u)
+            Mistake::new(
+                "u is taken for the angle to +z; it is an area, and the radius √u is the sine of that angle",
+                |&(u, v)| tilted(u * FRAC_PI_2, v),
+            ),
+            Mistake::new(
+                "u is taken for the angle to +z; it is an area, and the radius √u is the sine of that angle",
+                |&(u, v)| tilted(u, v),
+            ),
+            Mistake::new(
+                "u is taken for the angle to +z; it is an area, and the radius √u is the sine of that angle",
+                |&(u, v)| tilted(u * PI, v),
+            ),
+            Mistake::new("√u is taken for the angle to +z; it is the radius, the sine of that angle", |&(u, v)| {
+                tilted(u.sqrt() * FRAC_PI_2, v)
+            }),
+            Mistake::new(
+                "u is taken for the height: that makes the directions uniform, not cosine-weighted",
+                |&(u, v)| raised((1.0 - u * u).sqrt(), TAU * v, u),
+            ),
+            Mistake::new(
+                "1 − u is taken for the height: that makes the directions uniform, not cosine-weighted",
+                |&(u, v)| raised((u * (2.0 - u)).sqrt(), TAU * v, 1.0 - u),
+            ),
+            Mistake::new(
+                "those are directions of the whole sphere; asked are those of the hemisphere about +z",
+                |&(u, v)| raised(2.0 * (u * (1.0 - u)).sqrt(), TAU * v, 1.0 - 2.0 * u),
+            ),
+            Mistake::new(
+                "u and 1 − u are swapped: u is the area nearer to the middle, so u = 0 is the pole and √u the radius",
+                |&(u, v)| raised((1.0 - u).sqrt(), TAU * v, u.sqrt()),
+            ),
+            Mistake::new("u and v are swapped: u is for the radius, and v for the turn", |&(u, v)| {
+                raised(v.sqrt(), TAU * u, (1.0 - v).sqrt())
             }),
             Mistake::new("v makes half a turn only; a full one is 2π", |&(u, v)| {
                 raised(u.sqrt(), PI * v, (1.0 - u).sqrt())
@@ -53,8 +92,30 @@ fn question() -> Question<Input, [f64; 3]> {
             Mistake::new("v is taken for an angle; it is a fraction of a full turn, which is 2π", |&(u, v)| {
                 raised(u.sqrt(), v, (1.0 - u).sqrt())
             }),
+            Mistake::new(
+                "the turn is in degrees; cosine and sine are of radians, and a full turn is 2π",
+                |&(u, v)| raised(u.sqrt(), 360.0 * v, (1.0 - u).sqrt()),
+            ),
+            Mistake::new("the turn goes from +x towards −y; it goes towards +y", |&(u, v)| {
+                raised(u.sqrt(), -TAU * v, (1.0 - u).sqrt())
+            }),
             Mistake::new("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u", |&(u, v)| {
                 raised(u.sqrt(), TAU * v, 1.0 - u)
+            }),
+            Mistake::new("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u", |&(u, v)| {
+                raised(u.sqrt(), TAU * v, (1.0 - u * u).sqrt())
+            }),
+            Mistake::new("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u", |&(u, v)| {
+                raised(u.sqrt(), TAU * v, 1.0 - u.sqrt())
+            }),
+            Mistake::new("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u", |&(u, v)| {
+                raised(u.sqrt(), TAU * v, u.sqrt())
+            }),
+            Mistake::new("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u", |&(u, v)| {
+                raised(u.sqrt(), TAU * v, (1.0 - u.sqrt()).sqrt())
+            }),
+            Mistake::new("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u", |&(u, v)| {
+                raised(u.sqrt(), TAU * v, 1.0)
             }),
             Mistake::new("z points down; the directions lie about +z", |&(u, v)| {
                 raised(u.sqrt(), TAU * v, -(1.0 - u).sqrt())
@@ -63,6 +124,39 @@ fn question() -> Question<Input, [f64; 3]> {
                 let [x, y, z] = raised(u.sqrt(), TAU * v, (1.0 - u).sqrt());
                 [y, x, z]
             }),
+            Mistake::new("the turn starts at +y; it starts at +x and goes towards +y", |&(u, v)| {
+                raised(u.sqrt(), TAU * v + FRAC_PI_2, (1.0 - u).sqrt())
+            }),
+            Mistake::new("the height is y; the directions lie about +z, so it is z", |&(u, v)| {
+                let [x, y, z] = raised(u.sqrt(), TAU * v, (1.0 - u).sqrt());
+                [x, z, y]
+            }),
+            Mistake::new(
+                "1 − r² loses its digits at the rim, where r is almost 1; 1 − u is the same, and exact",
+                |&(u, v)| raised(u.sqrt(), TAU * v, (1.0 - u.sqrt() * u.sqrt()).sqrt()),
+            ),
+            Mistake::new(
+                "1 − r² loses its digits at the rim, where r is almost 1; 1 − u is the same, and exact",
+                |&(u, v)| raised(u.sqrt(), TAU * v, (1.0 - u.sqrt() * u.sqrt()).max(0.0).sqrt()),
+            ),
+            Mistake::new(
+                "1 − r² loses its digits at the rim, where r is almost 1; 1 − u is the same, and exact",
+                |&(u, v)| {
+                    let [x, y, _] = raised(u.sqrt(), TAU * v, 0.0);
+                    [x, y, (1.0 - x * x - y * y).max(0.0).sqrt()]
+                },
+            ),
+            Mistake::new(
+                "1 − r² loses its digits at the rim, where r is almost 1; 1 − u is the same, and exact",
+                |&(u, v)| {
+                    let [x, y, _] = raised(u.sqrt(), TAU * v, 0.0);
+                    [x, y, (1.0 - (x * x + y * y)).max(0.0).sqrt()]
+                },
+            ),
+            Mistake::new(
+                "1 − r² loses its digits at the rim, where r is almost 1; 1 − u is the same, and exact",
+                |&(u, v)| tilted(libm::asin(u.sqrt()), v),
+            ),
         ],
         hints: &[
             "choose a point of the unit disk, all of them alike, and go straight up from it to the hemisphere",
@@ -82,6 +176,7 @@ fn asked() -> Vec<Probe<Input>> {
         }),
     ));
     let last = 1.0 - f64::EPSILON / 2.0;
-    asked.extend(probes("the pole and the rim", [(0.0, 0.0), (0.0, 0.7), (last, 0.2), (last, last)]));
+    asked.extend(probes("the pole", [(0.0, 0.0), (0.0, 0.7)]));
+    asked.extend(extremes("almost at the rim", [(last, 0.2), (last, last)]));
     asked
 }

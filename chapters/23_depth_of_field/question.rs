@@ -1,6 +1,7 @@
 //! Chapter 23: the direction from a point of the lens through the point in focus.
 
 use super::mine::mine;
+use glam::DVec3;
 use pinhole::rays::{camera_ray_lens, camera_ray_perspective};
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
@@ -11,11 +12,6 @@ pub(super) type Input = ([f64; 2], f64, [f64; 2], f64);
 
 /// What the reader writes.
 pub type Yours = fn([f64; 2], f64, [f64; 2], f64) -> [f64; 3];
-
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::lens_direction)
-}
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
@@ -38,9 +34,9 @@ fn question() -> Question<Input, [f64; 3]> {
                 lens.shown()
             )
         },
-        right: |&(screen, tangent, lens, focus)| camera_ray_lens(screen.into(), tangent, lens.into(), focus).into(),
+        right: |&(screen, tangent, lens, focus)| lens_ray(screen, tangent, lens, focus),
         apart: |yours, right| relative(yours, right),
-        allowed: 2e-15,
+        allowed: 1e-12,
         measured: "of a part",
         mistakes: vec![
             Mistake::new("the direction is the pinhole's: the lens point is left out", |&(screen, tangent, _, _)| {
@@ -54,25 +50,82 @@ fn question() -> Question<Input, [f64; 3]> {
                 },
             ),
             Mistake::new("the plane in focus is always at distance 1", |&(screen, tangent, lens, _)| {
-                camera_ray_lens(screen.into(), tangent, lens.into(), 1.0).into()
+                lens_ray(screen, tangent, lens, 1.0)
             }),
             Mistake::new(
-                "the lens point is added; the direction from it to the point in focus is the difference",
+                "only the depth is multiplied by the focus distance: the point in focus lies on the pinhole's ray, so x \
+                 and y are, too",
+                |&([x, y], tangent, lens, focus)| lens_ray([x / focus, y / focus], tangent, lens, focus),
+            ),
+            Mistake::new(
+                "only x and y are multiplied by the focus distance: the point in focus lies on the pinhole's ray, at z = −f",
                 |input| {
-                    let &(screen, tangent, [x, y], focus) = input;
-                    camera_ray_lens(screen.into(), tangent, [-x, -y].into(), focus).into()
+                    let [x, y, _] = not_normalised(input, input.3);
+                    DVec3::new(x, y, -1.0).normalize().into()
                 },
             ),
-            Mistake::new("the tangent is left out", |&(screen, _, lens, focus)| {
-                camera_ray_lens(screen.into(), 1.0, lens.into(), focus).into()
+            Mistake::new(
+                "the lens point is added; the direction from it to the point in focus is the difference",
+                |&(screen, tangent, [x, y], focus)| lens_ray(screen, tangent, [-x, -y], focus),
+            ),
+            Mistake::new("the lens point is multiplied by the tangent; it already is in camera space", |input| {
+                let &(screen, tangent, [x, y], focus) = input;
+                lens_ray(screen, tangent, [x * tangent, y * tangent], focus)
             }),
-            Mistake::new("the direction is not of length 1", |&(screen, tangent, lens, focus)| {
-                let part = |axis: usize| screen[axis] * tangent * focus - lens[axis];
-                [part(0), part(1), -focus]
+            Mistake::new(
+                "the lens point is divided by the focus distance, and P is not; both are, or neither",
+                |input| {
+                    let &(screen, tangent, [x, y], focus) = input;
+                    lens_ray(screen, tangent, [x / focus, y / focus], focus)
+                },
+            ),
+            Mistake::new("the tangent is left out", |&(screen, _, lens, focus)| lens_ray(screen, 1.0, lens, focus)),
+            Mistake::new(
+                "the screen point is divided by the tangent; its place on the image plane is the product of the two",
+                |input| {
+                    let &(screen, tangent, lens, focus) = input;
+                    lens_ray(screen, 1.0 / tangent, lens, focus)
+                },
+            ),
+            Mistake::new("tan_half_vertical is taken for an angle; it is the tangent already", |input| {
+                let &(screen, tangent, lens, focus) = input;
+                lens_ray(screen, libm::tan(tangent), lens, focus)
+            }),
+            Mistake::new("tan_half_vertical is halved; it belongs to half the angle already", |input| {
+                let &(screen, tangent, lens, focus) = input;
+                lens_ray(screen, tangent / 2.0, lens, focus)
+            }),
+            Mistake::new(
+                "tan_half_vertical is doubled; screen points go from −1 to 1, so they take it once",
+                |input| {
+                    let &(screen, tangent, lens, focus) = input;
+                    lens_ray(screen, tangent * 2.0, lens, focus)
+                },
+            ),
+            Mistake::new("the direction is not of length 1", |input| not_normalised(input, input.3)),
+            Mistake::new("the direction is not of length 1", |input| {
+                not_normalised(input, input.3).map(|part| part / input.3)
+            }),
+            Mistake::new("the direction is not of length 1", |input| {
+                let &([x, y], tangent, ..) = input;
+                let longer = DVec3::new(x * tangent, y * tangent, 1.0).length();
+                not_normalised(input, input.3 / longer)
+            }),
+            Mistake::new("the direction is not of length 1", |input| {
+                not_normalised(input, input.3)
+                    .map(|part| part / DVec3::from(not_normalised(input, input.3)).length_squared())
+            }),
+            Mistake::new("the direction goes from the focus to the lens: it is P − L, not L − P", |input| {
+                let &(screen, tangent, lens, focus) = input;
+                lens_ray(screen, tangent, lens, focus).map(|part| -part)
+            }),
+            Mistake::new("y is turned round; screen points have y upwards, as camera space has", |input| {
+                let &([x, y], tangent, lens, focus) = input;
+                lens_ray([x, -y], tangent, lens, focus)
             }),
             Mistake::new("the plane in focus stands at z = +f; the camera looks down −z", |input| {
                 let &(screen, tangent, lens, focus) = input;
-                let [x, y, z]: [f64; 3] = camera_ray_lens(screen.into(), tangent, lens.into(), focus).into();
+                let [x, y, z] = lens_ray(screen, tangent, lens, focus);
                 [x, y, -z]
             }),
         ],
@@ -82,6 +135,16 @@ fn question() -> Question<Input, [f64; 3]> {
             "with P = (screen · tan · f, −f) and L = (lens, 0): divide P − L by its length",
         ],
     }
+}
+
+fn lens_ray(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64) -> [f64; 3] {
+    camera_ray_lens(screen.into(), tangent, lens.into(), focus).into()
+}
+
+/// From the lens point to what is that deep on the pinhole's ray.
+fn not_normalised(&(screen, tangent, lens, _): &Input, depth: f64) -> [f64; 3] {
+    let part = |axis: usize| screen[axis] * tangent * depth - lens[axis];
+    [part(0), part(1), -depth]
 }
 
 fn asked() -> Vec<Probe<Input>> {

@@ -15,11 +15,6 @@ pub(super) type Answer = Option<f64>;
 /// What the reader writes.
 pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], f64, [f64; 3], f64) -> Answer;
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::moving_sphere_t)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("moving_sphere_t", question, move |&(o, d, c, r, v, time)| yours(o, d, c, r, v, time), mine)
@@ -36,24 +31,141 @@ fn question() -> Question<Input, Answer> {
                  time {time:?}"
             )
         },
-        right: |&(o, d, c, r, v, time)| nearest(at_rest(o.into(), v.into(), time), d.into(), c.into(), r),
+        right: |input| moved(input, input.5),
         apart: |yours, right| option(yours, right, |yours, right| relative(&[*yours], &[*right])),
         allowed: 1e-9,
         measured: "of t",
         mistakes: vec![
-            Mistake::new("the sphere stands still: its motion is left out", |&(o, d, c, r, _, _)| {
-                nearest(o.into(), d.into(), c.into(), r)
+            Mistake::new("the sphere stands still: its motion is left out", |input| moved(input, 0.0)),
+            Mistake::new(
+                "the sphere moves backwards: its centre is at centre + velocity · time, or the origin at origin − velocity · time",
+                |input| moved(input, -input.5),
+            ),
+            Mistake::new(
+                "the sphere moves backwards: its centre is at centre + velocity · time, or the origin at origin − velocity · time",
+                |input| moved(input, -1.0),
+            ),
+            Mistake::new("the time is left out: the sphere has always moved by one unit of time", |input| {
+                moved(input, 1.0)
             }),
-            Mistake::new("the sphere moves backwards", |&(o, d, c, r, v, time)| {
-                nearest(at_rest(o.into(), v.into(), -time), d.into(), c.into(), r)
+            Mistake::new("the motion counts twice: move either the centre or the origin, not both", |input| {
+                moved(input, 2.0 * input.5)
             }),
             Mistake::new(
-                "the time is left out: the sphere has always moved by one unit of time",
-                |&(o, d, c, r, v, _)| nearest(at_rest(o.into(), v.into(), 1.0), d.into(), c.into(), r),
+                "the time is squared: the velocity is constant, so the sphere moves by velocity · time",
+                |input| moved(input, input.5 * input.5),
+            ),
+            Mistake::new(
+                "the velocity's length is lost: the sphere moves by velocity · time, and velocity is no unit vector",
+                |&(o, d, c, r, v, time)| moved(&(o, d, c, r, DVec3::from(v).normalize_or_zero().into(), time), time),
+            ),
+            Mistake::new("the time is halved; the sphere moves by velocity · time", |input| {
+                moved(input, 0.5 * input.5)
+            }),
+            Mistake::new(
+                "the direction is changed by the velocity; light takes no time, so nothing moves while it travels",
+                |input| turned(input, 0.0, -1.0),
             ),
             Mistake::new(
                 "the direction is changed by the velocity; light takes no time, so nothing moves while it travels",
-                |&(o, d, c, r, v, _)| nearest(o.into(), DVec3::from(d) - DVec3::from(v), c.into(), r),
+                |input| turned(input, input.5, -1.0),
+            ),
+            Mistake::new(
+                "the direction is changed by the velocity; light takes no time, so nothing moves while it travels",
+                |input| turned(input, input.5, 1.0),
+            ),
+            Mistake::new(
+                "the direction is changed by the velocity; light takes no time, so nothing moves while it travels",
+                |input| turned(input, 0.0, -input.5),
+            ),
+            Mistake::new(
+                "the direction is changed by the velocity; light takes no time, so nothing moves while it travels",
+                |input| turned(input, input.5, -input.5),
+            ),
+            Mistake::new(
+                "the direction is changed by the velocity; light takes no time, so nothing moves while it travels",
+                |input| turned(input, 0.0, 1.0),
+            ),
+            Mistake::new("a hit behind the ray's origin counts; t must be above 0", |input| {
+                by_formula(input, |b, c| -b - (b * b - c).sqrt())
+            }),
+            Mistake::new("a hit behind the ray's origin counts; t must be above 0", |input| {
+                by_formula(input, |b, c| -b - (b * b - c).sqrt()).map(f64::abs)
+            }),
+            Mistake::new(
+                "that is where the ray leaves the sphere; the nearer hit is −b − √(b² − c)",
+                |input| by_formula(input, |b, c| -b + (b * b - c).sqrt()).filter(|&t| t > 0.0),
+            ),
+            Mistake::new(
+                "that is where the ray leaves the sphere; the nearer hit is −b − √(b² − c)",
+                |input| by_formula(input, |b, c| -b + (b * b - c).sqrt()),
+            ),
+            Mistake::new(
+                "the sign of b is wrong: with o from the centre to the origin it is −b − √(b² − c)",
+                |input| by_formula(input, |b, c| b - (b * b - c).sqrt()).filter(|&t| t > 0.0),
+            ),
+            Mistake::new(
+                "the sign of b is wrong: with o from the centre to the origin it is −b − √(b² − c)",
+                |input| by_formula(input, |b, c| b + (b * b - c).sqrt()).filter(|&t| t > 0.0),
+            ),
+            Mistake::new(
+                "two forms of the quadratic formula are mixed: with b = o · d it is −b − √(b² − c), and with b = 2 o · d half of −b − √(b² − 4c)",
+                |input| by_formula(input, |b, c| (-b - (b * b - 4.0 * c).sqrt()) / 2.0).filter(|&t| t > 0.0),
+            ),
+            Mistake::new(
+                "two forms of the quadratic formula are mixed: with b = o · d it is −b − √(b² − c), and with b = 2 o · d half of −b − √(b² − 4c)",
+                |input| by_formula(input, |b, c| -b - (b * b - 4.0 * c).sqrt()).filter(|&t| t > 0.0),
+            ),
+            Mistake::new(
+                "two forms of the quadratic formula are mixed: with b = o · d it is −b − √(b² − c), and with b = 2 o · d half of −b − √(b² − 4c)",
+                |input| by_formula(input, |b, c| (-b - (b * b - c).sqrt()) / 2.0).filter(|&t| t > 0.0),
+            ),
+            Mistake::new(
+                "two forms of the quadratic formula are mixed: with b = o · d it is −b − √(b² − c), and with b = 2 o · d half of −b − √(b² − 4c)",
+                |input| by_formula(input, |b, c| -2.0 * b - (4.0 * b * b - c).sqrt()).filter(|&t| t > 0.0),
+            ),
+            Mistake::new(
+                "two forms of the quadratic formula are mixed: with b = o · d it is −b − √(b² − c), and with b = 2 o · d half of −b − √(b² − 4c)",
+                |input| by_formula(input, |b, c| -2.0 * b - (4.0 * b * b - 4.0 * c).sqrt()).filter(|&t| t > 0.0),
+            ),
+            Mistake::new("the root is missing: it is −b − √(b² − c)", |input| {
+                by_formula(input, |b, c| -b - (b * b - c).sqrt().powi(2)).filter(|&t| t > 0.0)
+            }),
+            Mistake::new("the sign under the root is wrong: it is b² − c", |input| {
+                by_formula(input, |b, c| -b - (b * b + c).sqrt()).filter(|&t| t > 0.0)
+            }),
+            Mistake::new("the sign under the root is wrong: it is b² − c", |input| {
+                by_formula(input, |b, c| -b - (c - b * b).sqrt()).filter(|&t| t > 0.0)
+            }),
+            Mistake::new(
+                "that is where the ray is closest to the sphere's centre; the hit is √(b² − c) before",
+                |input| by_formula(input, |b, c| if b * b < c { f64::NAN } else { -b }).filter(|&t| t > 0.0),
+            ),
+            Mistake::new("the radius is not squared", |input| {
+                by_formula(&with_radius(input, input.3.sqrt()), |b, c| -b - (b * b - c).sqrt()).filter(|&t| t > 0.0)
+            }),
+            Mistake::new(
+                "the root of a negative number is NaN: where it is negative the ray misses, and the answer is None",
+                |input| Some(moved(input, input.5).unwrap_or(f64::NAN)),
+            ),
+            Mistake::new(
+                "the sphere stands still until it is hit, and only t is moved; move the centre first, then intersect",
+                |input| later(input, along(input) * input.5),
+            ),
+            Mistake::new(
+                "the sphere stands still until it is hit, and only t is moved; move the centre first, then intersect",
+                |input| later(input, -along(input) * input.5),
+            ),
+            Mistake::new(
+                "the sphere stands still until it is hit, and only t is moved; move the centre first, then intersect",
+                |input| later(input, input.5),
+            ),
+            Mistake::new("the time is added to t; t counts from the ray's origin, whenever that ray leaves", |input| {
+                moved(input, input.5).map(|t| t + input.5)
+            }),
+            Mistake::new(
+                "the time is subtracted from t; t counts from the ray's origin, whenever that ray leaves",
+                |input| moved(input, input.5).map(|t| t - input.5).filter(|&t| t > 0.0),
             ),
         ],
         hints: &[
@@ -68,16 +180,50 @@ fn nearest(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64) -> Answe
     Some(sphere_t(origin, direction, centre, radius)).filter(|t| t.is_finite())
 }
 
+/// Where the sphere is after this time.
+fn moved(&(o, d, c, r, v, _): &Input, time: f64) -> Answer {
+    nearest(at_rest(o.into(), v.into(), time), d.into(), c.into(), r)
+}
+
+/// The same with so much of the velocity added to the direction.
+fn turned(&(o, d, c, r, v, _): &Input, time: f64, turns: f64) -> Answer {
+    moved(&(o, (DVec3::from(d) + turns * DVec3::from(v)).into(), c, r, v, time), time)
+}
+
+/// A solution of t² + 2bt + c = 0, where there is one.
+fn by_formula(&(o, d, c, r, v, time): &Input, solution: fn(f64, f64) -> f64) -> Answer {
+    let from_centre = at_rest(o.into(), v.into(), time) - DVec3::from(c);
+    let t = solution(from_centre.dot(d.into()), from_centre.length_squared() - r * r);
+    Some(t).filter(|t| !t.is_nan())
+}
+
+fn with_radius(&(o, d, c, _, v, time): &Input, radius: f64) -> Input {
+    (o, d, c, radius, v, time)
+}
+
+/// The speed along the ray.
+fn along(&(_, d, _, _, v, _): &Input) -> f64 {
+    DVec3::from(d).dot(v.into())
+}
+
+fn later(input: &Input, by: f64) -> Answer {
+    moved(input, 0.0).map(|t| t + by).filter(|&t| t > 0.0)
+}
+
 fn asked() -> Vec<Probe<Input>> {
     let ahead = [0.0, 0.0, -1.0];
     let ball = [0.0, 0.0, -4.0];
     let mut asked: Vec<_> = probes("a sphere at rest", [([0.0; 3], ahead, ball, 1.0, [0.0; 3], 0.5)]).collect();
     asked.extend(probes("when the shutter opens", [([0.0; 3], ahead, ball, 1.0, [3.0, 0.0, 0.0], 0.0)]));
-    asked.extend(probes("a sphere that comes nearer", [([0.0; 3], ahead, ball, 1.0, [0.0, 0.0, 2.0], 0.5)]));
+    asked.extend(probes("a sphere that comes nearer", [([0.0; 3], ahead, ball, 1.0, [0.0, 0.0, 2.5], 0.3)]));
     asked.extend(probes("a sphere that has gone by", [([0.0; 3], ahead, ball, 1.0, [4.0, 0.0, 0.0], 0.5)]));
     asked.extend(probes(
         "a sphere that has just come",
         [([0.0; 3], ahead, [-2.0, 0.0, -4.0], 1.0, [4.0, 0.0, 0.0], 0.5)],
+    ));
+    asked.extend(probes(
+        "a sphere that is behind the ray",
+        [([0.0; 3], ahead, [0.0, 0.0, 4.0], 1.0, [0.0; 3], 0.5), ([0.0; 3], ahead, ball, 1.0, [0.0, 0.0, 16.0], 0.5)],
     ));
     asked.extend(probes("any sphere at any time", (0..200).map(ray).filter(decidable)));
     asked

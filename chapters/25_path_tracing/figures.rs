@@ -1,6 +1,6 @@
 //! The figures of chapter 25, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, broken_paths, integrators};
+use pinhole_lab::figure::{Figure, broken_paths, integrators, vertices};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -10,6 +10,12 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             chapter,
             about: "one scene by ray casting, and by paths of two, three and many segments",
             draw: integrators::draw_segments,
+        },
+        Figure {
+            name: "25_vertices",
+            chapter,
+            about: "a path through the room in section, with its cosines, its throughput, and its shadow rays",
+            draw: vertices::draw,
         },
         Figure {
             name: "25_broken",

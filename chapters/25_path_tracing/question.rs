@@ -11,11 +11,6 @@ pub(super) type Input = ([f64; 3], f64);
 /// What the reader writes.
 pub type Yours = fn([f64; 3], f64) -> [f64; 3];
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::after_roulette)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("after_roulette", question, move |&(throughput, u)| yours(throughput, u), mine)
@@ -24,6 +19,21 @@ pub fn exercise(yours: Yours) -> Exercise {
 /// Roulette with this probability of survival, and the factor of what goes on.
 fn played(&(throughput, u): &Input, survival: f64, more: f64) -> [f64; 3] {
     if u < survival { throughput.map(|part| part * more) } else { [0.0; 3] }
+}
+
+/// Roulette with this probability, of at most 1, throughout.
+fn by(input: &Input, probability: f64) -> [f64; 3] {
+    let survival = probability.min(1.0);
+    played(input, survival, 1.0 / survival)
+}
+
+/// What is left where a path ends below this number, and is divided by that one elsewhere.
+fn ended_below(&(throughput, u): &Input, end: f64, by: f64) -> [f64; 3] {
+    if u < end || by == 0.0 { [0.0; 3] } else { throughput.map(|part| part / by) }
+}
+
+fn weighted(input: &Input, weights: [f64; 3]) -> f64 {
+    input.0.iter().zip(weights).map(|(part, weight)| part * weight).sum()
 }
 
 fn largest(throughput: [f64; 3]) -> f64 {
@@ -46,17 +56,57 @@ fn question() -> Question<Input, [f64; 3]> {
             Mistake::new("a path that goes on counts as before, so the light of those that ended is lost", |input| {
                 played(input, survival_probability(input.0), 1.0)
             }),
+            Mistake::new("a path that goes on is multiplied by the probability; it must be divided by it", |input| {
+                let survival = survival_probability(input.0);
+                played(input, survival, survival)
+            }),
+            Mistake::new(
+                "a path that goes on is divided by the probability of its end; divide by that of going on",
+                |input| {
+                    let survival = survival_probability(input.0);
+                    played(input, survival, 1.0 / (1.0 - survival))
+                },
+            ),
+            Mistake::new(
+                "a path that goes on is divided by the probability of its end; divide by that of going on",
+                |input| {
+                    let survival = survival_probability(input.0);
+                    played(input, survival, if survival < 1.0 { 1.0 / (1.0 - survival) } else { 1.0 })
+                },
+            ),
+            Mistake::new("a path that goes on is divided by u; it must be divided by the probability", |input| {
+                played(input, survival_probability(input.0), 1.0 / input.1)
+            }),
             Mistake::new(
                 "nothing ever ends: where the number is not below the probability, nothing is left",
                 |input| played(input, f64::INFINITY, 1.0 / survival_probability(input.0)),
             ),
             Mistake::new(
-                "the two ends are swapped: a path goes on where the number lies below the probability",
+                "nothing ever ends: where the number is not below the probability, nothing is left",
                 |input| {
                     let survival = survival_probability(input.0);
-                    if input.1 < survival { [0.0; 3] } else { input.0.map(|part| part / survival) }
+                    if input.1 < survival { input.0.map(|part| part / survival) } else { input.0 }
                 },
             ),
+            Mistake::new(
+                "the two ends are swapped: a path goes on where the number lies below the probability",
+                |input| ended_below(input, survival_probability(input.0), survival_probability(input.0)),
+            ),
+            Mistake::new(
+                "the two ends are swapped: a path goes on where the number lies below the probability",
+                |input| ended_below(input, survival_probability(input.0), 1.0),
+            ),
+            Mistake::new(
+                "a path ends where the number lies below 1 − p; it is to go on where the number lies below p",
+                |input| {
+                    let survival = survival_probability(input.0);
+                    ended_below(input, 1.0 - survival, survival)
+                },
+            ),
+            Mistake::new("a number that is just the probability ends the path: it goes on only below that", |input| {
+                let survival = survival_probability(input.0);
+                if input.1 <= survival { input.0.map(|part| part / survival) } else { [0.0; 3] }
+            }),
             Mistake::new(
                 "a probability above 1 divides light away; it is at most 1, and then nothing changes",
                 |input| {
@@ -64,16 +114,67 @@ fn question() -> Question<Input, [f64; 3]> {
                     played(input, survival, 1.0 / survival)
                 },
             ),
+            Mistake::new(
+                "the probability is cut off below 1; it is at most 1, so that a path of throughput 1 always goes on",
+                |input| by(input, largest(input.0).min(0.95)),
+            ),
+            Mistake::new(
+                "the probability is cut off below 1; it is at most 1, so that a path of throughput 1 always goes on",
+                |input| by(input, largest(input.0).min(0.99)),
+            ),
+            Mistake::new(
+                "the probability is cut off below 1; it is at most 1, so that a path of throughput 1 always goes on",
+                |input| by(input, largest(input.0).min(0.9)),
+            ),
+            Mistake::new(
+                "the throughput is cut off at 1; only the probability is, and nothing else changes",
+                |input| by(&(input.0.map(|part| part.min(1.0)), input.1), survival_probability(input.0)),
+            ),
             Mistake::new("the probability is the mean of the three; asked is the largest", |input| {
-                let survival = (input.0.iter().sum::<f64>() / 3.0).min(1.0);
-                played(input, survival, 1.0 / survival)
+                by(input, input.0.iter().sum::<f64>() / 3.0)
+            }),
+            Mistake::new("the probability is the luminance; asked is the largest of the three", |input| {
+                by(input, weighted(input, [0.2126, 0.7152, 0.0722]))
+            }),
+            Mistake::new("the probability is the luminance; asked is the largest of the three", |input| {
+                by(input, weighted(input, [0.299, 0.587, 0.114]))
+            }),
+            Mistake::new("a path ends by one probability and is divided by another; both must be the same", |input| {
+                played(input, input.0.iter().sum::<f64>() / 3.0, 1.0 / survival_probability(input.0))
+            }),
+            Mistake::new("a path ends by one probability and is divided by another; both must be the same", |input| {
+                played(input, weighted(input, [0.2126, 0.7152, 0.0722]), 1.0 / survival_probability(input.0))
+            }),
+            Mistake::new("the probability is the sum of the three; asked is the largest", |input| {
+                by(input, weighted(input, [1.0; 3]))
+            }),
+            Mistake::new("the probability is the smallest of the three; asked is the largest", |input| {
+                by(input, input.0[0].min(input.0[1]).min(input.0[2]))
+            }),
+            Mistake::new("the probability is that of red alone; asked is the largest of the three", |input| {
+                by(input, input.0[0])
             }),
             Mistake::new("the probability is that of green alone; asked is the largest of the three", |input| {
-                let survival = input.0[1].min(1.0);
-                played(input, survival, 1.0 / survival)
+                by(input, input.0[1])
+            }),
+            Mistake::new("the probability is that of blue alone; asked is the largest of the three", |input| {
+                by(input, input.0[2])
+            }),
+            Mistake::new(
+                "the probability is the length of the throughput; asked is the largest of the three",
+                |input| by(input, input.0.iter().map(|part| part * part).sum::<f64>().sqrt()),
+            ),
+            Mistake::new("the probability is the product of the three; asked is the largest", |input| {
+                by(input, input.0.iter().product::<f64>())
             }),
             Mistake::new("each colour plays for itself; a path is one ray, which goes on or does not", |input| {
                 input.0.map(|part| if input.1 < part.min(1.0) { part / part.min(1.0) } else { 0.0 })
+            }),
+            Mistake::new("each colour is divided by itself; all three are divided by the one probability", |input| {
+                if input.1 < survival_probability(input.0) { input.0.map(|part| part.max(1.0)) } else { [0.0; 3] }
+            }),
+            Mistake::new("each colour is divided by itself; all three are divided by the one probability", |input| {
+                if input.1 < survival_probability(input.0) { [1.0; 3] } else { [0.0; 3] }
             }),
         ],
         hints: &[

@@ -1,6 +1,6 @@
 //! The figures of chapter 26, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, integrators, path_mistakes};
+use pinhole_lab::figure::{Figure, integrators, path_mistakes, two_strategies};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -10,6 +10,12 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             chapter,
             about: "area lights found by BSDF sampling, by light sampling, and by both with multiple importance sampling",
             draw: integrators::draw_strategies,
+        },
+        Figure {
+            name: "26_samples",
+            chapter,
+            about: "which samples contribute, by BSDF sampling and by light sampling, for two lobes and two lights",
+            draw: two_strategies::draw,
         },
         Figure {
             name: "26_broken",

@@ -3,18 +3,13 @@
 use super::mine::mine;
 use pinhole::follow::power_heuristic;
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Input = (f64, f64);
 
 /// What the reader writes.
 pub type Yours = fn(f64, f64) -> f64;
-
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::power_heuristic)
-}
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
@@ -34,17 +29,82 @@ fn question() -> Question<Input, f64> {
             Mistake::new("that is the balance heuristic; both pdfs are squared here", |&(own, other)| {
                 if own == 0.0 { 0.0 } else { own / (own + other) }
             }),
+            Mistake::new(
+                "the two are swapped, and not squared: it is own² over the sum of both squares",
+                |&(own, other)| if other == 0.0 { 0.0 } else { other / (own + other) },
+            ),
             Mistake::new("the two are swapped: the larger pdf has more weight", |&(own, other)| {
                 power_heuristic(other, own)
             }),
+            Mistake::new("the two are swapped: the larger pdf has more weight", |&(own, other)| {
+                if own == 0.0 { 0.0 } else { power_heuristic(other, own) }
+            }),
+            Mistake::new("the two are swapped: the larger pdf has more weight", |&(own, other)| {
+                other * other / (own * own + other * other)
+            }),
+            Mistake::new("that is the balance heuristic squared; square each pdf, and then add", |&(own, other)| {
+                if own == 0.0 { 0.0 } else { (own / (own + other)).powi(2) }
+            }),
+            Mistake::new("that is the balance heuristic squared; square each pdf, and then add", |&(own, other)| {
+                own * own / ((own + other) * (own + other))
+            }),
             Mistake::new(
-                "squares overflow to infinity or vanish to 0, and their quotient is NaN or wrong; square only \
-                 the ratio of the two",
+                "it is divided by the root of the sum of squares; the weight is own² over the sum itself",
+                |&(own, other)| if own == 0.0 { 0.0 } else { own / own.hypot(other) },
+            ),
+            Mistake::new(
+                "it is divided by the root of the sum of squares; the weight is own² over the sum itself",
+                |&(own, other)| power_heuristic(own, other) * own.hypot(other),
+            ),
+            Mistake::new(
+                "own stands above the line unsquared, or the weight is divided by own already; it is own² over the sum of squares",
+                |&(own, other)| if own == 0.0 { 0.0 } else { power_heuristic(own, other) / own },
+            ),
+            Mistake::new(
+                "own stands above the line unsquared, or the weight is divided by own already; it is own² over the sum of squares",
+                |&(own, other)| own / (own * own + other * other),
+            ),
+            Mistake::new(
+                "the weight is multiplied by own once more; it is own² over the sum of squares",
+                |&(own, other)| power_heuristic(own, other) * own,
+            ),
+            Mistake::new(
+                "own² is divided by the sum of the pdfs; each of them is squared there, too",
+                |&(own, other)| if own == 0.0 { 0.0 } else { own * own / (own + other) },
+            ),
+            Mistake::new("own² is divided by the difference of the squares; it is their sum", |&(own, other)| {
+                own * own / (own * own - other * other)
+            }),
+            Mistake::new(
+                "own² is divided by the other's alone; it is over the sum of both, from 0 to 1",
+                |&(own, other)| if own == 0.0 { 0.0 } else { (own / other).powi(2) },
+            ),
+            Mistake::new("the larger pdf has all the weight: that is the maximum heuristic", |&(own, other)| {
+                if own > other { 1.0 } else { 0.0 }
+            }),
+            Mistake::new("the larger pdf has all the weight: that is the maximum heuristic", |&(own, other)| {
+                if own >= other { 1.0 } else { 0.0 }
+            }),
+            Mistake::new("each pdf is cubed instead of squared", |&(own, other)| {
+                if own == 0.0 { 0.0 } else { 1.0 / (1.0 + (other / own).powi(3)) }
+            }),
+            Mistake::new("the roots of the pdfs are taken instead of their squares", |&(own, other)| {
+                if own == 0.0 { 0.0 } else { 1.0 / (1.0 + (other / own).sqrt()) }
+            }),
+            Mistake::new(
+                "the ratio own / other is infinite where other is 0 or tiny, and ∞ / ∞ is NaN; take other / own",
+                |&(own, other)| if own == 0.0 { 0.0 } else { by_own_over_other(own, other) },
+            ),
+            Mistake::new(
+                "the ratio own / other is infinite where other is 0 or tiny, and ∞ / ∞ is NaN; take other / own",
+                |&(own, other)| by_own_over_other(own, other),
+            ),
+            Mistake::new(
+                "squares overflow to infinity or vanish to 0, and their quotient is NaN or wrong; square only the ratio of the two",
                 |&(own, other)| if own == 0.0 { 0.0 } else { own * own / (own * own + other * other) },
             ),
             Mistake::new(
-                "squares overflow to infinity or vanish to 0, and their quotient is NaN or wrong; square only \
-                 the ratio of the two, and return 0 where own is 0",
+                "squares overflow to infinity or vanish to 0, and their quotient is NaN or wrong; square only the ratio of the two, and return 0 where own is 0",
                 |&(own, other)| own * own / (own * own + other * other),
             ),
             Mistake::new(
@@ -54,6 +114,16 @@ fn question() -> Question<Input, f64> {
                     1.0 / (1.0 + ratio * ratio)
                 },
             ),
+            Mistake::new(
+                "0 is divided by 0 where neither technique samples the path; there the weight is 0",
+                |&(own, other)| if own == 0.0 && other == 0.0 { f64::NAN } else { power_heuristic(own, other) },
+            ),
+            Mistake::new("the weight is not 0 where neither technique samples the path", |&(own, other)| {
+                if own == 0.0 && other == 0.0 { 1.0 } else { power_heuristic(own, other) }
+            }),
+            Mistake::new("the weight is not 0 where neither technique samples the path", |&(own, other)| {
+                if own == 0.0 && other == 0.0 { 0.5 } else { power_heuristic(own, other) }
+            }),
             Mistake::new("each counts half; the larger pdf has more weight", |_| 0.5),
         ],
         hints: &[
@@ -62,6 +132,11 @@ fn question() -> Question<Input, f64> {
             "1 / (1 + (other / own)²), and 0 where own is 0; a ratio that is infinite gives 0 by itself",
         ],
     }
+}
+
+fn by_own_over_other(own: f64, other: f64) -> f64 {
+    let ratio = own / other;
+    ratio * ratio / (1.0 + ratio * ratio)
 }
 
 fn asked() -> Vec<Probe<Input>> {
@@ -75,9 +150,9 @@ fn asked() -> Vec<Probe<Input>> {
     };
     asked.extend(probes("ordinary pdfs", of(2601, 40, -3.0, 3.0)));
     asked.extend(probes("one that cannot sample the path", [(0.0, 2.0), (2.0, 0.0)]));
-    asked.extend(probes("pdfs too large to be squared", of(2602, 30, 160.0, 290.0)));
-    asked.extend(probes("pdfs too small to be squared", of(2603, 30, -290.0, -170.0)));
-    asked.extend(probes("one of each", [(1e200, 1e-200), (1e-200, 1e200)]));
-    asked.extend(probes("neither samples the path", [(0.0, 0.0)]));
+    asked.extend(extremes("pdfs too large to be squared", of(2602, 30, 160.0, 290.0)));
+    asked.extend(extremes("pdfs too small to be squared", of(2603, 30, -290.0, -170.0)));
+    asked.extend(extremes("one of each", [(1e200, 1e-200), (1e-200, 1e200)]));
+    asked.extend(extremes("neither samples the path", [(0.0, 0.0)]));
     asked
 }

@@ -1,13 +1,21 @@
 //! The figures of chapter 27, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, caustics};
+use pinhole_lab::figure::{Figure, caustics, connection};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
-    vec![Figure {
-        name: "27_sides",
-        chapter,
-        about: "caustics by rays from the camera alone, and from the light too, once with a mistake",
-        draw: caustics::draw_sides,
-    }]
+    vec![
+        Figure {
+            name: "27_sides",
+            chapter,
+            about: "caustics by rays from the camera alone, and from the light too, once with a mistake",
+            draw: caustics::draw_sides,
+        },
+        Figure {
+            name: "27_connection",
+            chapter,
+            about: "a path from the lamp, connected to the camera, and a path from the camera through the same pixel",
+            draw: connection::draw,
+        },
+    ]
 }

@@ -13,11 +13,6 @@ pub(super) type Input = ([f64; 3], f64, f64);
 /// What the reader writes.
 pub type Yours = fn([f64; 3], f64, f64) -> f64;
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::pixel_fraction)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered(
@@ -61,11 +56,39 @@ fn question() -> Question<Input, f64> {
                 "cos³, not cos⁴: the fourth belongs to an opening, which is seen obliquely too, and an eye is a point",
                 |&input| ahead(input, fraction(input, 4, 1.0)),
             ),
+            Mistake::new(
+                "cos³, not cos²: the depth is d cos θ, so 1 / (A d² cos³ θ) is more than 1 / (A depth²)",
+                |&input| ahead(input, fraction(input, 2, 1.0)),
+            ),
             Mistake::new("cos³, not cos: 1/d² is not yet all that the angle does", |&input| {
                 ahead(input, fraction(input, 1, 1.0))
             }),
             Mistake::new("cos³ θ is missing: a pixel off the axis fills a smaller solid angle", |&input| {
                 ahead(input, fraction(input, 0, 1.0))
+            }),
+            Mistake::new("the depth −z is taken for d, which is the distance to the eye", |&input| {
+                ahead(input, fraction(input, 5, 1.0))
+            }),
+            Mistake::new(
+                "the fraction is multiplied by the cosines; off the axis a pixel fills a smaller solid angle, so divide by cos³ θ",
+                |&input| ahead(input, fraction(input, -3, 1.0)),
+            ),
+            Mistake::new(
+                "the fraction is multiplied by the cosines; off the axis a pixel fills a smaller solid angle, so divide by cos³ θ",
+                |&input| ahead(input, fraction(input, -4, 1.0)),
+            ),
+            Mistake::new(
+                "the fraction is multiplied by the cosines; off the axis a pixel fills a smaller solid angle, so divide by cos³ θ",
+                |&input| ahead(input, fraction(input, -1, 1.0)),
+            ),
+            Mistake::new("the angle θ is that off the axis, of x and y together: cos θ = −z / d", |&input| {
+                ahead(input, about(input, 1))
+            }),
+            Mistake::new("the angle θ is that off the axis, of x and y together: cos θ = −z / d", |&input| {
+                ahead(input, about(input, 0))
+            }),
+            Mistake::new("cos θ is −z / d, not −z", |&input| {
+                ahead(input, fraction(input, 3, distance(input).powi(-3)))
             }),
             Mistake::new("A is the area of a pixel, its side squared", |&input| {
                 ahead(input, fraction(input, 3, side(input)))
@@ -73,13 +96,44 @@ fn question() -> Question<Input, f64> {
             Mistake::new("the pixel's area A is missing: a smaller pixel gathers from fewer directions", |&input| {
                 ahead(input, fraction(input, 3, side(input) * side(input)))
             }),
+            Mistake::new("the fraction is multiplied by the pixel's area A; it is 1 / (A d² cos³ θ)", |&input| {
+                ahead(input, fraction(input, 3, side(input).powi(4)))
+            }),
             Mistake::new("the plane at distance 1 is 2 tan_half high, not tan_half", |&input| {
-                ahead(input, fraction(input, 3, 4.0).abs())
+                ahead(input, fraction(input, 3, 4.0))
             }),
+            Mistake::new("the plane at distance 1 is 2 tan_half high, not 4 tan_half", |&input| {
+                ahead(input, fraction(input, 3, 0.25))
+            }),
+            Mistake::new(
+                "there are height² pixels on the plane, as it is height of them wide and high: A is (2 tan_half / height)²",
+                |&input| ahead(input, fraction(input, 3, 1.0 / input.2)),
+            ),
+            Mistake::new(
+                "there are height² pixels on the plane, as it is height of them wide and high: A is (2 tan_half / height)²",
+                |&input| ahead(input, fraction(input, 3, input.2.powi(-2))),
+            ),
             Mistake::new("1/d² is missing: light thins out with the distance", |&input| {
-                let distance = DVec3::from(input.0).length_squared();
-                ahead(input, fraction(input, 3, distance))
+                ahead(input, fraction(input, 3, distance(input).powi(2)))
             }),
+            Mistake::new(
+                "d counts once, or its root is missing: light thins out with d², which is x² + y² + z²",
+                |&input| ahead(input, fraction(input, 3, distance(input))),
+            ),
+            Mistake::new("d² is squared once more", |&input| {
+                ahead(input, fraction(input, 3, distance(input).powi(-2)))
+            }),
+            Mistake::new("that is A d² cos³ θ; the fraction is one over it", |&input| {
+                ahead(input, 1.0 / fraction(input, 3, 1.0))
+            }),
+            Mistake::new(
+                "the camera looks down −z: the depth is −z, and what has a z above 0 is behind it",
+                |&input| if input.0[2] > 0.0 { -fraction(input, 3, 1.0) } else { 0.0 },
+            ),
+            Mistake::new(
+                "the camera looks down −z: the depth is −z, and what has a z above 0 is behind it",
+                |&input| -fraction(input, 3, 1.0),
+            ),
         ],
         hints: &[
             "on the axis θ is 0, and the fraction is 1 / (A d²)",
@@ -89,6 +143,17 @@ fn question() -> Question<Input, f64> {
     }
 }
 
+fn distance((point, ..): Input) -> f64 {
+    DVec3::from(point).length()
+}
+
+/// With the angle in one plane only.
+fn about(input: Input, axis: usize) -> f64 {
+    let (point, ..) = input;
+    let cosine = -point[2] / libm::hypot(point[axis], point[2]);
+    fraction(input, 0, cosine.powi(-3))
+}
+
 fn side((_, tan_half, height): Input) -> f64 {
     2.0 * tan_half / height
 }
@@ -96,9 +161,8 @@ fn side((_, tan_half, height): Input) -> f64 {
 /// With so many cosines, and another factor.
 fn fraction(input: Input, cosines: i32, factor: f64) -> f64 {
     let (point, ..) = input;
-    let distance = DVec3::from(point).length();
-    let cosine = -point[2] / distance;
-    let power = (0..cosines).fold(1.0, |power, _| power * cosine);
+    let distance = distance(input);
+    let power = (-point[2] / distance).powi(cosines);
     factor / (side(input) * side(input) * distance * distance * power)
 }
 
@@ -108,7 +172,7 @@ fn ahead((point, ..): Input, fraction: f64) -> f64 {
 
 fn asked() -> Vec<Probe<Input>> {
     let mut asked: Vec<_> =
-        probes("straight ahead", [([0.0, 0.0, -1.0], 1.0, 2.0), ([0.0, 0.0, -2.0], 0.5, 100.0)]).collect();
+        probes("straight ahead", [([0.0, 0.0, -1.0], 1.0, 2.0), ([0.0, 0.0, -3.0], 0.7, 100.0)]).collect();
     let of = |seed, count: u64, widest: f64, size: f64| {
         (0..count).map(move |at| {
             let mut draws = Draws::new(seed, at);

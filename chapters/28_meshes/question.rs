@@ -14,15 +14,10 @@ pub(super) type Answer = [[f64; 3]; 2];
 /// What the reader writes.
 pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], [[f64; 3]; 3], [f64; 3]) -> Answer;
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::ray_in_object_space)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     let written = move |&(o, d, position, axes, scale): &Input| yours(o, d, position, axes, scale);
-    Exercise::rendered("ray_in_object_space", question, written, mine)
+    Exercise::rendered("ray_in_object_space", question, written, mine).asked_often()
 }
 
 fn question() -> Question<Input, Answer> {
@@ -40,40 +35,82 @@ fn question() -> Question<Input, Answer> {
         measured: "in each part",
         mistakes: vec![
             Mistake::new(
-                "the direction is of length 1 in object space too: then t counts in another unit than in the world, and \
-                 hits of different meshes cannot be compared",
-                |input| {
-                    let [origin, direction] = right(input);
-                    [origin, DVec3::from(direction).normalize().into()]
-                },
+                "the direction is of length 1 in object space too: then t counts in another unit than in the world, and hits of different meshes cannot be compared",
+                |input| both(right(input)[0], DVec3::from(right(input)[1]).normalize()),
             ),
+            Mistake::new(
+                "the direction is not divided by the scale; in object space it is longer or shorter, too",
+                |input| [right(input)[0], scaled(input, [1.0; 3])[1]],
+            ),
+            Mistake::new("the direction stays as it is in the world; it is turned and scaled, too", |input| {
+                [right(input)[0], input.1]
+            }),
+            Mistake::new("the origin is not divided by the scale; it is, as the direction is", |input| {
+                [scaled(input, [1.0; 3])[0], right(input)[1]]
+            }),
             Mistake::new(
                 "the direction is moved by the position; it is no place, and only turned and scaled",
                 |input| {
                     let &(_, direction, position, axes, scale) = input;
-                    let moved = (DVec3::from(direction) - DVec3::from(position)).into();
-                    [right(input)[0], right(&(direction, moved, position, axes, scale))[1]]
+                    [right(input)[0], right(&(direction, direction, position, axes, scale))[0]]
                 },
             ),
-            Mistake::new("the scale is left out", |&(o, d, position, axes, _)| {
-                right(&(o, d, position, axes, [1.0; 3]))
-            }),
+            Mistake::new("the scale is left out", |input| scaled(input, [1.0; 3])),
             Mistake::new(
-                "the scale is multiplied: what is longer in the world has the same numbers in its own space, so there \
-                 the ray is divided by it",
-                |&(o, d, position, axes, scale)| right(&(o, d, position, axes, scale.map(|part| 1.0 / part))),
+                "the ray is multiplied by the scale: what is longer in the world has the same numbers in its own space, so divide by it",
+                |input| scaled(input, input.4.map(|part| 1.0 / part)),
             ),
             Mistake::new(
+                "the direction is multiplied by the scale, as a normal would be; it is divided by it, as the origin is",
+                |input| [right(input)[0], scaled(input, input.4.map(|part| 1.0 / part))[1]],
+            ),
+            Mistake::new("one factor is taken for all three axes; each has its own", |input| {
+                scaled(input, [input.4[0]; 3])
+            }),
+            Mistake::new("the turn is to be undone before the scale, which is along the turned axes", |input| {
+                let &(o, d, position, axes, scale) = input;
+                [DVec3::from(o) - DVec3::from(position), d.into()]
+                    .map(|v| turned_back(axes, v / DVec3::from(scale)).into())
+            }),
+            Mistake::new(
                 "the axes take a vector back to the world; to object space each component is its product with one axis",
-                |&(o, d, position, axes, scale)| {
-                    let turned = DMat3::from_cols_array_2d(&axes).transpose().to_cols_array_2d();
-                    right(&(o, d, position, turned, scale))
+                |input| {
+                    let &(o, d, position, axes, scale) = input;
+                    right(&(o, d, position, transposed(axes), scale))
+                },
+            ),
+            Mistake::new(
+                "that leads from the object to the world; asked is the opposite: subtract the position, undo the turn, divide by the scale",
+                |input| {
+                    let &(o, d, position, axes, scale) = input;
+                    let [o, d] = [o, d].map(|v| turned_back(transposed(axes), DVec3::from(v) * DVec3::from(scale)));
+                    both((o + DVec3::from(position)).into(), d)
                 },
             ),
             Mistake::new("the position is left out: the mesh is turned and scaled about its own origin", |input| {
-                let &(o, d, _, axes, scale) = input;
-                right(&(o, d, [0.0; 3], axes, scale))
+                put_at(input, [0.0; 3])
             }),
+            Mistake::new("the position is added; to come back from it, subtract it", |input| {
+                put_at(input, input.2.map(|part| -part))
+            }),
+            Mistake::new(
+                "the position is subtracted last; it was added last, in the world, so it is the first to be undone",
+                |input| {
+                    both(
+                        (DVec3::from(put_at(input, [0.0; 3])[0]) - DVec3::from(input.2)).into(),
+                        right(input)[1].into(),
+                    )
+                },
+            ),
+            Mistake::new(
+                "the position is subtracted last; it was added last, in the world, so it is the first to be undone",
+                |input| {
+                    let &(o, _, position, axes, scale) = input;
+                    let start = (turned_back(axes, o.into()) - DVec3::from(position)) / DVec3::from(scale);
+                    both(start.into(), right(input)[1].into())
+                },
+            ),
+            Mistake::new("the two are swapped: the origin is first", |input| [right(input)[1], right(input)[0]]),
         ],
         hints: &[
             "undo what placed the mesh, the last step first: the position, then the turn, then the scale",
@@ -82,6 +119,27 @@ fn question() -> Question<Input, Answer> {
             "leave the direction's length as it comes out: at each t both rays must be at the same place of the mesh",
         ],
     }
+}
+
+fn both(origin: [f64; 3], direction: DVec3) -> Answer {
+    [origin, direction.into()]
+}
+
+fn scaled(&(o, d, position, axes, _): &Input, scale: [f64; 3]) -> Answer {
+    right(&(o, d, position, axes, scale))
+}
+
+fn put_at(&(o, d, _, axes, scale): &Input, position: [f64; 3]) -> Answer {
+    right(&(o, d, position, axes, scale))
+}
+
+fn transposed(axes: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    DMat3::from_cols_array_2d(&axes).transpose().to_cols_array_2d()
+}
+
+/// A vector's component along each axis.
+fn turned_back(axes: [[f64; 3]; 3], vector: DVec3) -> DVec3 {
+    DMat3::from_cols_array_2d(&axes).transpose() * vector
 }
 
 /// By the inverse matrix, as pinhole does it.

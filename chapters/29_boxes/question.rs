@@ -2,7 +2,7 @@
 
 use super::mine::mine;
 use pinhole_lab::exercise::apart::exact;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// Origin, 1 over the direction, low, high, t_max; all with few digits, so that no product rounds.
@@ -11,15 +11,10 @@ pub(super) type Input = ([f64; 3], [f64; 3], [f64; 3], [f64; 3], f64);
 /// What the reader writes.
 pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], [f64; 3], f64) -> bool;
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::enters_box)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     let written = move |&(o, inverse, low, high, t_max): &Input| yours(o, inverse, low, high, t_max);
-    Exercise::rendered("enters_box", question, written, mine)
+    Exercise::rendered("enters_box", question, written, mine).asked_often()
 }
 
 fn question() -> Question<Input, bool> {
@@ -30,30 +25,85 @@ fn question() -> Question<Input, bool> {
             let [origin, inverse, low, high] = [origin, inverse, low, high].map(Shown::shown);
             format!("origin {origin}, inverse {inverse}, low {low}, high {high}, t_max {t_max:?}")
         },
-        right: |input| entered(input, Slab::Closed).is_some_and(|[from, until]| from.max(0.0) <= until.min(input.4)),
+        right: |input| entered(input).is_some_and(|[from, until]| from.max(0.0) <= until.min(input.4)),
         apart: exact,
         allowed: 0.0,
         measured: "",
         mistakes: vec![
             Mistake::new(
-                "min and max pass over NaN and give the infinity beside it, so a ray in a face is lost",
+                "a ray in the plane of a face is lost, though faces belong to the box: min and max pass over NaN and give the infinity beside it",
                 by_min_and_max,
             ),
-            Mistake::new("a ray in a face is taken for one that misses: faces belong to the box", |input| {
-                entered(input, Slab::Open).is_some_and(|[from, until]| from.max(0.0) <= until.min(input.4))
-            }),
+            Mistake::new(
+                "a ray in the plane of a face is sometimes lost: NaN compares with nothing, so take the two planes by the sign of `inverse`",
+                swapped,
+            ),
             Mistake::new("a box behind the origin counts: t begins at 0", |input| {
-                entered(input, Slab::Closed).is_some_and(|[from, until]| from <= until.min(input.4))
+                entered(input).is_some_and(|[from, until]| from <= until.min(input.4))
             }),
             Mistake::new("a box beyond t_max counts", |input| {
-                entered(input, Slab::Closed).is_some_and(|[from, until]| from.max(0.0) <= until)
+                entered(input).is_some_and(|[from, until]| from.max(0.0) <= until)
+            }),
+            Mistake::new("a box counts wherever it is on the line: t is from 0 to t_max", |input| {
+                entered(input).is_some_and(|[from, until]| from <= until)
             }),
             Mistake::new("from = until is a hit too, or flat boxes and edges are lost", |input| {
-                entered(input, Slab::Closed).is_some_and(|[from, until]| from.max(0.0) < until.min(input.4))
+                entered(input).is_some_and(|[from, until]| from.max(0.0) < until.min(input.4))
             }),
+            Mistake::new("from = until is a hit too, or flat boxes and edges are lost", |input| {
+                entered(input).is_some_and(|[from, until]| from < until && until >= 0.0 && from <= input.4)
+            }),
+            Mistake::new("a ray from inside the box is in it, too, though it entered before t = 0", |input| {
+                entered(input).is_some_and(|[from, until]| 0.0 <= from && from <= until.min(input.4))
+            }),
+            Mistake::new("a ray from inside the box is in it, too, though it entered before t = 0", |input| {
+                entered(input).is_some_and(|[from, until]| 0.0 < from && from <= until.min(input.4))
+            }),
+            Mistake::new("a box that reaches beyond t_max counts, too, where it begins before", |input| {
+                entered(input).is_some_and(|[from, until]| from.max(0.0) <= until && until <= input.4)
+            }),
+            Mistake::new("a box that begins just at t_max counts, too", |input| {
+                entered(input).is_some_and(|[from, until]| from.max(0.0) <= until && from < input.4)
+            }),
+            Mistake::new("t = 0 counts, too: a ray may begin on the box", |input| {
+                entered(input).is_some_and(|[from, until]| until > 0.0 && from <= until.min(input.4))
+            }),
+            Mistake::new(
+                "the smallest entry and the largest exit are taken; the ray is in the box from the last entry to the first exit",
+                from_first_to_last,
+            ),
+            Mistake::new("one slab is enough for a hit; the ray must be in all three at once", in_one_slab),
             Mistake::new("a ray that goes towards smaller coordinates enters by the upper plane", |input| {
-                in_order(input)
+                in_order(input, [1.0; 3])
             }),
+            Mistake::new(
+                "the planes are taken the wrong way round: a ray that goes upward enters by the lower one",
+                |input| in_order(input, [0, 1, 2].map(|axis| -input.1[axis])),
+            ),
+            Mistake::new("t is taken with the wrong sign: it is (plane − origin) · inverse", |input| {
+                let &(o, inverse, low, high, t_max) = input;
+                in_order(&(o, inverse.map(|part| -part), low, high, t_max), inverse.map(|part| -part))
+            }),
+            Mistake::new(
+                "it is divided by `inverse`, which is 1 over the direction already; multiply by it",
+                |input| {
+                    let &(o, inverse, low, high, t_max) = input;
+                    in_order(&(o, inverse.map(|part| 1.0 / part), low, high, t_max), inverse)
+                },
+            ),
+            Mistake::new(
+                "where `inverse` is infinite nothing is asked; the ray misses if its origin is not between the two faces",
+                |input| {
+                    let &(o, inverse, low, high, t_max) = input;
+                    let inside = [0, 1, 2].map(|axis| if inverse[axis].is_infinite() { low[axis] } else { o[axis] });
+                    entered(&(inside, inverse, low, high, t_max))
+                        .is_some_and(|[from, until]| from.max(0.0) <= until.min(t_max))
+                },
+            ),
+            Mistake::new(
+                "where `inverse` is infinite the ray is taken to miss; it is always between the two faces, or never",
+                |input| input.1.iter().all(|part| part.is_finite()) && in_order(input, input.1),
+            ),
         ],
         hints: &[
             "along each axis the ray is between the two faces from one t to another; in the box it is where all three \
@@ -68,20 +118,12 @@ fn question() -> Question<Input, bool> {
     }
 }
 
-/// Whether the faces of a slab belong to it, for rays along them.
-#[derive(Clone, Copy, PartialEq)]
-enum Slab {
-    Closed,
-    Open,
-}
-
 /// From which t to which a ray is in a box, along the whole line.
-fn entered(&(o, inverse, low, high, _): &Input, slab: Slab) -> Option<[f64; 2]> {
+fn entered(&(o, inverse, low, high, _): &Input) -> Option<[f64; 2]> {
     let (mut from, mut until) = (f64::NEG_INFINITY, f64::INFINITY);
     for axis in 0..3 {
         if inverse[axis].is_infinite() {
-            let is_on = o[axis] == low[axis] || o[axis] == high[axis];
-            if o[axis] < low[axis] || o[axis] > high[axis] || (is_on && slab == Slab::Open) {
+            if o[axis] < low[axis] || o[axis] > high[axis] {
                 return None;
             }
             continue;
@@ -101,11 +143,45 @@ fn by_min_and_max(&(o, inverse, low, high, t_max): &Input) -> bool {
     from <= until
 }
 
-/// Lower planes first, whichever direction the ray has.
-fn in_order(&(o, inverse, low, high, t_max): &Input) -> bool {
-    let (mut from, mut until) = (0.0, t_max);
+/// Where the line crosses the planes of an axis, the lower one first.
+fn crossed(&(o, inverse, low, high, _): &Input, axis: usize) -> [f64; 2] {
+    [low, high].map(|plane| (plane[axis] - o[axis]) * inverse[axis])
+}
+
+/// Both are exchanged where the first is larger.
+fn swapped(input: &Input) -> bool {
+    let (mut from, mut until) = (0.0, input.4);
     for axis in 0..3 {
-        let (enters, leaves) = ((low[axis] - o[axis]) * inverse[axis], (high[axis] - o[axis]) * inverse[axis]);
+        let [one, other] = crossed(input, axis);
+        let (enters, leaves) = if one > other { (other, one) } else { (one, other) };
+        from = if enters > from { enters } else { from };
+        until = if leaves < until { leaves } else { until };
+    }
+    from <= until
+}
+
+fn from_first_to_last(input: &Input) -> bool {
+    let (mut from, mut until) = (f64::INFINITY, f64::NEG_INFINITY);
+    for axis in 0..3 {
+        let [one, other] = crossed(input, axis);
+        (from, until) = (from.min(one.min(other)), until.max(one.max(other)));
+    }
+    from.max(0.0) <= until.min(input.4)
+}
+
+fn in_one_slab(input: &Input) -> bool {
+    (0..3).any(|axis| {
+        let [one, other] = crossed(input, axis);
+        one.min(other).max(0.0) <= one.max(other).min(input.4)
+    })
+}
+
+/// Lower planes first, except along axes that go backwards.
+fn in_order(input: &Input, forwards: [f64; 3]) -> bool {
+    let (mut from, mut until) = (0.0, input.4);
+    for axis in 0..3 {
+        let [one, other] = crossed(input, axis);
+        let (enters, leaves) = if forwards[axis].is_sign_negative() { (other, one) } else { (one, other) };
         from = if enters > from { enters } else { from };
         until = if leaves < until { leaves } else { until };
     }
@@ -127,16 +203,23 @@ fn asked() -> Vec<Probe<Input>> {
         "along an axis",
         [at([0.25, 0.5, 0.0], [0.0, -0.0, -1.0], ALWAYS), at([1.5, 0.5, 0.0], [-0.0, 0.0, -1.0], ALWAYS)],
     ));
-    asked.extend(probes(
-        "in the plane of a face",
-        [at([1.0, 0.5, 0.0], [0.0, 0.0, -1.0], ALWAYS), at([-1.0, 0.5, 0.0], [-0.0, 0.0, -1.0], ALWAYS)],
-    ));
-    asked.extend(probes("along an edge", [at([1.0, 2.0, 0.0], [0.0, -0.0, -1.0], ALWAYS)]));
     asked.extend(probes("through an edge", [at([3.0, 0.0, 0.0], [-1.0, 0.0, -1.0], ALWAYS)]));
     let flat = ([0.5, 0.5, 3.0], [4.0, -4.0, -1.0], [0.0, 0.0, -1.0], [1.0, 1.0, -1.0], ALWAYS);
     asked.extend(probes("a flat box", [flat, (flat.0, [ALWAYS, ALWAYS, -1.0], flat.2, flat.3, ALWAYS)]));
-    asked.extend(probes("anything", (0..400).map(drawn)));
+    let (in_faces, elsewhere): (Vec<Input>, Vec<Input>) = (0..400).map(drawn).partition(is_in_a_face);
+    asked.extend(probes("anything", elsewhere));
+    asked.extend(extremes(
+        "in the plane of a face",
+        [at([1.0, 0.5, 0.0], [0.0, 0.0, -1.0], ALWAYS), at([-1.0, 0.5, 0.0], [-0.0, 0.0, -1.0], ALWAYS)],
+    ));
+    asked.extend(extremes("along an edge", [at([1.0, 2.0, 0.0], [0.0, -0.0, -1.0], ALWAYS)]));
+    asked.extend(extremes("anything, in the plane of a face", in_faces));
     asked
+}
+
+/// Whether 0 · ∞ comes up.
+fn is_in_a_face(&(o, inverse, low, high, _): &Input) -> bool {
+    (0..3).any(|axis| inverse[axis].is_infinite() && (o[axis] == low[axis] || o[axis] == high[axis]))
 }
 
 /// A box and a ray of numbers with few digits, mostly at it; directions are powers of two or 0, so that no product rounds.

@@ -12,11 +12,6 @@ pub(super) type Answer = [Option<u32>; 2];
 /// What the reader writes.
 pub type Yours = fn([Option<f64>; 2], f64) -> Answer;
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::to_visit)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("to_visit", question, move |&(enters, closest)| yours(enters, closest), mine)
@@ -37,22 +32,85 @@ fn question() -> Question<Input, Answer> {
                 |&(enters, closest)| [to_visit(enters, closest)[0], None],
             ),
             Mistake::new(
+                "the farther child is left out: its box may overlap the nearer one and hold the closer hit",
+                |&(enters, closest)| [in_order((enters, closest))[0], None],
+            ),
+            Mistake::new(
                 "a child that begins behind the closest hit is visited: it cannot hold a closer one",
                 |&(enters, _)| to_visit(enters, f64::INFINITY),
+            ),
+            Mistake::new(
+                "both are visited if the nearer one begins before the closest hit; the farther one must do so, too",
+                |&(enters, closest)| both_or_none(enters, closest),
             ),
             Mistake::new("child 0 first, whichever is nearer: the picture is right, and takes longer", |&input| {
                 in_order(input)
             }),
             Mistake::new(
                 "the farther child comes first: a hit there seldom spares the nearer one",
-                |&(enters, closest)| match to_visit(enters, closest) {
-                    [first, Some(second)] => [Some(second), first],
-                    order => order,
+                |&(enters, closest)| farther_first(enters, closest),
+            ),
+            Mistake::new(
+                "nothing may stand before a child: where only one is visited, it is the first",
+                |&(enters, closest)| slots(enters, closest),
+            ),
+            Mistake::new(
+                "nothing may stand before a child: where only one is visited, it is the first",
+                |&(enters, closest)| {
+                    if slots(enters, closest).contains(&None) {
+                        slots(enters, closest)
+                    } else {
+                        to_visit(enters, closest)
+                    }
                 },
             ),
             Mistake::new(
                 "nothing may stand before a child: where only one is visited, it is the first",
-                |&(enters, closest)| [0, 1].map(|child| enters[child as usize].filter(|&t| t < closest).map(|_| child)),
+                |&(enters, closest)| {
+                    let [lower, upper] = slots(enters, closest);
+                    if enters[1].zip(enters[0]).is_some_and(|(upper, lower)| upper < lower) {
+                        [upper, lower]
+                    } else {
+                        [lower, upper]
+                    }
+                },
+            ),
+            Mistake::new(
+                "a box in which the ray begins, at t = 0, is left out; it is visited, too",
+                |&(enters, closest)| to_visit(enters.map(|t| t.filter(|&t| t > 0.0)), closest),
+            ),
+            Mistake::new("child 1 is first where both are equally near; then it is child 0", |&(enters, closest)| {
+                if enters[0] == enters[1] { farther_first(enters, closest) } else { to_visit(enters, closest) }
+            }),
+            Mistake::new(
+                "the comparison is the wrong way round: a child is visited that begins before `closest`",
+                |&(enters, closest)| to_visit(enters.map(|t| t.filter(|&t| t >= closest)), f64::INFINITY),
+            ),
+            Mistake::new("the children are counted from 1; they are 0 and 1", |&(enters, closest)| {
+                to_visit(enters, closest).map(|child| child.map(|number| number + 1))
+            }),
+            Mistake::new(
+                "the numbers are the wrong way round: the first of the two is child 0",
+                |&(enters, closest)| to_visit(enters, closest).map(|child| child.map(|number| 1 - number)),
+            ),
+            Mistake::new("a child is visited whose box the ray misses", |&(enters, closest)| {
+                to_visit(enters.map(|t| Some(t.unwrap_or(0.0))), closest)
+            }),
+            Mistake::new("a child is visited whose box the ray misses", |&(enters, closest)| {
+                to_visit(enters.map(|t| Some(t.unwrap_or(1e300))), closest)
+            }),
+            Mistake::new("a child is visited whose box the ray misses", |&(enters, closest)| {
+                to_visit(enters.map(|t| Some(t.unwrap_or(-1.0))), closest)
+            }),
+            Mistake::new(
+                "nothing is visited unless both children are; where only one is, it is visited alone",
+                |&(enters, closest)| if enters.contains(&None) { [None; 2] } else { to_visit(enters, closest) },
+            ),
+            Mistake::new(
+                "nothing is visited unless both children are; where only one is, it is visited alone",
+                |&(enters, closest)| {
+                    if slots(enters, closest).contains(&None) { [None; 2] } else { to_visit(enters, closest) }
+                },
             ),
         ],
         hints: &[
@@ -61,6 +119,22 @@ fn question() -> Question<Input, Answer> {
             "of two children the one with the smaller t is first",
         ],
     }
+}
+
+fn farther_first(enters: [Option<f64>; 2], closest: f64) -> Answer {
+    match to_visit(enters, closest) {
+        [first, Some(second)] => [Some(second), first],
+        order => order,
+    }
+}
+
+/// Each visited child at its own place.
+fn slots(enters: [Option<f64>; 2], closest: f64) -> Answer {
+    [0, 1].map(|child| enters[child as usize].filter(|&t| t < closest).map(|_| child))
+}
+
+fn both_or_none(enters: [Option<f64>; 2], closest: f64) -> Answer {
+    if to_visit(enters, closest) == [None; 2] { [None; 2] } else { to_visit(enters, f64::INFINITY) }
 }
 
 fn in_order((enters, closest): Input) -> Answer {

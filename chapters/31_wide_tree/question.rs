@@ -1,7 +1,7 @@
 //! Chapter 31: the mask of the boxes that a ray enters.
 
 use super::mine::mine;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::naive::wide::entered;
 
@@ -10,11 +10,6 @@ pub(super) type Input = ([f64; 8], [f64; 8], f64);
 
 /// What the reader writes.
 pub type Yours = fn([f64; 8], [f64; 8], f64) -> u32;
-
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::entered)
-}
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
@@ -36,6 +31,27 @@ fn question() -> Question<Input, u32> {
             Mistake::new("bit 0 is the first box: yours are in the opposite order", |&(enters, leaves, closest)| {
                 entered(enters, leaves, closest).reverse_bits() >> 24
             }),
+            Mistake::new("bit 0 is the first box: yours begin with bit 1", |&(enters, leaves, closest)| {
+                entered(enters, leaves, closest) << 1
+            }),
+            Mistake::new(
+                "the mask is inverted: a bit is to be set where the ray enters the box",
+                |&(enters, leaves, closest)| 255 ^ entered(enters, leaves, closest),
+            ),
+            Mistake::new(
+                "the boxes are counted; asked is a mask, with one bit for each",
+                |&(enters, leaves, closest)| entered(enters, leaves, closest).count_ones(),
+            ),
+            Mistake::new(
+                "only the first box is in the mask; all that the ray enters are to be",
+                |&(enters, leaves, closest)| {
+                    entered(enters, leaves, closest) & entered(enters, leaves, closest).wrapping_neg()
+                },
+            ),
+            Mistake::new(
+                "only the nearest box is in the mask; all that the ray enters are to be",
+                |&(enters, leaves, closest)| nearest(enters, leaves, closest),
+            ),
             Mistake::new(
                 "a box that begins behind the closest hit cannot hold a closer one",
                 |&(enters, leaves, _)| entered(enters, leaves, f64::INFINITY),
@@ -44,14 +60,76 @@ fn question() -> Question<Input, u32> {
                 those(|i| enters[i] <= leaves[i] && enters[i] <= closest)
             }),
             Mistake::new(
+                "a box counts wherever it is on the ray's line; it is to be there at a t from 0 to `closest`",
+                |&(enters, leaves, _)| those(|i| enters[i] <= leaves[i]),
+            ),
+            Mistake::new(
                 "a ray that starts from inside a box has entered it before t = 0",
                 |&(enters, leaves, closest)| {
                     those(|i| enters[i] <= leaves[i] && enters[i] >= 0.0 && enters[i] <= closest)
                 },
             ),
+            Mistake::new(
+                "a ray that starts from inside a box has entered it before t = 0",
+                |&(enters, leaves, closest)| {
+                    those(|i| enters[i] <= leaves[i] && enters[i] > 0.0 && enters[i] <= closest)
+                },
+            ),
             Mistake::new("a ray misses a box that it leaves before it enters it", |&(enters, leaves, closest)| {
                 those(|i| leaves[i] >= 0.0 && enters[i] <= closest)
             }),
+            Mistake::new(
+                "a box that reaches behind the closest hit counts, too, where it begins before",
+                |&(enters, leaves, closest)| those(|i| enters[i].max(0.0) <= leaves[i] && leaves[i] <= closest),
+            ),
+            Mistake::new(
+                "a box that reaches behind the closest hit counts, too, where it begins before",
+                |&(enters, leaves, closest)| those(|i| enters[i].max(0.0) <= leaves[i] && leaves[i] < closest),
+            ),
+            Mistake::new(
+                "the comparison with the closest hit is the wrong way round: a box that begins behind it is missed",
+                |&(enters, leaves, closest)| those(|i| enters[i].max(0.0) <= leaves[i] && enters[i] >= closest),
+            ),
+            Mistake::new(
+                "flat boxes are lost: where a ray enters and leaves at the same t, it does enter",
+                |&(enters, leaves, closest)| those(|i| enters[i].max(0.0) < leaves[i].min(closest)),
+            ),
+            Mistake::new(
+                "flat boxes are lost: where a ray enters and leaves at the same t, it does enter",
+                |&(enters, leaves, closest)| {
+                    those(|i| enters[i] < leaves[i] && leaves[i] >= 0.0 && enters[i] <= closest)
+                },
+            ),
+            Mistake::new(
+                "flat boxes are lost: where a ray enters and leaves at the same t, it does enter",
+                |&(enters, leaves, closest)| those(|i| enters[i] < leaves[i] && leaves[i] > 0.0 && enters[i] < closest),
+            ),
+            Mistake::new(
+                "a box that begins just at the closest hit is not behind it, so it counts",
+                |&(enters, leaves, closest)| those(|i| enters[i].max(0.0) <= leaves[i] && enters[i] < closest),
+            ),
+            Mistake::new(
+                "a box that the ray leaves just at t = 0 counts: the ray begins there",
+                |&(enters, leaves, closest)| those(|i| enters[i] <= leaves[i].min(closest) && leaves[i] > 0.0),
+            ),
+            Mistake::new(
+                "a box that just ends at 0, or begins at the closest hit, counts",
+                |&(enters, leaves, closest)| {
+                    those(|i| enters[i] <= leaves[i] && leaves[i] > 0.0 && enters[i] < closest)
+                },
+            ),
+            Mistake::new(
+                "the boxes are compared with one another; `closest` is of a hit, and a box that is entered is none yet",
+                |&(enters, leaves, closest)| one_by_one(enters, leaves, closest, |_, leaves| leaves),
+            ),
+            Mistake::new(
+                "the boxes are compared with one another; `closest` is of a hit, and a box that is entered is none yet",
+                |&(enters, leaves, closest)| one_by_one(enters, leaves, closest, |enters, _| enters.max(0.0)),
+            ),
+            Mistake::new(
+                "the boxes are compared with one another; `closest` is of a hit, and a box that is entered is none yet",
+                |&(enters, leaves, closest)| one_by_one(enters, leaves, closest, |enters, _| enters),
+            ),
         ],
         hints: &[
             "one box first: the part of it that the ray can still use begins at max(enters, 0)",
@@ -61,8 +139,24 @@ fn question() -> Question<Input, u32> {
     }
 }
 
-fn those(are: impl Fn(usize) -> bool) -> u32 {
+fn those(mut are: impl FnMut(usize) -> bool) -> u32 {
     (0..8).map(|child| u32::from(are(child)) << child).sum()
+}
+
+/// Of the boxes that are entered, the one that is so first.
+fn nearest(enters: [f64; 8], leaves: [f64; 8], closest: f64) -> u32 {
+    let mask = entered(enters, leaves, closest);
+    let first = (0..8).filter(|child| mask >> child & 1 == 1).min_by(|&a, &b| enters[a].total_cmp(&enters[b]));
+    first.map_or(0, |child| 1 << child)
+}
+
+/// Each box that is entered makes the closest hit closer.
+fn one_by_one(enters: [f64; 8], leaves: [f64; 8], mut closest: f64, closer: fn(f64, f64) -> f64) -> u32 {
+    those(|i| {
+        let is_entered = enters[i].max(0.0) <= leaves[i].min(closest);
+        closest = if is_entered { closest.min(closer(enters[i], leaves[i])) } else { closest };
+        is_entered
+    })
 }
 
 fn asked() -> Vec<Probe<Input>> {
@@ -82,7 +176,16 @@ fn asked() -> Vec<Probe<Input>> {
             (enters, leaves, far)
         }],
     ));
+    asked.extend(probes("flat boxes", [(row(1.0), row(1.0), far), (row(-3.5), row(-3.5), 2.25)]));
     asked.extend(probes("any boxes", (0..200).map(drawn)));
+    asked.extend(extremes(
+        "one that begins just at the closest hit",
+        [(row(1.0), row(1.5), 3.0), (row(1.0), row(9.0), 5.0)],
+    ));
+    asked.extend(extremes(
+        "one that ends just at the ray's origin",
+        [(row(-4.5), row(-4.0), far), (row(-5.0), row(-3.0), 9.0)],
+    ));
     asked
 }
 

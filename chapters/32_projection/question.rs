@@ -13,11 +13,6 @@ pub(super) type Input = ([f64; 3], [f64; 3], [[f64; 3]; 3], f64, [u32; 2]);
 /// What the reader writes.
 pub type Yours = fn([f64; 3], [f64; 3], [[f64; 3]; 3], f64, [u32; 2]) -> [f64; 2];
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::raster_from_world)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     let written = move |&(point, eye, axes, tan_half, size): &Input| yours(point, eye, axes, tan_half, size);
@@ -42,18 +37,55 @@ fn question() -> Question<Input, [f64; 2]> {
                 "the eye is not subtracted: the point is seen as if the camera stood at the origin",
                 |input| raster(axes(input).transpose() * DVec3::from(input.0), input, 1.0),
             ),
+            Mistake::new("the eye is added; subtract it from the point", |input| {
+                raster(axes(input).transpose() * (DVec3::from(input.0) + DVec3::from(input.1)), input, 1.0)
+            }),
             Mistake::new(
-                "the point goes from the camera to the world: multiply by the transpose, that is, take the dot product \
-                 with each axis",
+                "the eye is subtracted after the turn; it is a place of the world, so subtract it first",
+                |input| raster(axes(input).transpose() * DVec3::from(input.0) - DVec3::from(input.1), input, 1.0),
+            ),
+            Mistake::new(
+                "the point goes from the camera to the world: multiply by the transpose, that is, take the dot product with each axis",
                 |input| raster(axes(input) * (DVec3::from(input.0) - DVec3::from(input.1)), input, 1.0),
             ),
+            Mistake::new(
+                "the point goes from the camera to the world: multiply by the transpose, that is, take the dot product with each axis",
+                |input| raster(axes(input) * DVec3::from(input.0) - DVec3::from(input.1), input, 1.0),
+            ),
             Mistake::new("y is not turned down: the picture stands on its head", |input| {
-                let [x, y] = raster(camera(input), input, 1.0);
-                [x, f64::from(input.4[1]) - y]
+                on_image(input, |[x, y], [_, height]| [x, height - y])
+            }),
+            Mistake::new("x is turned round: it is to the right in the camera and in the image", |input| {
+                on_image(input, |[x, y], [width, _]| [width - x, y])
             }),
             Mistake::new("the aspect is left out: x is in half heights until it is divided by width/height", |input| {
-                let aspect = f64::from(input.4[0]) / f64::from(input.4[1]);
-                raster(camera(input) * DVec3::new(aspect, 1.0, 1.0), input, 1.0)
+                raster(camera(input) * DVec3::new(aspect(input), 1.0, 1.0), input, 1.0)
+            }),
+            Mistake::new("the aspect is upside down: x is divided by width/height", |input| {
+                raster(camera(input) * DVec3::new(aspect(input).powi(2), 1.0, 1.0), input, 1.0)
+            }),
+            Mistake::new(
+                "tan_half is that of the vertical field of view: y is divided by it, and x by it and the aspect",
+                |input| raster(camera(input) * DVec3::new(aspect(input), aspect(input), 1.0), input, 1.0),
+            ),
+            Mistake::new(
+                "tan_half is that of the vertical field of view: y is divided by it, and x by it and the aspect",
+                |input| raster(camera(input) * DVec3::new(aspect(input), 1.0 / aspect(input), 1.0), input, 1.0),
+            ),
+            Mistake::new(
+                "tan_half is that of the vertical field of view: y is divided by it, and x by it and the aspect",
+                |input| raster(camera(input) * DVec3::new(1.0, 1.0 / aspect(input), 1.0), input, 1.0),
+            ),
+            Mistake::new(
+                "tan_half is that of the vertical field of view: y is divided by it, and x by it and the aspect",
+                |input| raster(camera(input) * DVec3::new(1.0, aspect(input), 1.0), input, 1.0),
+            ),
+            Mistake::new(
+                "the aspect is a division of whole numbers, which drops the rest: make them f64 first",
+                by_whole_aspect,
+            ),
+            Mistake::new("the size is taken for height and width; it is width and height", |input| {
+                raster(camera(input), &swapped(input), 1.0)
             }),
             Mistake::new("it is divided by z, which is negative in front of the camera: take −z", |input| {
                 raster(camera(input) * DVec3::new(-1.0, -1.0, 1.0), input, 1.0)
@@ -66,11 +98,71 @@ fn question() -> Question<Input, [f64; 2]> {
                 },
             ),
             Mistake::new("the field of view is left out", |input| {
-                raster(camera(input), &(input.0, input.1, input.2, 1.0, input.4), 1.0)
+                raster(camera(input), &with_tan_half(input, 1.0), 1.0)
+            }),
+            Mistake::new(
+                "it is multiplied by tan_half; the wider the field of view, the smaller is everything, so divide by it",
+                |input| raster(camera(input), &with_tan_half(input, 1.0 / input.3), 1.0),
+            ),
+            Mistake::new("tan_half is taken for an angle; it is the tangent already", |input| {
+                raster(camera(input), &with_tan_half(input, libm::tan(input.3)), 1.0)
+            }),
+            Mistake::new("tan_half is halved or doubled; it belongs to half the angle already", |input| {
+                raster(camera(input), &with_tan_half(input, 0.5 * input.3), 1.0)
+            }),
+            Mistake::new("tan_half is halved or doubled; it belongs to half the angle already", |input| {
+                raster(camera(input), &with_tan_half(input, 2.0 * input.3), 1.0)
             }),
             Mistake::new("nothing is divided by the depth, as for an orthographic camera", |input| {
                 let camera = camera(input);
                 raster(camera, input, -1.0 / camera.z)
+            }),
+            Mistake::new(
+                "half a pixel is subtracted: x and y are counted from the corner, and pixel centres are at halves already",
+                |input| on_image(input, |[x, y], _| [x - 0.5, y - 0.5]),
+            ),
+            Mistake::new("half a pixel is added: it is a point that is asked for, and not a pixel's centre", |input| {
+                on_image(input, |[x, y], _| [x + 0.5, y + 0.5])
+            }),
+            Mistake::new("the point is rounded to a whole pixel; asked is where it is, with its fraction", |input| {
+                on_image(input, |at, _| at.map(f64::floor))
+            }),
+            Mistake::new("the point is rounded to a whole pixel; asked is where it is, with its fraction", |input| {
+                on_image(input, |at, _| at.map(f64::round))
+            }),
+            Mistake::new(
+                "the point is rounded to a pixel's centre; asked is where it is, with its fraction",
+                |input| on_image(input, |at, _| at.map(|part| part.floor() + 0.5)),
+            ),
+            Mistake::new(
+                "the last pixel is taken for the edge: NDC is times the size, not times the size less 1",
+                |input| on_image(input, |[x, y], [width, height]| [x - x / width, y - y / height]),
+            ),
+            Mistake::new("a point beside the image is pulled to its edge; it is somewhere outside", |input| {
+                on_image(input, |[x, y], [width, height]| [x.clamp(0.0, width), y.clamp(0.0, height)])
+            }),
+            Mistake::new("that is NDC, from 0 to 1; times the size it is in pixels", |input| {
+                on_image(input, |[x, y], [width, height]| [x / width, y / height])
+            }),
+            Mistake::new("that is the screen, from −1 to 1; pixels are counted from the upper left corner", |input| {
+                on_image(input, |[x, y], [width, height]| [(2.0 * x - width) / height, 1.0 - 2.0 * y / height])
+            }),
+            Mistake::new("that is the screen, from −1 to 1; pixels are counted from the upper left corner", |input| {
+                on_image(input, |[x, y], [width, height]| [2.0 * x / width - 1.0, 1.0 - 2.0 * y / height])
+            }),
+            Mistake::new(
+                "the middle of the image is at half its size: x and y are moved there, and y is turned down",
+                |input| on_image(input, |[x, y], [width, height]| [x - width / 2.0, height / 2.0 - y]),
+            ),
+            Mistake::new(
+                "the middle of the image is at half its size: x and y are moved there, and y is turned down",
+                |input| on_image(input, |[x, y], [width, height]| [x - width / 2.0, y - height / 2.0]),
+            ),
+            Mistake::new("the image is 2 screen units high, from −1 to 1: the size is to be halved", |input| {
+                on_image(input, |[x, y], [width, height]| [2.0 * x - width / 2.0, 2.0 * y - height / 2.0])
+            }),
+            Mistake::new("the image is 2 screen units high, from −1 to 1: the size is to be halved", |input| {
+                on_image(input, |[x, y], _| [2.0 * x, 2.0 * y])
             }),
         ],
         hints: &[
@@ -80,6 +172,30 @@ fn question() -> Question<Input, [f64; 2]> {
             "NDC is (0.5 + 0.5 · x / aspect, 0.5 − 0.5 · y); times the size it is in pixels",
         ],
     }
+}
+
+/// The right answer, changed with the size at hand.
+fn on_image(input: &Input, change: fn([f64; 2], [f64; 2]) -> [f64; 2]) -> [f64; 2] {
+    change(raster(camera(input), input, 1.0), input.4.map(f64::from))
+}
+
+fn aspect(&(.., [width, height]): &Input) -> f64 {
+    f64::from(width) / f64::from(height)
+}
+
+fn by_whole_aspect(input: &Input) -> [f64; 2] {
+    let &(.., tan_half, [width, height]) = input;
+    let camera = camera(input);
+    let screen = camera.x / (-camera.z * tan_half * f64::from(width / height));
+    [f64::from(width) * (0.5 + 0.5 * screen), raster(camera, input, 1.0)[1]]
+}
+
+fn swapped(&(point, eye, axes, tan_half, [width, height]): &Input) -> Input {
+    (point, eye, axes, tan_half, [height, width])
+}
+
+fn with_tan_half(&(point, eye, axes, _, size): &Input, tan_half: f64) -> Input {
+    (point, eye, axes, tan_half, size)
 }
 
 fn axes(&(_, _, [x, y, z], ..): &Input) -> DMat3 {

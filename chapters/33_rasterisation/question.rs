@@ -12,11 +12,6 @@ pub(super) type Input = ([i32; 2], [i32; 2], [i32; 2]);
 /// What the reader writes.
 pub type Yours = fn([i32; 2], [i32; 2], [i32; 2]) -> bool;
 
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::is_inside_edge)
-}
-
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("is_inside_edge", question, move |&(from, to, sample)| yours(from, to, sample), mine)
@@ -33,27 +28,98 @@ fn question() -> Question<Input, bool> {
         measured: "",
         mistakes: vec![
             Mistake::new("a sample on an edge is never inside: two triangles leave a crack between them", |input| {
-                area(input) > 0
+                by_rule(input, |_, _| false)
             }),
             Mistake::new("a sample on an edge is always inside: it belongs to both triangles", |input| {
-                area(input) >= 0
+                by_rule(input, |_, _| true)
+            }),
+            Mistake::new(
+                "a bias of −1 goes with ≥ 0, not with > 0: now samples beside an edge are lost, too",
+                |input| area(input) + i64::from(on_top_left(input)) - 1 > 0,
+            ),
+            Mistake::new("a bias of 1 goes with > 0: now samples beside an edge are inside, too", |input| {
+                area(input) + i64::from(on_top_left(input)) >= 0
             }),
             Mistake::new("the inside is to the left: with y down, a positive area is to the right", |input| {
-                let &(from, to, _) = input;
-                area(input) < 0 || (area(input) == 0 && is_left(from, to))
+                -area(input) > 0 || (area(input) == 0 && on_top_left(input))
+            }),
+            Mistake::new("the inside is to the left: with y down, a positive area is to the right", |input| {
+                -area(input) > 0 || (area(input) == 0 && !on_top_left(input))
+            }),
+            Mistake::new("the inside is to the left: with y down, a positive area is to the right", |input| {
+                -area(input) > 0
+            }),
+            Mistake::new("the inside is to the left: with y down, a positive area is to the right", |input| {
+                -area(input) >= 0
             }),
             Mistake::new(
                 "level edges are forgotten: a top edge belongs to the triangle, a bottom edge does not",
-                |input| {
-                    let &([_, fy], [_, ty], _) = input;
-                    area(input) > 0 || (area(input) == 0 && ty < fy)
-                },
+                |input| by_rule(input, |_, dy| dy < 0),
+            ),
+            Mistake::new("left edges are forgotten: one that goes up belongs to the triangle", |input| {
+                by_rule(input, |dx, dy| dy == 0 && dx > 0)
+            }),
+            Mistake::new(
+                "a level edge belongs to the triangle where it goes to the right, a top edge; to the left it is a bottom edge",
+                |input| by_rule(input, |_, dy| dy <= 0),
+            ),
+            Mistake::new(
+                "a level edge belongs to the triangle where it goes to the right, a top edge; to the left it is a bottom edge",
+                |input| by_rule(input, |dx, dy| dy < 0 || (dy == 0 && dx < 0)),
             ),
             Mistake::new("left edges go up, and y points down: the edge's end has the smaller y", |input| {
-                let &([fx, fy], [tx, ty], _) = input;
-                area(input) > 0 || (area(input) == 0 && (ty > fy || (ty == fy && tx > fx)))
+                by_rule(input, |dx, dy| dy > 0 || (dy == 0 && dx > 0))
             }),
+            Mistake::new("left edges go up, and y points down: the edge's end has the smaller y", |input| {
+                by_rule(input, |_, dy| dy > 0)
+            }),
+            Mistake::new("left edges go up, and y points down: the edge's end has the smaller y", |input| {
+                by_rule(input, |_, dy| dy >= 0)
+            }),
+            Mistake::new(
+                "the rule is turned round, to bottom and right edges: left edges go up, to a smaller y, and top edges to the right",
+                |input| by_rule(input, |dx, dy| dy > 0 || (dy == 0 && dx < 0)),
+            ),
+            Mistake::new(
+                "x and y are swapped in the rule: a left edge goes up, a top edge is level and goes to the right",
+                |input| by_rule(input, |dx, dy| dx > 0 || (dx == 0 && dy < 0)),
+            ),
+            Mistake::new(
+                "x and y are swapped in the rule: a left edge goes up, a top edge is level and goes to the right",
+                |input| by_rule(input, |dx, dy| dx < 0 || (dx == 0 && dy < 0)),
+            ),
+            Mistake::new(
+                "x and y are swapped in the rule: a left edge goes up, a top edge is level and goes to the right",
+                |input| by_rule(input, |dx, dy| dx < 0 || (dx == 0 && dy > 0)),
+            ),
+            Mistake::new(
+                "the rule takes either for enough; a top edge is level and goes to the right, both at once",
+                |input| by_rule(input, |dx, dy| dy < 0 || dx > 0),
+            ),
+            Mistake::new("the products are added; the edge function is their difference", |input| {
+                summed(input, |[dx, dy], [x, y]| dx * y + dy * x)
+            }),
+            Mistake::new("that is a dot product; the edge function multiplies x by y and y by x", |input| {
+                summed(input, |[dx, dy], [x, y]| dx * x + dy * y)
+            }),
+            Mistake::new("the sample is not taken from an end of the edge: subtract `from` from it, too", |input| {
+                let &([fx, fy], [tx, ty], [x, y]) = input;
+                at([tx - fx, ty - fy].map(i64::from), [x, y].map(i64::from), |[dx, dy], [x, y]| dx * y - dy * x)
+            }),
+            Mistake::new("the edge's end is taken for its direction: subtract `from` from `to`", |input| {
+                let &([fx, fy], to, [x, y]) = input;
+                at(to.map(i64::from), [x - fx, y - fy].map(i64::from), |[dx, dy], [x, y]| dx * y - dy * x)
+            }),
+            Mistake::new(
+                "the coordinates are divided first, which drops their fractions; the rule needs every 1/256",
+                |input| divided(input, |part| part / 256),
+            ),
+            Mistake::new(
+                "the coordinates are divided first, which drops their fractions; the rule needs every 1/256",
+                |input| divided(input, |part| part >> 8),
+            ),
             Mistake::new("the products overflow i32: two numbers of 25 bits take 50", narrow),
+            Mistake::new("f32 has 24 bits, and the products take 50: with it the edge function is rounded", rounded),
         ],
         hints: &[
             "the edge function is twice the area of the triangle from, to, sample: \
@@ -71,6 +137,37 @@ fn area(&([fx, fy], [tx, ty], [x, y]): &Input) -> i64 {
 
 fn is_left([fx, fy]: [i32; 2], [tx, ty]: [i32; 2]) -> bool {
     ty < fy || (ty == fy && tx > fx)
+}
+
+/// With another rule for samples on the edge.
+fn by_rule(input: &Input, rule: fn(i64, i64) -> bool) -> bool {
+    let &([fx, fy], [tx, ty], _) = input;
+    area(input) > 0 || (area(input) == 0 && rule(i64::from(tx - fx), i64::from(ty - fy)))
+}
+
+fn on_top_left(&(from, to, _): &Input) -> bool {
+    is_left(from, to)
+}
+
+/// With another function of the edge and of the sample from its beginning.
+fn summed(&([fx, fy], [tx, ty], [x, y]): &Input, function: fn([i64; 2], [i64; 2]) -> i64) -> bool {
+    at([tx - fx, ty - fy].map(i64::from), [x - fx, y - fy].map(i64::from), function)
+}
+
+fn at([dx, dy]: [i64; 2], sample: [i64; 2], function: fn([i64; 2], [i64; 2]) -> i64) -> bool {
+    let area = function([dx, dy], sample);
+    area > 0 || (area == 0 && (dy < 0 || (dy == 0 && dx > 0)))
+}
+
+fn divided(&(from, to, sample): &Input, divide: fn(i32) -> i32) -> bool {
+    summed(&(from.map(divide), to.map(divide), sample.map(divide)), |[dx, dy], [x, y]| dx * y - dy * x)
+}
+
+fn rounded(input: &Input) -> bool {
+    let &([fx, fy], [tx, ty], [x, y]) = input;
+    let product = |a: i32, b: i32| a as f32 * b as f32;
+    let area = product(tx - fx, y - fy) - product(ty - fy, x - fx);
+    area > 0.0 || (area == 0.0 && on_top_left(input))
 }
 
 /// In i32, as a release build would compute it.
@@ -91,6 +188,11 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("at a vertex", [([0, 0], [256, 512], [0, 0]), ([256, 512], [0, 0], [0, 0])]));
     asked.extend(probes("a step beside an edge", [([0, 0], [0, -512], [1, -100]), ([0, 0], [0, -512], [-1, -100])]));
     asked.extend(probes("small numbers, many of them on edges", (0..300).map(|index| drawn(index, 4.0))));
+    let (long, longer) = (16_000_000, 16_000_001);
+    asked.extend(probes(
+        "a step beside a long edge",
+        [([longer, long], [0, 0], [1, 1]), ([0, 0], [long, longer], [long - 1, long])],
+    ));
     asked.extend(probes("a large image", (0..60).map(|index| drawn(1000 + index, 16_000_000.0))));
     asked
 }

@@ -2,7 +2,7 @@
 
 use super::mine::mine;
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, probes};
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::naive::both::{interval_at_its_depth, sphere_interval};
 
@@ -11,11 +11,6 @@ pub(super) type Input = [f64; 4];
 
 /// What the reader writes.
 pub type Yours = fn(f64, f64, f64, f64) -> [f64; 2];
-
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::sphere_interval)
-}
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
@@ -44,26 +39,198 @@ fn question() -> Question<Input, [f64; 2]> {
                 |&[right, ahead, radius, half]| cut(in_front(right, ahead, radius), half),
             ),
             Mistake::new(
-                "the two ends are as far from the centre's image as if it were straight ahead; to the side a sphere \
-                 looks wider, and its centre is not in the middle",
-                |&[right, ahead, radius, half]| cut(as_if_ahead(right, ahead, radius), half),
+                "this is the interval of a box around the sphere, taken at its near side: it is wider than the sphere",
+                |&[right, ahead, radius, half]| {
+                    if ahead <= radius { [-half, half] } else { cut(in_front(right, ahead, radius), half) }
+                },
+            ),
+            Mistake::new(
+                "both ends are taken at the depth of the far side; the outline of a sphere is nearer to the eye than its centre",
+                |&[right, ahead, radius, half]| cut(in_front(right, ahead + 2.0 * radius, radius), half),
+            ),
+            Mistake::new(
+                "the two ends are as far from the centre's image as if it were straight ahead; to the side a sphere looks wider, and its centre is not in the middle",
+                |&[right, ahead, radius, half]| cut(as_if_ahead(right / ahead, ahead * ahead, radius), half),
+            ),
+            Mistake::new(
+                "the two ends are as far from the centre's image as if it were straight ahead; to the side a sphere looks wider, and its centre is not in the middle",
+                |&[right, ahead, radius, half]| {
+                    cut(as_if_ahead(right / ahead, right * right + ahead * ahead, radius), half)
+                },
+            ),
+            Mistake::new(
+                "the two ends are as far from the centre's image as if it were straight ahead; to the side a sphere looks wider, and its centre is not in the middle",
+                |&[right, ahead, radius, half]| {
+                    let squared = right * right + ahead * ahead;
+                    if squared <= radius * radius || ahead <= 0.0 {
+                        [-half, half]
+                    } else {
+                        cut(as_if_ahead(right / ahead, squared, radius), half)
+                    }
+                },
+            ),
+            Mistake::new(
+                "the two ends are as far from the centre's image as if it were straight ahead; to the side a sphere looks wider, and its centre is not in the middle",
+                |&[right, ahead, radius, half]| {
+                    cut(
+                        [
+                            right / ahead - radius / libm::hypot(right, ahead),
+                            right / ahead + radius / libm::hypot(right, ahead),
+                        ],
+                        half,
+                    )
+                },
+            ),
+            Mistake::new(
+                "it is divided by the distance to the centre, where an image divides by how far something is ahead",
+                |&[right, ahead, radius, half]| {
+                    cut([right - radius, right + radius].map(|end| end / libm::hypot(right, ahead)), half)
+                },
             ),
             Mistake::new(
                 "the sphere is on the wrong side: to the right is positive",
-                |&[right, ahead, radius, edge]| sphere_interval(-right, ahead, radius, edge),
+                |&[right, ahead, radius, most]| sphere_interval(-right, ahead, radius, most),
             ),
+            Mistake::new(
+                "`right` and `ahead` are exchanged: the tangent is right over ahead",
+                |&[right, ahead, radius, most]| sphere_interval(ahead, right, radius, most),
+            ),
+            Mistake::new("the ends are swapped: the left one is first", |&[right, ahead, radius, half]| {
+                let [low, high] = sphere_interval(right, ahead, radius, half);
+                [high, low]
+            }),
             Mistake::new(
                 "the radius over the distance is the sine of the angle between centre and outline, not its tangent",
-                |&[right, ahead, radius, half]| by_the_tangent(right, ahead, radius, half),
+                |&[right, ahead, radius, half]| {
+                    by_angle([right, ahead, radius, half], libm::atan(radius / libm::hypot(right, ahead)), libm::tan)
+                },
             ),
             Mistake::new(
-                "a tangent that is not in front of the eye is divided all the same: the interval then goes on to the \
-                 image's edge",
-                |&[right, ahead, radius, half]| cut(divided(right, ahead, radius), half),
+                "the radius over the distance is the sine of the angle, not the angle itself",
+                |&[right, ahead, radius, half]| {
+                    by_angle([right, ahead, radius, half], radius / libm::hypot(right, ahead), libm::tan)
+                },
+            ),
+            Mistake::new(
+                "the radius over the distance is the sine of the angle, not its cosine",
+                |&[right, ahead, radius, half]| {
+                    by_angle([right, ahead, radius, half], libm::acos(radius / libm::hypot(right, ahead)), libm::tan)
+                },
+            ),
+            Mistake::new(
+                "the radius is divided by how far the centre is ahead; the sine of the angle is radius over distance, √(right² + ahead²)",
+                |&[right, ahead, radius, half]| {
+                    by_angle([right, ahead, radius, half], libm::asin(radius / ahead), libm::tan)
+                },
+            ),
+            Mistake::new(
+                "the radius is divided by how far the centre is ahead; the sine of the angle is radius over distance, √(right² + ahead²)",
+                |&[right, ahead, radius, half]| {
+                    by_angle([right, ahead, radius, half], libm::atan(radius / ahead), libm::tan)
+                },
+            ),
+            Mistake::new(
+                "the radius is divided by how far the centre is ahead; the sine of the angle is radius over distance, √(right² + ahead²)",
+                |&[right, ahead, radius, half]| {
+                    if ahead <= radius {
+                        [-half, half]
+                    } else {
+                        by_angle([right, ahead, radius, half], libm::asin(radius / ahead), libm::tan)
+                    }
+                },
+            ),
+            Mistake::new(
+                "the radius is divided by how far the centre is ahead; the sine of the angle is radius over distance, √(right² + ahead²)",
+                |&[right, ahead, radius, half]| {
+                    if ahead <= radius {
+                        [-half, half]
+                    } else {
+                        by_angle([right, ahead, radius, half], libm::atan(radius / ahead), libm::tan)
+                    }
+                },
+            ),
+            Mistake::new(
+                "the angle between centre and outline is halved or doubled; its sine is radius over distance",
+                |&[right, ahead, radius, half]| {
+                    by_angle(
+                        [right, ahead, radius, half],
+                        0.5 * libm::asin(radius / libm::hypot(right, ahead)),
+                        libm::tan,
+                    )
+                },
+            ),
+            Mistake::new(
+                "the angle between centre and outline is halved or doubled; its sine is radius over distance",
+                |&[right, ahead, radius, half]| {
+                    by_angle(
+                        [right, ahead, radius, half],
+                        2.0 * libm::asin(radius / libm::hypot(right, ahead)),
+                        libm::tan,
+                    )
+                },
+            ),
+            Mistake::new(
+                "those are angles, or their sines; on a plane at distance 1 the ends are at their tangents",
+                |&[right, ahead, radius, half]| {
+                    by_angle([right, ahead, radius, half], libm::asin(radius / libm::hypot(right, ahead)), |angle| {
+                        angle
+                    })
+                },
+            ),
+            Mistake::new(
+                "those are angles, or their sines; on a plane at distance 1 the ends are at their tangents",
+                |&[right, ahead, radius, half]| {
+                    by_angle([right, ahead, radius, half], libm::asin(radius / libm::hypot(right, ahead)), libm::sin)
+                },
+            ),
+            Mistake::new(
+                "the centre's distance is taken for the tangents' length, which is √(right² + ahead² − radius²)",
+                |&[right, ahead, radius, half]| cut(turned(right, ahead, radius, libm::hypot(right, ahead)), half),
+            ),
+            Mistake::new(
+                "beside the image one end is left outside: each end must be cut off at both edges",
+                |&[right, ahead, radius, half]| {
+                    let [low, high] = sphere_interval(right, ahead, radius, 1e9);
+                    [low.max(-half), high.min(half)]
+                },
             ),
             Mistake::new("what is beyond the image's edge must be cut off there", |&[right, ahead, radius, _]| {
                 sphere_interval(right, ahead, radius, 1e9)
             }),
+            Mistake::new(
+                "the ends are divided by half; they lie between −half and half",
+                |&[right, ahead, radius, most]| sphere_interval(right, ahead, radius, most).map(|end| end / most),
+            ),
+            Mistake::new(
+                "a tangent that is not in front of the eye is divided all the same: the interval then goes on to the image's edge",
+                |&[right, ahead, radius, half]| cut(divided(right, ahead, radius), half),
+            ),
+            Mistake::new(
+                "a tangent that is not in front of the eye is divided all the same: the interval then goes on to the image's edge",
+                |&[right, ahead, radius, half]| cut(nan_inside(right, ahead, radius), half),
+            ),
+            Mistake::new(
+                "the whole image is taken as soon as the sphere reaches beside the eye; only the end on that side goes on to the edge",
+                |&[right, ahead, radius, half]| {
+                    if ahead <= radius { [-half, half] } else { sphere_interval(right, ahead, radius, half) }
+                },
+            ),
+            Mistake::new(
+                "with its centre behind the eye the sphere still reaches in front of it, on one side",
+                |&[right, ahead, radius, half]| {
+                    if ahead <= 0.0 { [-half, half] } else { sphere_interval(right, ahead, radius, half) }
+                },
+            ),
+            Mistake::new(
+                "the eye may be inside the disk: there is no tangent then, and the interval is the whole image",
+                |&[right, ahead, radius, half]| {
+                    if right * right + ahead * ahead <= radius * radius {
+                        [f64::NAN; 2]
+                    } else {
+                        sphere_interval(right, ahead, radius, half)
+                    }
+                },
+            ),
         ],
         hints: &[
             "look from above: the sphere is a disk, and the ends are where the two tangents from the eye cross the image \
@@ -85,28 +252,35 @@ fn in_front(right: f64, ahead: f64, radius: f64) -> [f64; 2] {
     [(right - radius) / near, (right + radius) / near]
 }
 
-fn as_if_ahead(right: f64, ahead: f64, radius: f64) -> [f64; 2] {
-    let beside = radius / (ahead * ahead - radius * radius).max(1e-12).sqrt();
-    [right / ahead - beside, right / ahead + beside]
+/// About the centre's image, with the tangent of the angle at a centre of this distance squared.
+fn as_if_ahead(centre: f64, squared: f64, radius: f64) -> [f64; 2] {
+    let beside = radius / (squared - radius * radius).max(1e-12).sqrt();
+    [centre - beside, centre + beside]
 }
 
-fn by_the_tangent(right: f64, ahead: f64, radius: f64, half: f64) -> [f64; 2] {
-    let (distance, to_centre) = (libm::hypot(right, ahead), libm::atan2(right, ahead));
-    if distance <= radius {
+/// So many radians to both sides of the centre.
+fn by_angle([right, ahead, radius, half]: Input, beside: f64, end: fn(f64) -> f64) -> [f64; 2] {
+    if libm::hypot(right, ahead) <= radius {
         return [-half, half];
     }
-    let beside = libm::atan(radius / distance);
     [-1.0, 1.0].map(|side| {
-        let angle = to_centre + side * beside;
-        if angle.abs() < std::f64::consts::FRAC_PI_2 { libm::tan(angle).clamp(-half, half) } else { side * half }
+        let angle = libm::atan2(right, ahead) + side * beside;
+        if angle.abs() < std::f64::consts::FRAC_PI_2 { end(angle).clamp(-half, half) } else { side * half }
     })
 }
 
 fn divided(right: f64, ahead: f64, radius: f64) -> [f64; 2] {
     let tangent = (right * right + ahead * ahead - radius * radius).max(0.0).sqrt();
-    [-1.0, 1.0]
-        .map(|side| (right * tangent + side * ahead * radius) / (ahead * tangent - side * right * radius))
-        .map(|end| if end.is_nan() { 0.0 } else { end })
+    turned(right, ahead, radius, tangent).map(|end| if end.is_nan() { 0.0 } else { end })
+}
+
+fn nan_inside(right: f64, ahead: f64, radius: f64) -> [f64; 2] {
+    turned(right, ahead, radius, (right * right + ahead * ahead - radius * radius).sqrt())
+}
+
+/// The direction to the centre, turned by the angle whose tangent is radius over this length.
+fn turned(right: f64, ahead: f64, radius: f64, tangent: f64) -> [f64; 2] {
+    [-1.0, 1.0].map(|side| (right * tangent + side * ahead * radius) / (ahead * tangent - side * right * radius))
 }
 
 fn asked() -> Vec<Probe<Input>> {
@@ -114,14 +288,18 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("to the side", [[3.0, 4.0, 3.0, 4.0], [-3.0, 4.0, 3.0, 4.0], [1.0, 6.0, 0.75, 0.5]]));
     asked.extend(probes("across an edge of the image", [[2.0, 4.0, 1.0, 0.5], [-2.0, 4.0, 1.0, 0.5]]));
     asked.extend(probes("beside the image", [[5.0, 4.0, 1.0, 0.5], [-5.0, 4.0, 1.0, 0.5]]));
-    asked.extend(probes(
+    let (in_front, beside): (Vec<Input>, Vec<Input>) =
+        (0..300).map(drawn).partition(|&[_, ahead, radius, _]| ahead > radius);
+    asked.extend(probes("anywhere in front of the eye", in_front));
+    // Where an angle is beyond 90°, its tangent says nothing; where the eye is inside, there is no angle.
+    asked.extend(extremes(
         "as near as it is large, so that it reaches behind the eye",
         [[1.5, 0.5, 1.0, 2.0], [-1.5, 0.5, 1.0, 2.0], [3.0, 1.0, 2.0, 1.0]],
     ));
-    asked.extend(probes("its centre is behind the eye", [[2.0, -0.5, 1.5, 3.0], [-1.2, -0.3, 1.0, 3.0]]));
+    asked.extend(extremes("its centre is behind the eye", [[2.0, -0.5, 1.5, 3.0], [-1.2, -0.3, 1.0, 3.0]]));
     // Seen from above the eye is inside the disk; the sphere may be higher or lower than the eye.
-    asked.extend(probes("the eye is above it", [[0.5, 0.5, 1.0, 1.0], [0.0, -0.25, 1.0, 0.75]]));
-    asked.extend(probes("anywhere", (0..300).map(drawn)));
+    asked.extend(extremes("the eye is above it", [[0.5, 0.5, 1.0, 1.0], [0.0, -0.25, 1.0, 0.75]]));
+    asked.extend(extremes("anywhere, reaching behind the eye", beside));
     asked
 }
 

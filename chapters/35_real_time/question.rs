@@ -3,7 +3,7 @@
 use super::mine::mine;
 use glam::DVec3;
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::naive::denoise;
 
@@ -12,11 +12,6 @@ pub(super) type Input = ([f64; 3], [f64; 3], [f64; 3]);
 
 /// What the reader writes.
 pub type Yours = fn([f64; 3], [f64; 3], [f64; 3]) -> f64;
-
-/// The exercise with the function as the reader has it now.
-pub fn yours() -> Exercise {
-    exercise(super::exercise::edge_weight)
-}
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
@@ -38,27 +33,37 @@ fn question() -> Question<Input, f64> {
         },
         apart: |yours, right| absolute(&[*yours], &[*right]),
         allowed: 1e-9,
-        measured: "",
+        measured: "of the weight",
         mistakes: vec![
             Mistake::new(
                 "an offset of length 0 divides by 0: two pixels may show the same point, which lies in the plane",
                 |input| if vectors(input)[2] == DVec3::ZERO { f64::NAN } else { normals(input) * plane(input) },
             ),
+            Mistake::new("the same point lies in the plane: s is 0, and the normals alone count", |input| {
+                if vectors(input)[2] == DVec3::ZERO { 0.0 } else { normals(input) * plane(input) }
+            }),
+            Mistake::new("the same point lies in the plane: s is 0, and the normals alone count", |input| {
+                if vectors(input)[2] == DVec3::ZERO { 1.0 } else { normals(input) * plane(input) }
+            }),
             Mistake::new(
                 "surfaces that face away count: 32 is even, so a negative cosine has a positive power; make it 0 first",
-                |input| {
-                    let [normal, neighbour, _] = vectors(input);
-                    power(normal.dot(neighbour)) * plane(input)
-                },
+                |input| power(cosine(input)) * plane(input),
             ),
             Mistake::new(
-                "the distance from the plane is not divided by the offset's length: the weight then depends on the \
-                 scene's units",
-                |input| {
-                    let [normal, _, offset] = vectors(input);
-                    normals(input) * falloff(normal.dot(offset))
-                },
+                "the distance from the plane is not divided by the offset's length: the weight then depends on the scene's units",
+                |input| normals(input) * falloff(across(input)),
             ),
+            Mistake::new(
+                "the distance from the plane is divided by the offset's length squared: divide once, or square the distance, too",
+                |input| normals(input) * falloff(across(input) / length(input).powi(2)),
+            ),
+            Mistake::new(
+                "the distance from the plane is not squared, but the offset's length is: s² is (normal · offset)² over it",
+                |input| normals(input) * 0.01 / (0.01 + across(input).abs() / length(input).powi(2)),
+            ),
+            Mistake::new("s² is (normal · offset)² over the offset's length squared, not over the length", |input| {
+                normals(input) * 0.01 / (0.01 + across(input).powi(2) / length(input))
+            }),
             Mistake::new("it is the neighbour's plane: take the one across the pixel's own normal", |input| {
                 let &(normal, neighbour, offset) = input;
                 normals(input) * plane(&(neighbour, normal, offset))
@@ -68,15 +73,81 @@ fn question() -> Question<Input, f64> {
             Mistake::new("the sine is not squared: at 0.1 the weight must be one half", |input| {
                 normals(input) * 0.01 / (0.01 + sine(input).abs())
             }),
-            Mistake::new("the cosine lacks its 32nd power", |input| {
-                let [normal, neighbour, _] = vectors(input);
-                normal.dot(neighbour).max(0.0) * plane(input)
+            Mistake::new("the sine is not squared: at 0.1 the weight must be one half", |input| {
+                normals(input) * 0.01 / (0.01 + sine(input))
+            }),
+            Mistake::new(
+                "what lies below the plane counts in full; the sine is squared, so its sign makes no difference",
+                |input| normals(input) * falloff(sine(input).max(0.0)),
+            ),
+            Mistake::new(
+                "that is the angle to the normal; s is the sine of the angle to the plane, normal · offset over the length",
+                |input| normals(input) * falloff(libm::acos(sine(input).clamp(-1.0, 1.0))),
+            ),
+            Mistake::new("s is taken for an angle; it is the sine itself", |input| {
+                normals(input) * falloff(libm::asin(sine(input).clamp(-1.0, 1.0)))
+            }),
+            Mistake::new("the cosine lacks its 32nd power", |input| cosine(input).max(0.0) * plane(input)),
+            Mistake::new("both factors are raised to the 32nd power; only the cosine is", |input| {
+                power(cosine(input).max(0.0) * plane(input))
+            }),
+            Mistake::new("the plane's factor is raised to the 32nd power instead of the cosine", |input| {
+                cosine(input).max(0.0) * power(plane(input))
+            }),
+            Mistake::new("the power is not the 32nd: five squarings make it", |input| {
+                cosine(input).max(0.0).powi(2) * plane(input)
+            }),
+            Mistake::new("the power is not the 32nd: five squarings make it", |input| {
+                cosine(input).max(0.0).powi(5) * plane(input)
+            }),
+            Mistake::new("the power is not the 32nd: five squarings make it", |input| {
+                cosine(input).max(0.0).powi(16) * plane(input)
+            }),
+            Mistake::new("the power is not the 32nd: five squarings make it", |input| {
+                cosine(input).max(0.0).powi(31) * plane(input)
+            }),
+            Mistake::new("the power is not the 32nd: five squarings make it", |input| {
+                cosine(input).max(0.0).powi(33) * plane(input)
+            }),
+            Mistake::new("the power is not the 32nd: five squarings make it", |input| {
+                cosine(input).max(0.0).powi(64) * plane(input)
+            }),
+            Mistake::new("the factors are added; they are to be multiplied", |input| normals(input) + plane(input)),
+            Mistake::new("the mean of the factors is taken; they are to be multiplied", |input| {
+                0.5 * (normals(input) + plane(input))
+            }),
+            Mistake::new("the smaller factor is taken; they are to be multiplied", |input| {
+                normals(input).min(plane(input))
+            }),
+            Mistake::new("the plane's factor lacks its 0.01 above the line: in the plane it is 1", |input| {
+                normals(input) / (0.01 + sine(input).powi(2))
+            }),
+            Mistake::new("0.1 is taken for 0.01: a sine of 0.1 makes one half", |input| {
+                normals(input) * 0.1 / (0.1 + sine(input).powi(2))
+            }),
+            Mistake::new("0.1 is taken for 0.01: a sine of 0.1 makes one half", |input| {
+                normals(input) * 0.01 / (0.1 + sine(input).powi(2))
+            }),
+            Mistake::new("brackets are missing: it is 0.01 / (0.01 + s²)", |input| {
+                normals(input) + sine(input).powi(2)
+            }),
+            Mistake::new("brackets are missing: it is 0.01 / (0.01 + s²)", |input| {
+                normals(input) * (1.0 + sine(input).powi(2))
+            }),
+            Mistake::new("the plane's factor is upside down: it is 1 in the plane, and less off it", |input| {
+                normals(input) * (1.0 - plane(input))
             }),
             Mistake::new(
                 "that is the cosine, the part along the plane; what must be small is the part across it",
                 |input| {
                     let sine = sine(input);
                     normals(input) * 0.01 / (0.01 + (1.0 - sine * sine))
+                },
+            ),
+            Mistake::new(
+                "that is the cosine, the part along the plane; what must be small is the part across it",
+                |input| {
+                    normals(input) * 0.01 / (0.01 + if length(input) == 0.0 { 0.0 } else { 1.0 - sine(input).powi(2) })
                 },
             ),
         ],
@@ -97,6 +168,21 @@ fn power(cosine: f64) -> f64 {
     (0..5).fold(cosine, |power, _| power * power)
 }
 
+fn cosine(input: &Input) -> f64 {
+    let [normal, neighbour, _] = vectors(input);
+    normal.dot(neighbour)
+}
+
+/// How far the neighbour is from the plane.
+fn across(input: &Input) -> f64 {
+    let [normal, _, offset] = vectors(input);
+    normal.dot(offset)
+}
+
+fn length(input: &Input) -> f64 {
+    vectors(input)[2].length()
+}
+
 fn falloff(sine: f64) -> f64 {
     0.01 / (0.01 + sine * sine)
 }
@@ -108,8 +194,7 @@ fn sine(input: &Input) -> f64 {
 
 /// The factor of the normals.
 fn normals(input: &Input) -> f64 {
-    let [normal, neighbour, _] = vectors(input);
-    power(normal.dot(neighbour).max(0.0))
+    power(cosine(input).max(0.0))
 }
 
 /// The factor of the plane.
@@ -138,8 +223,8 @@ fn asked() -> Vec<Probe<Input>> {
         [(UP, [0.0, -1.0, 0.0], [0.2, 0.0, 0.0]), (UP, tilted(170.0), [0.1, 0.0, 0.3])],
     ));
     asked.extend(probes("straight off the plane", [(UP, UP, [0.0, 2.0, 0.0]), (UP, UP, [0.0, -0.001, 0.0])]));
-    asked.extend(probes("the same point", [(UP, UP, [0.0; 3]), (UP, tilted(10.0), [0.0; 3])]));
     asked.extend(probes("anything", (0..200).map(drawn)));
+    asked.extend(extremes("the same point", [(UP, UP, [0.0; 3]), (UP, tilted(10.0), [0.0; 3])]));
     asked
 }
 

@@ -36,6 +36,7 @@ pub fn after_help() -> String {
         "export 05_pinhole",
         "check",
         "render 5 --mine",
+        "render 10 --naive shadow-rays-from-the-hit",
     ];
     let tries: Vec<String> = tries.iter().map(|words| format!("  {}", called(words))).collect();
     format!(
@@ -276,7 +277,7 @@ pub struct RenderChapter {
     pub watch: bool,
     /// Render the chapter with the function that you have written for its exercise in place of pinhole's (default: to
     /// out/, as 05_mine.png)
-    #[arg(long, conflicts_with_all = ["watch", "set"])]
+    #[arg(long, conflicts_with_all = ["watch", "set", "naive"])]
     pub mine: bool,
     #[command(flatten)]
     pub options: RenderOptions,

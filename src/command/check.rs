@@ -66,9 +66,10 @@ fn told(exercises: &[Named], file: &Path) -> Value {
 struct CheckRecord<'t> {
     chapter: &'static str,
     function: &'static str,
-    /// right, wrong, stub, panicked or late.
+    /// right, ordinary (right for ordinary inputs, not for all extreme ones), wrong, stub, panicked or late.
     outcome: &'static str,
     inputs: usize,
+    extreme_inputs: usize,
     wrong_inputs: Option<usize>,
     allowed_error: f64,
     error_unit: &'static str,
@@ -91,8 +92,12 @@ impl<'t> CheckRecord<'t> {
         let ((file, name), (allowed_error, error_unit)) = (report.pinhole_has, report.allowed);
         let (outcome, error, asked, answer) = match &report.outcome {
             Outcome::Right(worst) => ("right", Some(*worst), None, None),
-            Outcome::Wrong(found) => {
-                let word = if report.is_stub() { "stub" } else { "wrong" };
+            Outcome::OrdinaryRight(found) | Outcome::Wrong(found) => {
+                let word = match report.is_done() {
+                    true => "ordinary",
+                    false if report.is_stub() => "stub",
+                    false => "wrong",
+                };
                 let answer = json!({
                     "yours": found.yours, "expected": found.right, "difference": found.difference,
                     "looks_like": found.looks_like,
@@ -105,12 +110,16 @@ impl<'t> CheckRecord<'t> {
                 ("late", None, Some(asked), Some(patience))
             }
         };
-        let wrong = if let Outcome::Wrong(found) = &report.outcome { Some(found.wrong) } else { None };
+        let wrong = match &report.outcome {
+            Outcome::OrdinaryRight(found) | Outcome::Wrong(found) => Some(found.wrong),
+            _ => None,
+        };
         Self {
             chapter,
             function: report.function,
             outcome,
             inputs: report.inputs,
+            extreme_inputs: report.extremes,
             wrong_inputs: wrong,
             allowed_error,
             error_unit,
@@ -119,7 +128,7 @@ impl<'t> CheckRecord<'t> {
             answer,
             hints: turn.hints(),
             hints_in_all: report.hints.len(),
-            pinhole_has: (outcome == "right").then(|| json!({ "file": file, "name": name })),
+            pinhole_has: report.is_done().then(|| json!({ "file": file, "name": name })),
             tries: json!(turn.tries),
             notes: &turn.notes,
         }

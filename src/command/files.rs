@@ -22,10 +22,9 @@ impl Targets {
     /// What is asked for, or both kinds in `out/`.
     pub fn of(subject: &Subject<'_>, options: &RenderOptions) -> Result<Self> {
         if options.output.is_empty() {
-            let stem = match &options.scene.view {
-                Some(column) => format!("{}_{}", subject.stem(), column.replace([' ', '/', '\\'], "_")),
-                None => subject.stem(),
-            };
+            let column = options.scene.view.as_ref().map(|column| column.replace([' ', '/', '\\'], "_"));
+            let naive = options.naive.map(|method| method.name.to_owned());
+            let stem = [Some(subject.stem()), naive, column].into_iter().flatten().collect::<Vec<_>>().join("_");
             let pictures = ["png", "exr"].map(|ending| Path::new("out").join(format!("{stem}.{ending}"))).to_vec();
             return Ok(Self { pictures, standard_output: false });
         }

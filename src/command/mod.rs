@@ -120,7 +120,10 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
         }
         Some(Command::Render(asked)) => {
             let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.scene.set)?;
-            render::render_subject(&subject, &asked.options(), format, streams)
+            match asked.options.naive {
+                Some(_) => render::render_naive(&subject, &asked.options(), format, streams),
+                None => render::render_subject(&subject, &asked.options(), format, streams),
+            }
         }
         Some(Command::Plan(asked)) => {
             let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.set)?;

@@ -4,9 +4,11 @@ use super::called::quoted;
 use super::span::span;
 use clap::Args;
 use clap::builder::styling::{AnsiColor, Styles};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pinhole::extract::MOST_SAMPLES;
 use pinhole::scene::{Filter, Layers, Resolution, Sampler, TracePixel};
 use pinhole::{Overrides, SamplingOverrides, Size};
+use pinhole_lab::naive::methods::{METHODS, NaiveMethod};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -70,6 +72,9 @@ pub struct RenderOptions {
     /// Take samples for so long, such as 500ms, 10s or 2m
     #[arg(long, value_name = "TIME", value_parser = span)]
     pub time: Option<Duration>,
+    /// Run a naive method of the book in place of pinhole's, and write both pictures and their difference
+    #[arg(long, value_name = "NAME", conflicts_with = "resume", value_parser = naive_method())]
+    pub naive: Option<&'static NaiveMethod>,
     /// Continue from the checkpoint beside the picture, to the same bits as if it had not been stopped
     #[arg(long)]
     pub resume: bool,
@@ -187,6 +192,12 @@ pub fn size(text: &str) -> Result<Size, String> {
     }
     let alone = || text.parse().ok().map(Size::Width);
     pixels(text).map(Size::Pixels).or_else(alone).ok_or(refused().into())
+}
+
+/// The naive methods by name, each with what it does.
+fn naive_method() -> impl TypedValueParser<Value = &'static NaiveMethod> {
+    let known = METHODS.iter().map(|method| PossibleValue::new(method.name).help(method.about));
+    PossibleValuesParser::new(known).try_map(|name| METHODS.iter().find(|method| method.name == name).ok_or("unknown"))
 }
 
 fn side(text: &str) -> Result<u32, String> {

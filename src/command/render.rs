@@ -7,7 +7,7 @@ use super::format::{Format, print_json};
 use super::hints;
 use super::interrupt::{Waiting, interrupted};
 use super::long_render::render_long;
-use super::options::RenderOptions;
+use super::options::{RenderOptions, SceneOptions};
 use super::progress::Progress;
 use super::status;
 use super::streams::Streams;
@@ -16,15 +16,20 @@ use super::summary::Summary;
 use super::warnings::warnings;
 use pinhole::Chapter;
 use pinhole::extract::{ChosenIntegrator, LayerTable, adaptive_of, camera_entity, integrator_of, validate};
-use pinhole::film::check_place;
+use pinhole::film::{check_place, png_bytes, write_whole};
 use pinhole::look::{Preflight, RenderStats, preflight};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
-use pinhole::scene::{Integrator, ModelNotes, Sampling};
+use pinhole::scene::{FileKind, Integrator, ModelNotes, Resolution, Sampling, read_file};
 use pinhole_lab::exercise::{Mine, Outcome, PATIENCE, end_at_panics};
+use pinhole_lab::review::{PictureDifference, compare_pictures, picture_contrast};
 use std::borrow::Cow;
+use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
+
+/// What was just written, to be compared.
+const PICTURE: FileKind = FileKind { name: "a picture", most: 1 << 30 };
 
 /// The main job: the cover, to `out/`.
 pub fn render_cover(chapters: &[Chapter], format: Format, streams: &mut Streams<'_>) -> Result {
@@ -32,7 +37,8 @@ pub fn render_cover(chapters: &[Chapter], format: Format, streams: &mut Streams<
     render_subject(&cover, &RenderOptions::default(), format, streams)
 }
 
-/// Renders a chapter with the reader's function in place of one of pinhole's stages.
+/// Renders a chapter with the reader's function in place of one of pinhole's stages; and beside it, unless a file is named,
+/// the same with pinhole's own, and how the two differ.
 ///
 /// Errors: no chapter with an exercise, or one that no picture shows; --resume; a function that never answers, panics
 /// or gives what no picture can hold, in one sentence, and then no file is written.
@@ -58,6 +64,11 @@ pub fn render_mine(
     if streams.waits {
         end_at_panics(end);
     }
+    if let Some(small) = small_enough(chapter, exercise.samples, &options) {
+        options = small;
+        let how = "sampled scenes are rendered small, to be there at once; --size and --samples say otherwise";
+        streams.note(&format!("note: {how}"))?;
+    }
     let mine = Mine::of(exercise, chapter, &chapter.world(&options.asked(!options.quiet)))?;
     let report = exercise.check(PATIENCE);
     match &report.outcome {
@@ -65,7 +76,7 @@ pub fn render_mine(
             let late = report.sentence().unwrap_or_default();
             return Err(Error::usage(format!("{late}, so nothing is rendered; `check {number}` shows the input")));
         }
-        Outcome::Right(_) => {}
+        _ if report.is_done() => {}
         _ if report.is_stub() => {
             streams.note(&format!("note: {} gives one and the same answer, as the stub does", exercise.function))?;
         }
@@ -74,11 +85,88 @@ pub fn render_mine(
             streams.note(&format!("note: {sentence}; `check {number}` shows the first"))?;
         }
     }
+    let beside = options.output.is_empty() && format == Format::Text;
+    let mine_file = Path::new("out").join(format!("{number}_mine.png"));
     if options.output.is_empty() {
-        options.output = vec![Path::new("out").join(format!("{number}_mine.png"))];
+        options.output = vec![mine_file.clone()];
     }
-    let subject = mine.chapter.clone();
-    render_with(&Subject::Chapter(Cow::Owned(subject)), &options, Some(mine), format, streams)
+    let subject = Subject::Chapter(Cow::Owned(mine.chapter.clone()));
+    render_with(&subject, &options, Some(mine), format, streams)?;
+    let pinholes = Subject::Chapter(Cow::Borrowed(chapter));
+    if beside { compare_with_pinhole(&pinholes, number, &options, &mine_file, streams) } else { Ok(()) }
+}
+
+/// The most pixels across in a picture of a sampled scene that shows a reader's function, unless more are asked for.
+const SMALL: u32 = 240;
+
+/// The options of a smaller picture, where the scene is sampled and the reader asks for no size, samples or time.
+fn small_enough(chapter: &Chapter, most_samples: u32, options: &RenderOptions) -> Option<RenderOptions> {
+    let SceneOptions { sampling, error, .. } = &options.scene;
+    if options.scene.sets_resolution() || sampling.samples.is_some() || options.time.is_some() || error.is_some() {
+        return None;
+    }
+    let scene = chapter.world(&options.asked(false));
+    let camera = scene.entity(camera_entity(&scene).ok()?);
+    let (samples, width) =
+        (camera.get::<Sampling>()?.samples, camera.get::<Resolution>().copied().unwrap_or_default().width);
+    let mut small = options.clone();
+    small.scene.width = Some(width.min(SMALL));
+    small.scene.sampling.samples = Some(samples.min(most_samples));
+    Some(small)
+}
+
+/// Renders a scene by a naive method; and beside it, unless a file is named, by pinhole's own, and how the two differ.
+pub fn render_naive(
+    subject: &Subject<'_>,
+    options: &RenderOptions,
+    format: Format,
+    streams: &mut Streams<'_>,
+) -> Result {
+    render_with(subject, options, None, format, streams)?;
+    let targets = Targets::of(subject, options)?;
+    match targets.pictures.first() {
+        Some(naive) if options.output.is_empty() && format == Format::Text => {
+            compare_with_pinhole(subject, &subject.stem(), options, naive, streams)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes the picture of pinhole's own stages and how another differs from it, and says how far they are apart.
+fn compare_with_pinhole(
+    subject: &Subject<'_>,
+    stem: &str,
+    options: &RenderOptions,
+    other: &Path,
+    streams: &mut Streams<'_>,
+) -> Result {
+    let picture = |whose: &str| Path::new("out").join(format!("{stem}_{whose}.png"));
+    let scene = subject.world(&options.asked(false));
+    let watch = Waiting::with(Progress::hidden(), 0);
+    let rendered = pinhole::render::render(&scene, &subject.stages(), &Execution::default(), &watch)?;
+    let pinholes = png_bytes(&rendered.film, rendered.curve())?;
+    let write = |file: &Path, bytes: &[u8]| write_whole(file, |whole| whole.write_all(bytes));
+    let own = picture("pinhole");
+    write(&own, &pinholes)?;
+    let others = read_file(other, PICTURE).map_err(|error| Error::usage(error.to_string()))?;
+    let apart = compare_pictures(&pinholes, &others).map_err(|error| Error::usage(error.to_string()))?;
+    let PictureDifference { sizes: [[width, height], _], differing, largest, worst: [x, y], colours } = apart;
+    let told = match differing {
+        0 => "the same picture".to_owned(),
+        _ => format!(
+            "{differing} of {} pixels differ, by at most {largest} of 255, most at {x},{y}: {:?} here, {:?} there",
+            u64::from(width) * u64::from(height),
+            colours[0],
+            colours[1]
+        ),
+    };
+    writeln!(streams.out, "{}, by pinhole's own: {told}", own.display())?;
+    if let (Some((bytes, words)), true) = (picture_contrast(&pinholes, &others)?, differing > 0) {
+        let file = picture("difference");
+        write(&file, &bytes)?;
+        writeln!(streams.out, "{}: {words}", file.display())?;
+    }
+    Ok(())
 }
 
 /// Ends the program as any failed command does; a panic on a thread of a render leaves nobody else to do so.
@@ -114,7 +202,11 @@ fn render_with(
     let census = &Census::of(&scene);
     validate(census).map_err(|scene_error| placed(scene_error.into()))?;
     check_requests(census, options, &targets, streams)?;
-    let mut render = RenderInProgress::begin(census, &subject.stages(), &execution).map_err(placed)?;
+    let offer = match options.naive {
+        Some(naive) => naive.put_in(subject.stages(), census)?,
+        None => subject.stages(),
+    };
+    let mut render = RenderInProgress::begin(census, &offer, &execution).map_err(placed)?;
     let watched = (!json && !options.quiet).then(|| subject.shown());
     if let (Some(what), true) = (&watched, streams.waits) {
         Progress::announce(what, render.film.width, render.film.height);

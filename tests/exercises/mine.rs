@@ -1,6 +1,6 @@
 //! `render NN --mine`: a solution makes pinhole's picture, a mistake another one, and what fails says so in a sentence.
 
-use super::solutions::{ALL, chapter_05_pinhole};
+use super::solutions::{ALL, Solved, chapter_05_pinhole};
 use super::{listed, pinhole as perspective, right, run, untouched};
 use ::pinhole::film::{Film, GUIDES, denoise};
 use ::pinhole::render::{Execution, render};
@@ -98,7 +98,7 @@ fn alike(kept: &Film, made: &Film, allowed: &Differ) -> (bool, String) {
 #[test]
 fn a_solution_makes_pinhole_s_picture_and_a_mistake_another_one() {
     let (chapters, mut seen, mut wrong) = (all(), 0, Vec::new());
-    for (name, solved, mistakes) in ALL {
+    for Solved { chapter: name, solved, mistakes, .. } in ALL {
         let chapter = chapters.iter().find(|chapter| chapter.name == *name).expect("the chapter");
         let solved = solved();
         if !solved.renders() {
@@ -210,7 +210,13 @@ fn the_command_renders_notes_and_refuses() {
         let (status, out, notes) = said(&["render", "5", "--mine", "--size", "48x27"]);
         assert_eq!(status, Some(0), "{notes}");
         assert!(notes.contains("perspective_direction gives one and the same answer, as the stub does"), "{notes}");
-        assert!(out.contains("out/05_mine.png") && folder.path().join("out/05_mine.png").exists(), "{out}");
+        for whose in ["mine", "pinhole", "difference"] {
+            let file = format!("out/05_{whose}.png");
+            assert!(out.contains(&file) && folder.path().join(&file).exists(), "{file}: {out}");
+        }
+        assert!(out.contains("of 1296 pixels differ, by at most "), "{out}");
+        let (status, out, notes) = said(&["render", "5", "--mine", "--size", "48x27", "-o", "mine.png"]);
+        assert!(status == Some(0) && out.contains("mine.png") && !out.contains("differ"), "{out} {notes}");
     }
     let (status, _, notes) = said(&["render", "5", "--mine", "--resume"]);
     assert!(status == Some(2) && notes.contains("`--mine` begins anew") && notes.lines().count() == 1, "{notes}");

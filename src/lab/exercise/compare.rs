@@ -11,6 +11,8 @@ pub struct Report {
     pub function: &'static str,
     /// How many inputs the exercise has.
     pub inputs: usize,
+    /// How many of them are extreme.
+    pub extremes: usize,
     /// How far an answer may be from the right one, and in what that is measured.
     pub allowed: (f64, &'static str),
     /// What came of it.
@@ -26,6 +28,8 @@ pub struct Report {
 pub enum Outcome {
     /// Every answer was right; the worst was so far from the exact one.
     Right(f64),
+    /// Every ordinary input was answered rightly, as the textbook's formula does, and some extreme ones wrongly.
+    OrdinaryRight(Mismatch),
     /// An answer was wrong.
     Wrong(Mismatch),
     /// The function panicked at this input, with these words.
@@ -95,23 +99,27 @@ where
     let right: Vec<A> = inputs[..given.len()].iter().map(question.right).collect();
     let wrong: Vec<usize> = (0..given.len()).filter(|&at| !question.same(&given[at], &right[at])).collect();
     let apart = |at: usize| (question.apart)(&given[at], &right[at]);
-    let outcome = match (wrong.first(), ended) {
-        (Some(&first), _) => Outcome::Wrong(Mismatch {
-            asked: asked(first),
-            yours: given[first].shown(),
-            right: right[first].shown(),
-            difference: difference(&given[first], &right[first]),
-            apart: apart(first),
-            wrong: wrong.len(),
-            always_the_same: always_the_same(&given) && !always_the_same(&right),
-            looks_like: looks_like(&question, &given, &right, first),
-        }),
-        (None, Some(ended)) => ended,
-        (None, None) => Outcome::Right((0..given.len()).map(apart).fold(0.0, f64::max)),
+    let is_extreme = |at: &usize| question.probes[*at].is_extreme;
+    let mismatch = |first: usize| Mismatch {
+        asked: asked(first),
+        yours: given[first].shown(),
+        right: right[first].shown(),
+        difference: difference(&given[first], &right[first]),
+        apart: apart(first),
+        wrong: wrong.len(),
+        always_the_same: always_the_same(&given) && !always_the_same(&right),
+        looks_like: looks_like(&question, &given, &right, first),
+    };
+    let outcome = match (wrong.iter().find(|at| !is_extreme(at)), wrong.first(), ended) {
+        (Some(&first), _, _) => Outcome::Wrong(mismatch(first)),
+        (None, _, Some(ended)) => ended,
+        (None, Some(&first), None) => Outcome::OrdinaryRight(mismatch(first)),
+        (None, None, None) => Outcome::Right((0..given.len()).map(apart).fold(0.0, f64::max)),
     };
     Report {
         function,
         inputs: inputs.len(),
+        extremes: question.probes.iter().filter(|probe| probe.is_extreme).count(),
         allowed: (question.allowed, question.measured),
         outcome,
         hints: question.hints,

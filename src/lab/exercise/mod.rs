@@ -23,7 +23,7 @@ pub use compare::{Mismatch, Outcome, Report};
 pub use mine::{Mine, Setting, StandIn};
 pub use panics::end_at_panics;
 pub use progress::{Progress, Tries};
-pub use question::{Mistake, Probe, Question, probes};
+pub use question::{Mistake, Probe, Question, extremes, probes};
 pub use shown::Shown;
 pub use turn::{Turn, list_exercises, take_turn, turn};
 
@@ -39,9 +39,14 @@ pub const PATIENCE: Duration = Duration::from_secs(3);
 pub struct Exercise {
     /// The function's name.
     pub function: &'static str,
+    /// The most samples of a pixel, where the scene is sampled, with which its picture is there at once.
+    pub samples: u32,
     check: Box<dyn Fn(Duration) -> Report + Send + Sync>,
     mine: Result<Box<Render>, &'static str>,
 }
+
+/// The samples with which most pictures show what a function does.
+const SAMPLES: u32 = 4;
 
 impl Exercise {
     /// An exercise whose function renders in the place that `mine` gives it.
@@ -81,7 +86,13 @@ impl Exercise {
             let written = Arc::clone(&written);
             compare(function, question(), move |input: &I| written(input), patience)
         };
-        Self { function, check: Box::new(check), mine: Err(why) }
+        Self { function, samples: SAMPLES, check: Box::new(check), mine: Err(why) }
+    }
+
+    /// The same, shown with one sample of a pixel: for a function that a render asks so often that it takes long.
+    #[must_use]
+    pub fn asked_often(self) -> Self {
+        Self { samples: 1, ..self }
     }
 
     /// Asks the function all inputs of its exercise and says how it did.

@@ -21,8 +21,10 @@ pub struct Tries {
     pub tried: u32,
     /// Wrong tries since it was last right; each brings a further hint.
     pub wrong: u32,
-    /// Whether the last try was right.
+    /// Whether the last try was right, for ordinary inputs at least.
     pub done: bool,
+    /// Whether it was right for extreme inputs, too, where the exercise has any.
+    pub extremes: bool,
 }
 
 impl Progress {

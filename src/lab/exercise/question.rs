@@ -27,6 +27,8 @@ pub struct Question<I, A> {
 pub struct Probe<I> {
     /// What is special about it, in a few words.
     pub about: &'static str,
+    /// Whether the textbook's formula need not answer it: what is asked for is then the second star.
+    pub is_extreme: bool,
     /// The arguments.
     pub input: I,
 }
@@ -46,9 +48,15 @@ impl<I, A> Mistake<I, A> {
     }
 }
 
-/// Probes with the same remark.
+/// Ordinary probes with the same remark.
 pub fn probes<I>(about: &'static str, inputs: impl IntoIterator<Item = I>) -> impl Iterator<Item = Probe<I>> {
-    inputs.into_iter().map(move |input| Probe { about, input })
+    inputs.into_iter().map(move |input| Probe { about, is_extreme: false, input })
+}
+
+/// Extreme probes with the same remark: numbers near the ends of the format, and cases in which the textbook's formula
+/// divides by 0 or subtracts what rounding made equal.
+pub fn extremes<I>(about: &'static str, inputs: impl IntoIterator<Item = I>) -> impl Iterator<Item = Probe<I>> {
+    probes(about, inputs).map(|probe| Probe { is_extreme: true, ..probe })
 }
 
 impl<I, A: Shown> Question<I, A> {

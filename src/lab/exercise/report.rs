@@ -1,4 +1,4 @@
-use super::compare::{Input, Outcome, Report};
+use super::compare::{Input, Mismatch, Outcome, Report};
 use std::io::{self, Write};
 
 impl Report {
@@ -8,26 +8,25 @@ impl Report {
     pub fn print(&self, hints: usize, out: &mut dyn Write) -> io::Result<()> {
         match &self.outcome {
             Outcome::Right(worst) => self.print_right(*worst, out),
+            Outcome::OrdinaryRight(mismatch) => {
+                let (wrong, extremes) = (mismatch.wrong, self.extremes);
+                writeln!(out, "★ {} is right for all {} ordinary inputs", self.function, self.inputs - extremes)?;
+                writeln!(out, "☆ for a second star, {wrong} of {extremes} extreme inputs are left; the first:")?;
+                self.print_mismatch(mismatch, out)?;
+                mismatch.looks_like.map_or(Ok(()), |told| writeln!(out, "it looks as if {told}"))
+            }
             Outcome::Wrong(mismatch) => {
                 let (wrong, inputs) = (mismatch.wrong, self.inputs);
                 writeln!(out, "{} is wrong for {wrong} of {inputs} inputs; the first:", self.function)?;
-                print_asked(&mismatch.asked, out)?;
-                writeln!(out, "  yours      {}", mismatch.yours)?;
-                writeln!(out, "  expected   {}", mismatch.right)?;
-                if let Some(difference) = &mismatch.difference {
-                    writeln!(out, "  difference {difference}")?;
-                }
-                if mismatch.apart.is_finite() && self.allowed.0 > 0.0 {
-                    let (allowed, measured) = self.allowed;
-                    writeln!(out, "  off by     {:.1e} {measured}, where {allowed:e} is allowed", mismatch.apart)?;
-                }
+                self.print_mismatch(mismatch, out)?;
                 if mismatch.always_the_same {
                     return writeln!(out, "it gives this answer whatever it is asked, as the stub does");
                 }
-                if let Some(told) = mismatch.looks_like {
-                    writeln!(out, "it looks as if {told}")?;
+                // Whoever is told the mistake needs no hint for those who are stuck.
+                match mismatch.looks_like {
+                    Some(told) => writeln!(out, "it looks as if {told}"),
+                    None => self.print_hints(hints, out),
                 }
-                self.print_hints(hints, out)
             }
             Outcome::Panicked(asked, words) => {
                 writeln!(out, "{} panicked: {words}", self.function)?;
@@ -43,8 +42,24 @@ impl Report {
         }
     }
 
+    fn print_mismatch(&self, mismatch: &Mismatch, out: &mut dyn Write) -> io::Result<()> {
+        print_asked(&mismatch.asked, out)?;
+        writeln!(out, "  yours      {}", mismatch.yours)?;
+        writeln!(out, "  expected   {}", mismatch.right)?;
+        if let Some(difference) = &mismatch.difference {
+            writeln!(out, "  difference {difference}")?;
+        }
+        if mismatch.apart.is_finite() && self.allowed.0 > 0.0 {
+            let (allowed, measured) = self.allowed;
+            writeln!(out, "  off by     {:.1e} {measured}, where {allowed:e} is allowed", mismatch.apart)?;
+        }
+        Ok(())
+    }
+
     fn print_right(&self, worst: f64, out: &mut dyn Write) -> io::Result<()> {
-        writeln!(out, "{} is right for all {} inputs, ordinary and extreme", self.function, self.inputs)?;
+        let stars = if self.extremes > 0 { "★★" } else { "★" };
+        let kinds = if self.extremes > 0 { ", ordinary and extreme" } else { "" };
+        writeln!(out, "{stars} {} is right for all {} inputs{kinds}", self.function, self.inputs)?;
         match self.allowed {
             (0.0, _) => writeln!(out, "  every answer is the expected one, exactly")?,
             (allowed, measured) => {
@@ -66,7 +81,7 @@ impl Report {
     pub fn sentence(&self) -> Option<String> {
         let function = self.function;
         match &self.outcome {
-            Outcome::Right(_) => None,
+            Outcome::Right(_) | Outcome::OrdinaryRight(_) => None,
             Outcome::Wrong(mismatch) if mismatch.always_the_same => {
                 Some(format!("{function} gives one and the same answer, as the stub does"))
             }
@@ -76,6 +91,11 @@ impl Report {
             Outcome::Panicked(asked, _) => Some(format!("{function} panicked at input {}", asked.number)),
             Outcome::Late(asked, _) => Some(format!("{function} did not answer input {} in time", asked.number)),
         }
+    }
+
+    /// Whether every ordinary input was answered rightly.
+    pub fn is_done(&self) -> bool {
+        matches!(self.outcome, Outcome::Right(_) | Outcome::OrdinaryRight(_))
     }
 
     /// Whether the reader has not begun: the answer is one and the same, as a stub's is.

@@ -22,10 +22,11 @@ pub fn turn(name: &str, exercise: &Exercise, file: &Path) -> Turn {
     let report = exercise.check(PATIENCE);
     let mut tries = progress.of(name);
     if !report.is_stub() {
-        let done = matches!(report.outcome, Outcome::Right(_));
+        let done = report.is_done();
         tries.tried = tries.tried.saturating_add(1);
         tries.wrong = if done { 0 } else { tries.wrong.saturating_add(1) };
         tries.done = done;
+        tries.extremes = matches!(report.outcome, Outcome::Right(_)) && report.extremes > 0;
         progress.0.insert(name.into(), tries);
         if let Err(refused) = progress.write(file) {
             notes.push(format!("this try will not be remembered: {refused}"));
@@ -35,10 +36,11 @@ pub fn turn(name: &str, exercise: &Exercise, file: &Path) -> Turn {
 }
 
 impl Turn {
-    /// The hints that the reader has earned: one for each wrong try.
+    /// The hints that the reader has earned: one for each wrong try, unless the mistake itself is known.
     pub fn hints(&self) -> &'static [&'static str] {
         let all = self.report.hints;
-        let earns = !matches!(self.report.outcome, Outcome::Right(_)) && !self.report.is_stub();
+        let is_known = matches!(&self.report.outcome, Outcome::Wrong(mismatch) if mismatch.looks_like.is_some());
+        let earns = !self.report.is_done() && !self.report.is_stub() && !is_known;
         &all[..if earns { all.len().min(self.tries.wrong as usize) } else { 0 }]
     }
 }
@@ -49,13 +51,16 @@ impl Turn {
 pub fn take_turn(name: &str, exercise: &Exercise, file: &Path, out: &mut dyn Write) -> Result {
     let Turn { report, tries, notes } = turn(name, exercise, file);
     report.print(tries.wrong as usize, out)?;
-    let number = name.split('_').next().unwrap_or(name);
+    let number = name.split('_').next().unwrap_or(name).trim_start_matches('0');
     match report.outcome {
         Outcome::Right(_) => writeln!(out, "next: `check` without a chapter shows what is left")?,
+        Outcome::OrdinaryRight(_) => {
+            writeln!(out, "next: on with the chapter, or edit chapters/{name}/exercise.rs for the second star")?;
+        }
         _ => writeln!(out, "edit chapters/{name}/exercise.rs, then `check {number}` again")?,
     }
     if exercise.renders() && !report.is_stub() {
-        writeln!(out, "`render {} --mine` shows it", number.trim_start_matches('0'))?;
+        writeln!(out, "`render {number} --mine` shows it")?;
     }
     notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))?;
     report.sentence().map_or(Ok(()), |sentence| Err(Error::Usage(sentence)))
@@ -70,7 +75,8 @@ pub fn list_exercises(exercises: &[(&str, Exercise)], file: &Path, out: &mut dyn
     for (chapter, exercise) in exercises {
         let tries = progress.of(chapter);
         let state = match (tries.done, tries.tried) {
-            (true, _) => "done".into(),
+            (true, _) if tries.extremes => "done ★★".into(),
+            (true, _) => "done ★".into(),
             (false, 0) => "not tried".into(),
             (false, 1) => "tried once".into(),
             (false, times) => format!("tried {times} times"),

@@ -22,7 +22,7 @@ const MAX_DEPTH: u32 = 4;
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let change = |camera: &mut EntityWorldMut<'_>| {
         let integrator = Integrator::Path { max_depth: MAX_DEPTH, lights: LightStrategy::Light, roulette: 0 };
-        camera.insert((integrator, Sampling { samples: 8, seed: 25, ..Sampling::default() }));
+        camera.insert((integrator, Sampling { samples: 4, seed: 25, ..Sampling::default() }));
     };
     let alike = |u| DVec3::from(uniform_direction(u));
     let by = |sample: MatteSample, lines: [&str; 2]| {

@@ -34,7 +34,7 @@ fn exhibit(
 
 /// At the same number of samples.
 pub fn draw_sides(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    const SAMPLES: u32 = 8;
+    const SAMPLES: u32 = 4;
     let [once, often] = [1.0, 8.0].map(|paths| Some(LightTracing { paths }));
     let exhibits = [
         exhibit(chapter, None, None, SAMPLES, ["from the camera alone", "few rays hit the light"])?,

@@ -1,4 +1,4 @@
-use super::pen::{INK, TEXT};
+use super::pen::{INK, LARGE_TEXT, TEXT};
 use super::sketch::Frame;
 use glam::DVec2;
 
@@ -82,6 +82,11 @@ impl Label {
     /// The same, larger or smaller by a factor, and never with a line to it.
     pub fn title(self, factor: f64) -> Self {
         Self { size: self.size * factor, leader: false, ..self }
+    }
+
+    /// The same, so large that it can be read where a page is as narrow as a phone.
+    pub fn large(self) -> Self {
+        Self { size: LARGE_TEXT, ..self }
     }
 
     /// The same, kept within a part of the drawing.

@@ -14,7 +14,7 @@ const SIZE: [u32; 2] = [276, 155];
 /// The chapter's scene by paths, with these materials in place of what the named entities are made of.
 fn exhibit<M: Component + Clone>(chapter: &Chapter, materials: &[(&str, M)], lines: [String; 2]) -> Result<Exhibit> {
     let picture = Picture::of(chapter, SIZE, None, |camera| {
-        camera.insert((Integrator::PATH, Sampling { samples: 48, ..Sampling::default() }));
+        camera.insert((Integrator::PATH, Sampling { samples: 24, ..Sampling::default() }));
         camera.world_scope(|world| {
             let mut named = world.query::<(Entity, &Name)>();
             let entities: Vec<(Entity, String)> =

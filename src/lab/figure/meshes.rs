@@ -32,7 +32,7 @@ pub fn draw_mistakes(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 }
 
 fn sampled(camera: &mut EntityWorldMut<'_>) {
-    camera.insert(Sampling { samples: 16, seed: 28, ..Sampling::default() });
+    camera.insert(Sampling { samples: 8, seed: 28, ..Sampling::default() });
 }
 
 /// Gives each unevenly scaled mesh the normals that pinhole's map of normals takes where the map of directions takes

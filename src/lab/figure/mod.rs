@@ -9,15 +9,18 @@
 
 pub mod acne;
 pub mod aliasing;
+mod angle;
 pub mod both;
 pub mod boxes;
 pub mod broken_paths;
 pub mod budget;
 pub mod cameras;
 pub mod caustics;
+pub mod connection;
 pub mod coverage;
 pub mod curves;
 pub mod denoising;
+pub mod directions;
 mod drawn_image;
 pub mod field_of_view;
 pub mod filters;
@@ -47,6 +50,7 @@ pub mod projection;
 mod props;
 pub mod ray;
 pub mod real_time;
+pub mod refraction;
 pub mod relief;
 pub mod rings;
 pub mod samples;
@@ -56,6 +60,7 @@ mod section;
 mod side;
 mod sketch;
 pub mod slabs;
+pub mod solid_angle;
 mod subject;
 mod svg;
 pub mod told;
@@ -63,6 +68,8 @@ pub mod tree;
 #[cfg(test)]
 mod trial;
 pub mod two_classes;
+pub mod two_strategies;
+pub mod vertices;
 pub mod wide_tree;
 
 pub use drawn_image::{DRAWN_IMAGES, DrawnImage};

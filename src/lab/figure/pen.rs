@@ -4,6 +4,8 @@ use std::fmt::Write;
 pub const WIDTH: f64 = 720.0;
 /// The size of a label.
 pub const TEXT: f64 = 14.0;
+/// The size of labels that stay legible where the drawing is shown at half its width.
+pub const LARGE_TEXT: f64 = 21.0;
 /// The size of the words at the foot.
 pub const SMALL_TEXT: f64 = 11.0;
 

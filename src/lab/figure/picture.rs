@@ -51,7 +51,7 @@ impl Picture {
             whole.offer.retain(|other| other.set != stage.set);
             whole.offer.push(stage);
         }
-        let rendered = rendered(&whole, size, |camera| prepared(chapter, camera, change))?;
+        let rendered = rendered(chapter, &whole, size, change)?;
         Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
     }
 
@@ -70,7 +70,7 @@ impl Picture {
                 *own = stage.clone();
             }
         }
-        let rendered = rendered(&whole, size, |camera| prepared(chapter, camera, change))?;
+        let rendered = rendered(chapter, &whole, size, change)?;
         Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
     }
 
@@ -85,7 +85,7 @@ impl Picture {
     ) -> Result<Self> {
         let mut whole = all_stages(chapter);
         whole.offer.extend(beside);
-        let rendered = rendered(&whole, size, |camera| prepared(chapter, camera, change))?;
+        let rendered = rendered(chapter, &whole, size, change)?;
         Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
     }
 
@@ -98,7 +98,7 @@ impl Picture {
         size: [u32; 2],
         change: impl FnOnce(&mut EntityWorldMut<'_>),
     ) -> Result<Self> {
-        let rendered = rendered(&all_stages(chapter), size, |camera| prepared(chapter, camera, change))?;
+        let rendered = rendered(chapter, &all_stages(chapter), size, change)?;
         let curve = rendered.curve();
         let twice = |light: f32| byte_from_linear(f32::from(byte_from_linear(light, curve)) / 255.0, curve);
         Ok(Self { size, url: png_url(&png_bytes_by(&rendered.film, curve, twice)?) })
@@ -125,22 +125,24 @@ fn all_stages(chapter: &Chapter) -> Chapter {
     whole
 }
 
-/// Changes a chapter's camera; where the chapter follows no light from surface to surface, neither does its figure, which
-/// would otherwise be lit by the sky, with few samples.
-fn prepared(chapter: &Chapter, camera: &mut EntityWorldMut<'_>, change: impl FnOnce(&mut EntityWorldMut<'_>)) {
-    let follows = chapter.offer.iter().any(|stage| stage.set == TileSystems::RemainingBounces);
-    if !follows && !camera.contains::<Integrator>() {
-        camera.insert(Integrator::RayCasting);
-    }
-    change(camera);
-}
-
-/// A chapter's scene, rendered after `change` has had its camera.
-fn rendered(whole: &Chapter, size: [u32; 2], change: impl FnOnce(&mut EntityWorldMut<'_>)) -> Result<Rendered> {
+/// A chapter's scene, rendered by the stages of `whole` after `change` has had its camera.
+///
+/// Where the chapter follows no light from surface to surface, neither does its figure, which would otherwise be lit by
+/// the sky, with few samples.
+fn rendered(
+    chapter: &Chapter,
+    whole: &Chapter,
+    size: [u32; 2],
+    change: impl FnOnce(&mut EntityWorldMut<'_>),
+) -> Result<Rendered> {
     let [width, height] = size;
     let asked = Overrides { resolution: Some(Resolution { width, height }), ..Overrides::default() };
     let mut scene = whole.world(&asked);
     let camera = camera_entity(&scene)?;
+    let follows = chapter.offer.iter().any(|stage| stage.set == TileSystems::RemainingBounces);
+    if !follows && !scene.entity(camera).contains::<Integrator>() {
+        scene.entity_mut(camera).insert(Integrator::RayCasting);
+    }
     change(&mut scene.entity_mut(camera));
     if let Some(mut sampling) = scene.get_mut::<Sampling>(camera) {
         sampling.samples = sampling.samples.min(MOST_SAMPLES.get());

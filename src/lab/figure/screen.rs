@@ -7,13 +7,11 @@ use super::pen::{INK, Pen, WIDTH};
 use super::picture::Picture;
 use super::svg::{Drawing, Svg};
 use crate::naive::screen::{mirrored, upside_down, without_aspect};
-use bevy_ecs::prelude::*;
+use crate::naive::stages::screen_placed_by;
 use glam::DVec2;
 use pinhole::Chapter;
 use pinhole::Result;
-use pinhole::extract::ImageFrame;
-use pinhole::plan::{Column, Shared, Stage, TileSystems};
-use pinhole::rays::{NdcPoints, ScreenPoints, screen_from_ndc};
+use pinhole::rays::screen_from_ndc;
 
 /// The two images, in pixels: as high as each other, the first twice as wide.
 const SIZES: [[u32; 2]; 2] = [[200, 100], [100, 100]];
@@ -68,24 +66,9 @@ pub fn draw_naive(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         ("x to the left", "((1 − 2*x*) · aspect, 1 − 2*y*)", mirrored),
     ];
     let exhibit = |(name, formula, place): (&str, &str, fn(DVec2, f64) -> DVec2)| {
-        let picture = Picture::of(chapter, size, Some(placed_by(place)), |_| ())?;
+        let picture = Picture::of(chapter, size, Some(screen_placed_by(place)), |_| ())?;
         Ok(Exhibit { picture, lines: vec![name.into(), formula.into()] })
     };
     let exhibits = formulas.map(exhibit).into_iter().collect::<Result<Vec<_>>>()?;
     Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, size)))
-}
-
-/// The screen's stage with another function in it.
-fn placed_by(screen_from_ndc: fn(DVec2, f64) -> DVec2) -> Stage {
-    let fill = move |image: Res<Shared<ImageFrame>>, mut tiles: Query<(&NdcPoints, &mut ScreenPoints)>| {
-        for (ndc, mut screen) in &mut tiles {
-            let rows = ndc.rows();
-            let (ndc_x, ndc_y) = ndc.slices();
-            let (x, y) = screen.slices_mut(rows);
-            for row in 0..rows {
-                (x[row], y[row]) = screen_from_ndc(DVec2::new(ndc_x[row], ndc_y[row]), image.aspect()).into();
-            }
-        }
-    };
-    Stage::new("Place screen points wrongly", TileSystems::Screen, fill)
 }

@@ -7,19 +7,18 @@ use super::pen::{IMAGE, INK, Pen, RAY, WIDTH};
 use super::picture::Picture;
 use super::svg::{Drawing, Svg};
 use crate::measure::ray_aim::Draws;
+use crate::naive::stages::{Find, first_found, through_tree};
 use crate::naive::tree::{Below, Divide, Search, Tree, at_median, build, by_cost, to_visit};
-use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use pinhole::bvh::BoundingBox;
 use pinhole::extract::{MeshTable, SphereTable, camera_entity};
-use pinhole::intersect::{BoxTests, Hits, PrimitiveTests, TraversalDepths, sphere_stage};
-use pinhole::plan::{Census, Column, Shared, Stage, Table};
+use pinhole::intersect::{BoxTests, PrimitiveTests, TraversalDepths};
+use pinhole::plan::{Census, Column, Table};
 use pinhole::rays::WorldRays;
 use pinhole::render::{first_bounce_only, inspect};
 use pinhole::scene::{Degrees, FovAxis, LookAt, PerspectiveCamera, Resolution, Sampling, View};
 use pinhole::shapes::{PlacedMesh, PlacedSphere, Shape, TriangleRow, triangle_t};
 use pinhole::{Chapter, Overrides, Result, stages};
-use std::sync::{Arc, OnceLock};
 
 /// Two in a row.
 const SIZE: [u32; 2] = [384, 216];
@@ -278,36 +277,11 @@ fn random_spheres(count: usize) -> Vec<PlacedSphere> {
     (0..count).map(|_| PlacedSphere { centre: centre(&mut draws), radius }).collect()
 }
 
-/// How the spheres of a scene are found in a tree.
-type Find = fn(&Tree, &mut Search, &[PlacedSphere]);
-
-/// The stage that intersects spheres, with a plain tree.
-fn through_tree(find: Find) -> Stage {
-    let kept: Arc<OnceLock<Tree>> = Arc::default();
-    let system = move |spheres: Res<Shared<SphereTable>>, mut tiles: Query<(&WorldRays, &mut Hits)>| {
-        let tree = kept.get_or_init(|| Tree::of_shapes(&spheres.row, by_cost));
-        for (rays, mut hits) in &mut tiles {
-            for row in 0..rays.rows() {
-                let mut search = Search::new([rays.origin_of(row), rays.direction_of(row)], hits.t[row]);
-                find(tree, &mut search, &spheres.row);
-                if search.t < hits.t[row] {
-                    (hits.t[row], hits.shape[row]) = (search.t, spheres.shape[search.number]);
-                }
-            }
-        }
-    };
-    Stage { system: Arc::new(move || system.clone().into_configs()), ..sphere_stage() }
-}
-
 /// Pebbles through a tree, and through one whose farther child is left out once something was hit.
 pub fn draw_first_found(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let right: Find = |tree, search, spheres| {
         let ray = search.ray;
         tree.closest(search, &to_visit, &mut |number| spheres[number].t(ray[0], ray[1]));
-    };
-    let first: Find = |tree, search, spheres| {
-        let ray = search.ray;
-        tree.first_found(search, &mut |number| spheres[number].t(ray[0], ray[1]));
     };
     let exhibit = |find: Find, lines: [&str; 2]| {
         let picture = Picture::replacing(chapter, SIZE, Some(through_tree(find)), |camera| {
@@ -315,14 +289,14 @@ pub fn draw_first_found(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
             let mut look = camera.get::<LookAt>().copied().unwrap_or_default();
             look.eye.y *= 0.35;
             let lens = PerspectiveCamera { fov: Degrees(16.0), axis: FovAxis::Vertical };
-            let sampling = Sampling { samples: 4, ..camera.get::<Sampling>().copied().unwrap_or_default() };
+            let sampling = Sampling { samples: 2, ..camera.get::<Sampling>().copied().unwrap_or_default() };
             camera.insert((look, lens, sampling));
         })?;
         Ok(Exhibit { picture, lines: lines.map(str::to_owned).to_vec() })
     };
     let exhibits = [
         exhibit(right, ["both boxes where they are entered", "up to the closest hit"]),
-        exhibit(first, ["the first hit that is found", "pebbles behind others are in front of them"]),
+        exhibit(first_found, ["the first hit that is found", "pebbles behind others are in front of them"]),
     ];
     let exhibits = exhibits.into_iter().collect::<Result<Vec<_>>>()?;
     Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, SIZE)))

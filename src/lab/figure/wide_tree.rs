@@ -6,19 +6,15 @@ use super::label::Label;
 use super::pen::{Fill, IMAGE, INK, Pen, RAY, WIDTH as DRAWN};
 use super::picture::Picture;
 use super::svg::{Drawing, Svg};
-use crate::naive::wide::{closest, entered, first_planes};
-use bevy_ecs::prelude::*;
+use crate::naive::stages::in_packets;
 use glam::{DVec2, DVec3};
-use pinhole::bvh::{Bvh, Child, ChildKind, PACKET, WIDTH, WideNode};
+use pinhole::bvh::{Bvh, Child, ChildKind, WIDTH, WideNode};
 use pinhole::extract::{SphereTable, eye};
-use pinhole::intersect::{Hits, sphere_stage};
-use pinhole::plan::{Census, Column, Shared, Stage, Table};
-use pinhole::rays::WorldRays;
+use pinhole::plan::{Census, Table};
 use pinhole::scene::{Degrees, FovAxis, Integrator, LightStrategy, LookAt, PerspectiveCamera, Sampling};
-use pinhole::shapes::{PlacedSphere, Shape, hierarchy_of};
+use pinhole::shapes::{PlacedSphere, hierarchy_of};
 use pinhole::{Chapter, Overrides, Result};
 use std::mem::offset_of;
-use std::sync::{Arc, OnceLock};
 
 /// The hierarchy over a chapter's spheres.
 fn over_spheres(chapter: &Chapter, figure: &Figure) -> Result<(Vec<PlacedSphere>, Bvh)> {
@@ -124,28 +120,6 @@ pub fn draw_layout(_: &Chapter, figure: &Figure) -> Result<Drawing> {
     Ok(svg.finish(figure.about, &figure.stamp([480, 270], "any node of its hierarchies")))
 }
 
-/// The stage that intersects spheres through the wide tree in plain f64; with `taken_for_granted`, all rays of a packet
-/// enter slabs by the planes that its first ray enters by.
-fn in_packets(taken_for_granted: bool) -> Stage {
-    let kept: Arc<OnceLock<Bvh>> = Arc::default();
-    let system = move |spheres: Res<Shared<SphereTable>>, mut tiles: Query<(&WorldRays, &mut Hits)>| {
-        let tree = kept.get_or_init(|| hierarchy_of(&spheres.row).unwrap_or_default());
-        for (rays, mut hits) in &mut tiles {
-            for row in 0..rays.rows() {
-                let ray = [rays.origin_of(row), rays.direction_of(row)];
-                let leader = if taken_for_granted { row - row % PACKET } else { row };
-                let first = first_planes(rays.direction_of(leader));
-                let t_of = |number: usize| spheres.row[number].t(ray[0], ray[1]);
-                let (t, number) = closest(tree, (ray, first), hits.t[row], entered, t_of);
-                if t < hits.t[row] {
-                    (hits.t[row], hits.shape[row]) = (t, spheres.shape[number]);
-                }
-            }
-        }
-    };
-    Stage { system: Arc::new(move || system.clone().into_configs()), ..sphere_stage() }
-}
-
 /// The picture, and what becomes of it where a packet takes its first ray's signs for those of all.
 pub fn draw_signs(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     const SIZE: [u32; 2] = [384, 216];
@@ -174,6 +148,8 @@ pub fn draw_signs(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::naive::wide::{closest, entered, first_planes};
+    use pinhole::shapes::Shape;
 
     #[test]
     fn a_ray_whose_signs_are_another_s_misses() {
