@@ -45,6 +45,12 @@ fn every_chapter_s_page_has_its_parts() {
     eprintln!("book: the pages of {chapters} chapters have their parts");
 }
 
+/// One letter, one meaning: what a formula's letters are is said in one of the glossary's two tables.
+#[test]
+fn every_letter_is_in_the_notation_tables() {
+    none(&check::notation::problems(&pages()));
+}
+
 /// Whoever looks for a method's source finds it, and nothing stands in the bibliography that no page speaks of.
 #[test]
 fn every_source_is_cited() {
@@ -177,6 +183,9 @@ fn picture(command: &str, setting: &str) -> Vec<u8> {
     let file = folder.path().join("figure.png").display().to_string();
     let command = command.replace("--size 480x270", "--size 48x27");
     let mut words: Vec<String> = command.split_whitespace().map(str::to_owned).collect();
+    if let Some(own) = words.iter().position(|word| word == "--samples") {
+        words.drain(own..own + 2);
+    }
     words.extend(["--quiet", "--set", setting, "-o", &file].map(str::to_owned));
     if !setting.contains(".sampling.samples=") {
         words.extend(["--samples", "4"].map(str::to_owned));

@@ -1,12 +1,16 @@
 //! One build: check the pages, let mdBook make the site, put the pictures beside it.
 
 use crate::check;
+use crate::check::terms::INDEX;
 use crate::figure::Pictures;
+use crate::handout::{FONTS, Handout};
 use crate::page::{Pages, told};
+use crate::print;
 use crate::program::Program;
 use mdbook_driver::MDBook;
 use mdbook_driver::config::Config;
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -43,18 +47,32 @@ pub fn build(book: &Book, program: &Rc<RefCell<Program>>) -> Result<(), String> 
         return Err(told(&problems));
     }
     let mdbook = |error: mdbook_driver::errors::Error| format!("{error:#}");
+    program.borrow_mut().ask_for(&written);
     let pictures = Rc::new(RefCell::new(Pictures::default()));
     let mut site = MDBook::load_with_config(book.root(), config(book)?).map_err(mdbook)?;
-    site.with_preprocessor(Pages { written, program: Rc::clone(program), pictures: Rc::clone(&pictures) });
+    let handouts = Rc::default();
+    site.with_preprocessor(Pages {
+        written,
+        program: Rc::clone(program),
+        pictures: Rc::clone(&pictures),
+        handouts: Rc::clone(&handouts),
+    });
     site.build().map_err(mdbook)?;
+    print::unfold(&book.out)?;
     let pictures = pictures.borrow();
-    write_pictures(&book.out.join("figures"), &pictures)
+    write_pictures(&book.out.join("figures"), &pictures)?;
+    write_handouts(&book.out, &handouts.borrow())
 }
 
 fn config(book: &Book) -> Result<Config, String> {
     let mut config = Config::from_disk(book.root().join("book.toml")).map_err(|error| format!("{error:#}"))?;
     config.book.src.clone_from(&book.pages);
     config.build.build_dir.clone_from(&book.out);
+    if book.pages.join(INDEX).is_file() {
+        // Every term stands there, so a search would find it always, and what explains the term less well.
+        let unsearched = BTreeMap::from([(INDEX, BTreeMap::from([("enable", false)]))]);
+        config.set("output.html.search.chapter", unsearched).map_err(|error| format!("{error:#}"))?;
+    }
     Ok(config)
 }
 
@@ -66,6 +84,20 @@ fn write_pictures(folder: &Path, pictures: &Pictures) -> Result<(), String> {
     }
     let live = serde_json::to_vec(&pictures.live).map_err(|error| error.to_string())?;
     std::fs::write(folder.join("live.json"), live).map_err(failed)
+}
+
+/// Writes sheets and slides; mdBook has named the sheet of the formulas' font after what is in it.
+fn write_handouts(folder: &Path, handouts: &[Handout]) -> Result<(), String> {
+    let fonts = folder.join("fonts").read_dir().into_iter().flatten().flatten().map(|entry| entry.file_name());
+    let fonts = fonts.map(|name| name.to_string_lossy().into_owned()).find(|name| name.ends_with(".css"));
+    let fonts = fonts.ok_or("the site has no sheet of fonts.")?;
+    for handout in handouts {
+        let path = folder.join(&handout.path);
+        let failed = |error: std::io::Error| format!("{} cannot be written: {error}.", path.display());
+        std::fs::create_dir_all(path.parent().unwrap_or(folder)).map_err(failed)?;
+        std::fs::write(&path, handout.html.replace(FONTS, &fonts)).map_err(failed)?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -149,6 +181,9 @@ pub mod tests {
             assert!(page.contains(part), "{part} is missing");
         }
         assert!(book.out.join("figures/render.png").is_file());
+        for made in check::links::MADE {
+            assert!(book.out.join(made).is_file(), "{made} is missing");
+        }
         for path in files(&book.out) {
             let bytes = std::fs::read(&path).expect("a file");
             for address in fetched(&path, &String::from_utf8_lossy(&bytes)) {

@@ -18,7 +18,7 @@ const SHOWS_PIXELS: u32 = 200;
 const GROWN: u32 = 480;
 
 /// The pictures of one build, by the name they will have under `figures/`.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Clone)]
 pub struct Pictures {
     /// Each with its command.
     pub files: BTreeMap<String, (String, Rc<[u8]>)>,
@@ -35,9 +35,7 @@ pub fn block(
     moves: &str,
 ) -> Result<String, String> {
     let spoken = escape(&plain(caption));
-    let drawn = ["figure", "report"].contains(&command.split_whitespace().next().unwrap_or_default())
-        || command.split_whitespace().any(|word| word == "--gallery");
-    let picture = if drawn {
+    let picture = if extension(command) == "svg" {
         let file = program.file(command, "svg")?;
         inline(&String::from_utf8_lossy(&file), &spoken, &stem_of(command))
             .map_err(|what| format!("`{command}` {what}"))?
@@ -63,6 +61,12 @@ pub fn block(
         "\n<figure{live}>\n{picture}\n<figcaption>\n\n{caption}\n\n\
          <div class=\"made\">made by <code>{made}</code></div>\n</figcaption>\n</figure>\n"
     ))
+}
+
+/// What a command writes: a drawing, or a picture of pixels.
+pub fn extension(command: &str) -> &'static str {
+    let draws = ["figure", "report"].contains(&command.split_whitespace().next().unwrap_or_default());
+    if draws || command.split_whitespace().any(|word| word == "--gallery") { "svg" } else { "png" }
 }
 
 /// The words of a caption, for those who hear the page.

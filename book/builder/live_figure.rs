@@ -19,8 +19,10 @@ pub struct LiveFigure {
     scene: String,
     size: Option<String>,
     view: Option<String>,
-    /// The samples of the scene itself.
+    /// The samples of the command, or else of the scene itself.
     samples: u32,
+    /// Whether they are those of the command.
+    are_fewer: bool,
     moves: Vec<Movement>,
 }
 
@@ -31,24 +33,30 @@ impl LiveFigure {
     pub fn read(program: &mut Program, command: &str, moves: &str) -> Result<Self, String> {
         let mut words = command.split_whitespace().skip(1);
         let scene = words.next().unwrap_or_default().to_owned();
-        let (mut size, mut view) = (None, None);
+        let (mut size, mut view, mut asked) = (None, None, None);
         while let Some(word) = words.next() {
             match word {
                 "--size" => size = words.next().map(str::to_owned),
                 "--view" => view = words.next().map(str::to_owned),
+                "--samples" => asked = words.next().and_then(|count| count.parse().ok()),
                 _ => {
-                    return Err(format!("`{command}` has {word}, but a figure that moves has only --size and --view."));
+                    let only = "but a figure that moves has only --size, --view and --samples";
+                    return Err(format!("`{command}` has {word}, {only}."));
                 }
             }
         }
         let moves = movement::read(moves)?;
+        if asked.is_some() && moves.iter().any(|movement| movement.path == SAMPLES) {
+            return Err(format!("`{command}` has --samples, which its reader moves."));
+        }
         let paths = moves.iter().map(|movement| movement.path.as_str()).chain([SAMPLES]);
         let values = program.values(&scene, &paths.collect::<Vec<_>>())?;
         let mut starts = values.lines();
         let moves = moves.into_iter().map(|movement| movement.starting(starts.next().unwrap_or_default()));
         let moves = moves.collect::<Result<_, _>>()?;
-        let samples = starts.next().and_then(|count| count.parse().ok()).unwrap_or(1);
-        Ok(Self { command: command.to_owned(), scene, size, view, samples, moves })
+        let own = starts.next().and_then(|count| count.parse().ok()).unwrap_or(1);
+        let (samples, are_fewer) = (asked.unwrap_or(own), asked.is_some());
+        Ok(Self { command: command.to_owned(), scene, size, view, samples, are_fewer, moves })
     }
 
     /// What `pinhole live` is told for `samples=4&value=…&value=…`, a value for each movement in their order.
@@ -62,7 +70,10 @@ impl LiveFigure {
             return Err(format!("this figure has {} values, but {} were given.", self.moves.len(), values.len()));
         }
         let settings = self.moves.iter().zip(&values).map(|(movement, value)| movement.setting(value));
-        let set: Vec<String> = settings.filter_map(Result::transpose).collect::<Result<_, _>>()?;
+        let mut set: Vec<String> = settings.filter_map(Result::transpose).collect::<Result<_, _>>()?;
+        if self.are_fewer {
+            set.push(format!("{SAMPLES}={}", self.samples));
+        }
         let Self { scene, size, view, .. } = self;
         Ok(json!({ "number": number, "scene": scene, "set": set, "size": size, "view": view, "samples": samples }))
     }
@@ -100,6 +111,20 @@ pub mod tests {
         assert_eq!(order, Ok(expected));
         let order = figure().order(7, "samples=1&value=6%32&value=8").expect("an order");
         assert_eq!(order["set"], json!(["camera.lens.fov=62", "camera.sampling.samples=8"]));
+    }
+
+    #[test]
+    fn fewer_samples_are_those_of_the_command() {
+        let read = |moves: &str| {
+            let program = Program::with(|_, out| writeln!(out, "60.0\n64").map_err(|error| error.to_string()));
+            LiveFigure::read(&mut program.borrow_mut(), "render 08_x --samples 16", moves)
+        };
+        let figure = read("field of view: camera.lens.fov from 5 to 170°").expect("a figure");
+        assert_eq!(figure.samples, 16);
+        let order = figure.order(7, "samples=1&value=62").expect("an order");
+        assert_eq!(order["set"], json!(["camera.lens.fov=62", "camera.sampling.samples=16"]));
+        let told = read("samples: camera.sampling.samples log from 1 to 64").expect_err("refused");
+        assert_eq!(told, "`render 08_x --samples 16` has --samples, which its reader moves.");
     }
 
     #[test]

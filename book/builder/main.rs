@@ -8,8 +8,12 @@ mod build;
 #[expect(dead_code, reason = "tests/book.rs includes this module too and asks for more than a build does")]
 mod check;
 mod edit;
+mod exercises;
 mod figure;
+mod graph;
+mod handout;
 mod http;
+mod index;
 mod live;
 mod live_figure;
 #[cfg(test)]
@@ -17,9 +21,12 @@ mod live_page;
 mod math;
 mod measure;
 mod page;
+mod print;
 mod program;
 mod serve;
 mod site;
+mod slides;
+mod teaching;
 mod watch;
 
 use clap::Parser;

@@ -15,6 +15,7 @@ use std::rc::Rc;
 /// unfolded.
 pub fn measure(book: &Book, program: &Rc<RefCell<Program>>, out: &mut dyn Write) -> Result<(), String> {
     let pages = check::read_pages(&book.pages).map_err(|problem| problem.to_string())?;
+    program.borrow_mut().ask_for(&pages);
     let mut table = String::from(
         "page                          words  minutes  monospaced  of prose   folded: words  monospaced\n",
     );

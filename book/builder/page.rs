@@ -5,8 +5,9 @@ use crate::check::scan::{Fence, Scan};
 use crate::check::{Page, Problem, fit, listing};
 use crate::edit::{Edit, apply, escape};
 use crate::figure::{self, Pictures, TYPED};
-use crate::math;
+use crate::handout::{Handout, Printer};
 use crate::program::Program;
+use crate::{exercises, index, math, print, slides, teaching};
 use mdbook_preprocessor::book::Book;
 use mdbook_preprocessor::errors::{Error, Result};
 use mdbook_preprocessor::{Preprocessor, PreprocessorContext};
@@ -21,6 +22,22 @@ pub struct Pages {
     pub program: Rc<RefCell<Program>>,
     /// Filled by the run.
     pub pictures: Rc<RefCell<Pictures>>,
+    /// Sheets and slides, filled by the run too, so that a mistake in them stops the build.
+    pub handouts: Rc<RefCell<Vec<Handout>>>,
+}
+
+impl Pages {
+    /// Sheets and slides of pages that were expanded already, with the names that the pictures have there.
+    fn handed_out(
+        &self,
+        program: &mut Program,
+        pictures: &Pictures,
+    ) -> std::result::Result<Vec<Handout>, Vec<Problem>> {
+        let mut printer = Printer { all: &self.written, program, pictures: &mut pictures.clone(), root: "" };
+        let mut handouts = exercises::handouts(&mut printer)?;
+        handouts.extend(slides::handouts(&mut printer)?);
+        Ok(handouts)
+    }
 }
 
 impl Preprocessor for Pages {
@@ -34,12 +51,18 @@ impl Preprocessor for Pages {
         book.for_each_chapter_mut(|chapter| {
             let name = chapter.source_path.as_ref().map(|path| path.display().to_string());
             let page = self.written.iter().find(|page| Some(&page.name) == name.as_ref());
-            match page.map(|page| expand(page, program, pictures)) {
+            match page.map(|page| expand(page, &self.written, program, pictures)) {
                 Some(Ok(content)) => chapter.content = content,
                 Some(Err(found)) => problems.extend(found),
                 None => {}
             }
         });
+        if problems.is_empty() {
+            match self.handed_out(program, pictures) {
+                Ok(handouts) => self.handouts.replace(handouts),
+                Err(found) => return Err(Error::msg(told(&found))),
+            };
+        }
         if problems.is_empty() { Ok(book) } else { Err(Error::msg(told(&problems))) }
     }
 }
@@ -49,9 +72,10 @@ pub fn told(problems: &[Problem]) -> String {
     problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
-/// A page with its listings, formulas, outputs and figures in place.
+/// A page with its listings, formulas, outputs and figures in place, and with what it shows of `all` pages.
 pub fn expand(
     page: &Page,
+    all: &[Page],
     program: &mut Program,
     pictures: &mut Pictures,
 ) -> std::result::Result<String, Vec<Problem>> {
@@ -72,6 +96,9 @@ pub fn expand(
                 let margin = &line.text[..line.text.len() - line.text.trim_start().len()];
                 listing::shown(page, path, anchor).map(|listing| indented(&listing, margin))
             }
+            (Some(Ok(Directive::Course { part })), None) => teaching::part(part, all),
+            (Some(Ok(Directive::Syllabus { text })), None) => teaching::syllabus(text, all),
+            (Some(Ok(Directive::Index)), None) => index::made(all),
             (None, Some(_)) if fit::is_wide(line.text) => Ok(fit::printed(line.text)),
             _ => continue,
         };
@@ -82,7 +109,7 @@ pub fn expand(
     }
     edits.extend(scan.fences.iter().filter_map(|fence| source_label(&scan, fence)));
     problems.sort_by_key(|problem| problem.line);
-    if problems.is_empty() { Ok(apply(&page.text, edits)) } else { Err(problems) }
+    if problems.is_empty() { Ok(print::with_answers_named(&apply(&page.text, edits))) } else { Err(problems) }
 }
 
 /// The text with its directive lines blanked byte for byte: a `$` in a command is no formula.
@@ -134,7 +161,7 @@ mod tests {
             "plan" => writeln!(out, "```\nkept <b> & $x$\n```").map_err(|error| error.to_string()),
             _ => Err("no such command.".to_owned()),
         });
-        let expanded = expand(&made_up("a.md", text), &mut program.borrow_mut(), &mut Pictures::default());
+        let expanded = expand(&made_up("a.md", text), &[], &mut program.borrow_mut(), &mut Pictures::default());
         expanded.map_err(|problems| problems.iter().map(ToString::to_string).collect())
     }
 

@@ -1,14 +1,21 @@
 //! pinhole's program as the reader has it, asked by command lines, its answers kept.
 
+use crate::check::Page;
+use crate::check::directive::{Directive, parse};
+use crate::check::scan::Scan;
+use crate::figure;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::rc::Rc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
 
 /// Runs one command line and writes what a reader would see; the error is one sentence.
-type Run = dyn Fn(&[String], &mut dyn Write) -> Result<(), String>;
+type Run = dyn Fn(&[String], &mut dyn Write) -> Result<(), String> + Send + Sync;
 
 /// Brings the program up to date with its sources; the error is one sentence.
 type Make = dyn Fn() -> Result<(), String>;
@@ -17,8 +24,22 @@ type Make = dyn Fn() -> Result<(), String>;
 pub struct Program {
     run: Box<Run>,
     make: Box<Make>,
-    place: Option<Rc<RefCell<PathBuf>>>,
-    answers: HashMap<(String, Option<&'static str>), Result<Rc<[u8]>, String>>,
+    place: Option<Arc<Mutex<PathBuf>>>,
+    /// How many commands run at once; each gets as many cores as are left for it.
+    at_once: Arc<AtomicUsize>,
+    answers: HashMap<Question, Result<Rc<[u8]>, String>>,
+}
+
+/// A command, its words parted by single spaces, and the ending of the file that it makes, where that is the answer.
+type Question = (String, Option<&'static str>);
+
+fn question(command: &str, extension: Option<&'static str>) -> Question {
+    (command.split_whitespace().collect::<Vec<_>>().join(" "), extension)
+}
+
+/// What is at the place now; nobody who held it can have left it half written.
+fn at(place: &Mutex<PathBuf>) -> MutexGuard<'_, PathBuf> {
+    place.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Program {
@@ -29,23 +50,32 @@ impl Program {
     /// Errors: cargo's, where the program cannot be compiled.
     pub fn shared(repository: &Path) -> Result<Rc<RefCell<Self>>, String> {
         let top = repository.to_path_buf();
-        let place = Rc::new(RefCell::new(compiled(&top, "release")?));
-        let asked = Rc::clone(&place);
-        let program = Self::with(move |words, out| ask(&asked.borrow(), words, out));
-        program.borrow_mut().place = Some(Rc::clone(&place));
+        let place = Arc::new(Mutex::new(compiled(&top, "release")?));
+        let (asked, at_once) = (Arc::clone(&place), Arc::new(AtomicUsize::new(1)));
+        let crowd = Arc::clone(&at_once);
+        let program = Self::with(move |words, out| {
+            let program = at(&asked).clone();
+            ask(&program, (cores() / crowd.load(Ordering::Relaxed)).max(1), words, out)
+        });
+        program.borrow_mut().at_once = at_once;
+        program.borrow_mut().place = Some(Arc::clone(&place));
         program.borrow_mut().make = Box::new(move || {
-            *place.borrow_mut() = compiled(&top, "edit")?;
+            let compiled = compiled(&top, "edit")?;
+            *at(&place) = compiled;
             Ok(())
         });
         Ok(program)
     }
 
     /// A program that answers as the function does.
-    pub fn with(run: impl Fn(&[String], &mut dyn Write) -> Result<(), String> + 'static) -> Rc<RefCell<Self>> {
+    pub fn with(
+        run: impl Fn(&[String], &mut dyn Write) -> Result<(), String> + Send + Sync + 'static,
+    ) -> Rc<RefCell<Self>> {
         Rc::new(RefCell::new(Self {
             run: Box::new(run),
             make: Box::new(|| Ok(())),
             place: None,
+            at_once: Arc::default(),
             answers: HashMap::new(),
         }))
     }
@@ -60,7 +90,38 @@ impl Program {
 
     /// Where the program is, once it is one of this repository.
     pub fn place(&self) -> Option<PathBuf> {
-        self.place.as_ref().map(|place| place.borrow().clone())
+        self.place.as_ref().map(|place| at(place).clone())
+    }
+
+    /// Asks all that some pages ask, several commands at once: many have stretches of work for one core alone.
+    pub fn ask_for(&mut self, pages: &[Page]) {
+        let mut questions: Vec<Question> = pages.iter().flat_map(questions_of).collect();
+        questions.retain(|own| !self.answers.contains_key(own));
+        // Pictures take longest, and what takes long begins first.
+        questions.sort_by(|one, other| (other.1, &one.0).cmp(&(one.1, &other.0)));
+        questions.dedup();
+        let (run, waiting) = (&*self.run, Mutex::new(questions.into_iter()));
+        let next = || waiting.lock().unwrap_or_else(PoisonError::into_inner).next();
+        let work = || {
+            let mut answers = Vec::new();
+            while let Some((command, extension)) = next() {
+                let answer = match extension {
+                    None => printed(run, &command, &words_of(&command)),
+                    Some(extension) => made(run, &command, extension),
+                };
+                answers.push(((command, extension), answer));
+            }
+            answers
+        };
+        // A render on one core does as much in the same time as half of one on two, and waits for nobody.
+        let workers = cores();
+        self.at_once.store(workers, Ordering::Relaxed);
+        let answers: Vec<_> = thread::scope(|scope| {
+            let workers: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+            workers.into_iter().filter_map(|worker| worker.join().ok()).flatten().collect()
+        });
+        self.at_once.store(1, Ordering::Relaxed);
+        self.answers.extend(answers.into_iter().map(|(question, answer)| (question, answer.map(Rc::from))));
     }
 
     /// The values in a chapter's scene that these paths lead to, one a line.
@@ -68,20 +129,19 @@ impl Program {
         let mut words = vec!["live".to_owned(), chapter.to_owned()];
         words.extend(paths.iter().flat_map(|path| ["--value".to_owned(), (*path).to_owned()]));
         let command = words.join(" ");
-        let printed = self.answer(&command, None, |program| program.printed(&command, &words))?;
+        let printed = self.answer(&command, None, |program| printed(&*program.run, &command, &words))?;
         Ok(String::from_utf8_lossy(&printed).into_owned())
     }
 
     /// What the command prints.
     pub fn text(&mut self, command: &str) -> Result<String, String> {
-        let words: Vec<String> = command.split_whitespace().map(str::to_owned).collect();
-        let printed = self.answer(command, None, |program| program.printed(command, &words))?;
+        let printed = self.answer(command, None, |program| printed(&*program.run, command, &words_of(command)))?;
         Ok(String::from_utf8_lossy(&printed).trim_end().to_owned())
     }
 
     /// The file the command makes when it is told where to.
     pub fn file(&mut self, command: &str, extension: &'static str) -> Result<Rc<[u8]>, String> {
-        self.answer(command, Some(extension), |program| program.made(command, extension))
+        self.answer(command, Some(extension), |program| made(&*program.run, command, extension))
     }
 
     fn answer(
@@ -90,7 +150,7 @@ impl Program {
         extension: Option<&'static str>,
         ask: impl FnOnce(&Self) -> Result<Vec<u8>, String>,
     ) -> Result<Rc<[u8]>, String> {
-        let key = (command.split_whitespace().collect::<Vec<_>>().join(" "), extension);
+        let key = question(command, extension);
         if let Some(known) = self.answers.get(&key) {
             return known.clone();
         }
@@ -98,23 +158,40 @@ impl Program {
         self.answers.insert(key, answer.clone());
         answer
     }
+}
 
-    fn printed(&self, command: &str, words: &[String]) -> Result<Vec<u8>, String> {
-        let mut out = Vec::new();
-        let failed = |error: String| format!("`{command}` failed: {}", error.trim_end());
-        (self.run)(words, &mut out).map_err(failed)?;
-        Ok(out)
-    }
+/// What the pages' directives ask.
+fn questions_of(page: &Page) -> Vec<Question> {
+    let scan = Scan::new(&page.text);
+    let of_line = |line: &crate::check::scan::Line<'_>| match parse(line.text)? {
+        Ok(Directive::Pinhole { command }) => Some(question(command, None)),
+        Ok(Directive::Figure { command, .. }) => Some(question(command, Some(figure::extension(command)))),
+        _ => None,
+    };
+    scan.prose().filter_map(of_line).collect()
+}
 
-    fn made(&self, command: &str, extension: &str) -> Result<Vec<u8>, String> {
-        let folder = tempfile::tempdir().map_err(|error| format!("no temporary folder can be made: {error}."))?;
-        let file = folder.path().join(format!("figure.{extension}"));
-        let mut words: Vec<String> = command.split_whitespace().map(str::to_owned).collect();
-        words.extend(["-o".to_owned(), file.display().to_string()]);
-        let failed = |error: String| format!("`{command}` failed: {}", error.trim_end());
-        (self.run)(&words, &mut Vec::new()).map_err(failed)?;
-        std::fs::read(&file).map_err(|_| format!("`{command}` wrote no .{extension} file when told where with `-o`."))
-    }
+fn words_of(command: &str) -> Vec<String> {
+    command.split_whitespace().map(str::to_owned).collect()
+}
+
+fn printed(run: &Run, command: &str, words: &[String]) -> Result<Vec<u8>, String> {
+    let mut out = Vec::new();
+    run(words, &mut out).map_err(|error| failed(command, &error))?;
+    Ok(out)
+}
+
+fn made(run: &Run, command: &str, extension: &str) -> Result<Vec<u8>, String> {
+    let folder = tempfile::tempdir().map_err(|error| format!("no temporary folder can be made: {error}."))?;
+    let file = folder.path().join(format!("figure.{extension}"));
+    let mut words = words_of(command);
+    words.extend(["-o".to_owned(), file.display().to_string()]);
+    run(&words, &mut Vec::new()).map_err(|error| failed(command, &error))?;
+    std::fs::read(&file).map_err(|_| format!("`{command}` wrote no .{extension} file when told where with `-o`."))
+}
+
+fn failed(command: &str, error: &str) -> String {
+    format!("`{command}` failed: {}", error.trim_end())
 }
 
 /// Compiles the program, as `cargo run --profile` does, and says where it is.
@@ -138,10 +215,21 @@ fn executable(message: &str) -> Option<PathBuf> {
     message["executable"].as_str().map(PathBuf::from)
 }
 
-/// One command line, as a reader types it; what is to be known before a render is for whoever waits for it.
-fn ask(program: &Path, words: &[String], out: &mut dyn Write) -> Result<(), String> {
+fn cores() -> usize {
+    thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// One command line, as a reader types it, on so many cores; what is to be known before a render is for whoever waits for
+/// it.
+fn ask(program: &Path, cores: usize, words: &[String], out: &mut dyn Write) -> Result<(), String> {
     let lost = |error: std::io::Error| format!("{} cannot be started: {error}.", program.display());
-    let answer = Command::new(program).args(words).stdin(Stdio::null()).output().map_err(lost)?;
+    let cores = cores.to_string();
+    let answer = Command::new(program)
+        .args(words)
+        .env("RAYON_NUM_THREADS", cores)
+        .stdin(Stdio::null())
+        .output()
+        .map_err(lost)?;
     if !answer.status.success() {
         let said = String::from_utf8_lossy(&answer.stderr);
         let last = said.trim_end().lines().last().unwrap_or("it ended without a word.");
@@ -153,23 +241,26 @@ fn ask(program: &Path, words: &[String], out: &mut dyn Write) -> Result<(), Stri
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::cell::Cell;
+    use crate::check::made_up;
 
     #[test]
     fn a_command_runs_once() {
-        let count = Rc::new(Cell::new(0));
-        let counted = Rc::clone(&count);
+        let count = Arc::new(AtomicUsize::new(0));
+        let counted = Arc::clone(&count);
         let program = Program::with(move |words, out| {
-            counted.set(counted.get() + 1);
+            counted.fetch_add(1, Ordering::SeqCst);
             writeln!(out, "{}\n", words.join("+")).map_err(|error| error.to_string())
         });
         let mut program = program.borrow_mut();
         assert_eq!(program.text("plan 05"), Ok("plan+05".to_owned()));
         assert_eq!(program.text("plan  05"), Ok("plan+05".to_owned()));
-        assert_eq!(count.get(), 1);
+        assert_eq!(count.load(Ordering::SeqCst), 1);
+        program.ask_for(&[made_up("a.md", "{{#pinhole plan 05}}\n\n{{#pinhole plan 06}}\n\n{{#pinhole  plan 06}}\n")]);
+        assert_eq!(program.text("plan 06"), Ok("plan+06".to_owned()));
+        assert_eq!(count.load(Ordering::SeqCst), 2);
         assert_eq!(program.renew(), Ok(()));
         assert_eq!(program.text("plan 05"), Ok("plan+05".to_owned()));
-        assert_eq!(count.get(), 2);
+        assert_eq!(count.load(Ordering::SeqCst), 3);
     }
 
     #[test]
@@ -186,7 +277,7 @@ mod tests {
         let asked = |program: &str, words: &[&str]| {
             let mut out = Vec::new();
             let words: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
-            ask(Path::new(program), &words, &mut out).map(|()| String::from_utf8_lossy(&out).into_owned())
+            ask(Path::new(program), 1, &words, &mut out).map(|()| String::from_utf8_lossy(&out).into_owned())
         };
         assert_eq!(asked("echo", &["a", "b"]), Ok("a b\n".to_owned()));
         let refused = ["-c", "echo 'a note' >&2; echo 'pinhole: there is no chapter 99.' >&2; exit 2"];

@@ -97,6 +97,7 @@ mod tests {
     use super::*;
     use crate::build::tests::{little_book, little_command, little_program, write};
     use crate::http::tests::{asked, served};
+    use std::sync::Mutex;
 
     #[test]
     fn the_site_of_before_is_shown_while_a_new_one_is_built() {
@@ -109,14 +110,15 @@ mod tests {
         rebuild(&book, &little_program(), &shown, &mut out);
         assert!(page().contains("Back to") && page().contains("shown = \"1\""), "{}", page());
         write(&book, "02_two.md", "# Two\n\n## B\n\nOn to [one](01_one.md).\n");
-        let meanwhile = Rc::new(RefCell::new(Vec::new()));
-        let asking = Rc::clone(&meanwhile);
+        let meanwhile = Arc::new(Mutex::new(Vec::new()));
+        let asking = Arc::clone(&meanwhile);
         let program = Program::with(move |words, out| {
-            asking.borrow_mut().push(asked(port, "GET /02_two.html"));
+            asking.lock().expect("no panic").push(asked(port, "GET /02_two.html"));
             little_command(words, out)
         });
         rebuild(&book, &program, &shown, &mut out);
-        assert!(!meanwhile.borrow().is_empty() && meanwhile.borrow().iter().all(|page| page.contains("Back to")));
+        let meanwhile = meanwhile.lock().expect("no panic");
+        assert!(!meanwhile.is_empty() && meanwhile.iter().all(|page| page.contains("Back to")));
         assert!(page().contains("On to") && page().contains("shown = \"2\""), "{}", page());
         write(&book, "02_two.md", "# Two\n\n## B\n\n$\\oops$\n");
         rebuild(&book, &little_program(), &shown, &mut out);

@@ -28,10 +28,38 @@ pub enum Directive<'a> {
         /// What a reader of the served book moves, or nothing.
         moves: &'a str,
     },
+    /// `{{#course part}}`: something that is made from what the chapters' pages say of themselves.
+    Course {
+        /// What of it.
+        part: Part,
+    },
+    /// `{{#syllabus time | chapters: result}}`: a path through the book, read by [`super::syllabus`].
+    Syllabus {
+        /// Everything behind the name.
+        text: &'a str,
+    },
+    /// `{{#index}}`: every term of the glossary, and where it stands.
+    Index,
 }
 
-const ACCEPTED: &str =
-    "a page may use {{#include file:anchor}}, {{#pinhole command}} and {{#figure command | caption}}";
+/// What a page may show of the course.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// A drawing of which chapter builds on which.
+    Graph,
+    /// A table of which later chapters need each one.
+    Needed,
+    /// A table of goals and minutes.
+    Goals,
+    /// A table of the paths that `{{#syllabus}}` declares.
+    Paths,
+}
+
+const PARTS: [(&str, Part); 4] =
+    [("graph", Part::Graph), ("needed", Part::Needed), ("goals", Part::Goals), ("paths", Part::Paths)];
+
+const ACCEPTED: &str = "a page may use {{#include file:anchor}}, {{#pinhole command}}, \
+    {{#figure command | caption}}, {{#course part}}, {{#syllabus time | chapters: result}} and {{#index}}";
 
 /// Reads a line: no directive at all, a good one, or one sentence about a bad one.
 pub fn parse(line: &str) -> Option<Result<Directive<'_>, String>> {
@@ -48,6 +76,9 @@ pub fn parse(line: &str) -> Option<Result<Directive<'_>, String>> {
         ("pinhole", "") => Err("{{#pinhole}} names no command: write {{#pinhole plan 05_pinhole}}.".to_owned()),
         ("pinhole", command) => words(command).map(|command| Directive::Pinhole { command }),
         ("figure", rest) => figure(rest),
+        ("course", rest) => course(rest),
+        ("syllabus", text) => Ok(Directive::Syllabus { text }),
+        ("index", "") => Ok(Directive::Index),
         _ => Err(format!("there is no directive {{{{#{name}}}}}: {ACCEPTED}.")),
     })
 }
@@ -83,6 +114,14 @@ fn figure(rest: &str) -> Result<Directive<'_>, String> {
         (command, "") => Err(format!("the figure `{command}` has no caption: write it after a `|`.")),
         (command, caption) => words(command).map(|command| Directive::Figure { command, caption, moves }),
     }
+}
+
+fn course(rest: &str) -> Result<Directive<'_>, String> {
+    let found = PARTS.into_iter().find(|(name, _)| *name == rest);
+    let names = PARTS.map(|(name, _)| format!("{{{{#course {name}}}}}")).join(", ");
+    found
+        .map(|(_, part)| Directive::Course { part })
+        .ok_or_else(|| format!("there is no `{rest}` of the course: a page may use {names}."))
 }
 
 /// A command is words between spaces; quotes would promise a shell that is not there.
@@ -135,6 +174,8 @@ mod tests {
         let moves = "fov: camera.lens.fov from 5 to 9";
         let figure = Directive::Figure { command: "render 05", caption: "A box", moves };
         assert_eq!(parse(&format!("{{{{#figure render 05 | A box | {moves}}}}}")), Some(Ok(figure)));
+        assert_eq!(parse("{{#course goals}}"), Some(Ok(Directive::Course { part: Part::Goals })));
+        assert_eq!(parse("{{#syllabus a | 1: b}}"), Some(Ok(Directive::Syllabus { text: "a | 1: b" })));
         assert_eq!(parse("prose with `{{#pinhole x}}` in code, or \\{{#pinhole x}}"), None);
     }
 
@@ -148,6 +189,10 @@ mod tests {
         assert!(sentence("See {{#pinhole plan}} here.").starts_with("a directive stands alone on its line"));
         assert!(sentence("{{#include ../a.rs:3:9}}").starts_with("`3:9` is no anchor: name one"));
         assert!(sentence("{{#include }}").starts_with("{{#include}} names no file"));
+        assert!(
+            sentence("{{#course map}}")
+                .starts_with("there is no `map` of the course: a page may use {{#course graph}}")
+        );
         assert!(sentence("{{#pinhole }}").starts_with("{{#pinhole}} names no command"));
         assert!(sentence("{{#pinhole trace \"a b\"}}").ends_with("holds a quote: its words are split at spaces only."));
     }

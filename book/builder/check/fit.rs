@@ -66,7 +66,7 @@ fn broken(line: &str, further: usize, has_strings: bool) -> Vec<String> {
         let least = rest.len() - rest.trim_start().len();
         let is_outside = |at: usize| !has_strings || rest[..at].matches('"').count() % 2 == 0;
         let fits = |at: usize| at > least && width(&rest[..at]) <= COLUMNS && is_outside(at);
-        let Some((at, _)) = rest.match_indices(' ').filter(|&(at, _)| fits(at)).last() else { break };
+        let Some((at, _)) = rest.match_indices(' ').rfind(|&(at, _)| fits(at)) else { break };
         let next = format!("{}{}", " ".repeat(indent), rest[at..].trim_start());
         // A part that is no shorter would be broken for ever.
         if next.len() >= rest.len() {

@@ -4,10 +4,23 @@ use super::scan::{Scan, blank_spans};
 use super::{Page, Problem};
 use std::collections::BTreeSet;
 
+/// What the builder makes beside the pages, to which a page may link.
+pub const MADE: [&str; 4] = ["exercises.html", "answers.html", "slides/index.html", "print.html"];
+
 /// The ids that a page's headings answer to.
 pub fn heading_ids(text: &str) -> BTreeSet<String> {
+    ids(text).0
+}
+
+/// The headings of a page: the number of the line, the words, and the id.
+pub fn headings(text: &str) -> Vec<(usize, &str, String)> {
+    ids(text).1
+}
+
+/// All ids of a page, and those of its headings with where each stands.
+fn ids(text: &str) -> (BTreeSet<String>, Vec<(usize, &str, String)>) {
     let scan = Scan::new(text);
-    let mut ids = BTreeSet::new();
+    let (mut ids, mut headings) = (BTreeSet::new(), Vec::new());
     for line in scan.prose() {
         ids.extend(line.text.split("<a id=\"").skip(1).filter_map(|rest| rest.split('"').next()).map(str::to_owned));
         let marks = line.text.len() - line.text.trim_start_matches('#').len();
@@ -15,13 +28,14 @@ pub fn heading_ids(text: &str) -> BTreeSet<String> {
             let id = heading_id(title);
             let mut candidate = id.clone();
             let mut count = 0;
-            while !ids.insert(candidate) {
+            while !ids.insert(candidate.clone()) {
                 count += 1;
                 candidate = format!("{id}-{count}");
             }
+            headings.push((line.number, title.trim(), candidate));
         }
     }
-    ids
+    (ids, headings)
 }
 
 /// mdBook keeps letters, digits, `_` and `-`, and turns a space into `-`; a double dash has become a typographic one.
@@ -78,6 +92,9 @@ pub fn problems(page: &Page, all: &[Page]) -> Vec<Problem> {
 fn dead(page: &Page, all: &[Page], target: &str) -> Option<String> {
     let (file, id) = target.split_once('#').map_or((target, None), |(file, id)| (file, Some(id)));
     let file = file.strip_prefix("./").unwrap_or(file);
+    if MADE.contains(&file) && id.is_none() {
+        return None;
+    }
     let aim = if file.is_empty() { Some(page) } else { all.iter().find(|other| other.name == file) };
     let Some(aim) = aim else {
         return Some(format!("the link to `{target}` leads nowhere: there is no page `{file}` in book/src."));

@@ -4,15 +4,21 @@
 //! builder applies those of a page at every build; `tests/book.rs` includes this very module and applies all of
 //! them. Only the standard library and serde are used, so that the test needs nothing more.
 
+pub mod course;
 pub mod directive;
 pub mod fit;
 pub mod inline;
+pub mod lesson;
 pub mod links;
 pub mod listing;
 pub mod lists;
 pub mod movement;
+pub mod notation;
+pub mod parts;
 pub mod pattern;
 pub mod scan;
+pub mod syllabus;
+pub mod terms;
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -95,6 +101,8 @@ pub fn page(page: &Page, all: &[Page]) -> Vec<Problem> {
 pub fn pages(all: &[Page]) -> Vec<Problem> {
     let mut problems: Vec<Problem> = all.iter().flat_map(|one| page(one, all)).collect();
     problems.extend(lists::summary(all));
+    problems.extend(syllabus::problems(all));
+    problems.extend(terms::problems(all));
     problems
 }
 

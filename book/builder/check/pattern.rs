@@ -1,19 +1,20 @@
 //! The parts that the page of a chapter has, in their order, and how much of it is prose and how much is printed.
 
 use super::directive::{Directive, parse};
-use super::listing;
 use super::lists::is_chapter;
 use super::scan::{Scan, words_of};
 use super::{Page, Problem};
+use super::{lesson, listing};
 
 /// What is folded at the end of a chapter's page, in this order, as far as the page has it.
-pub const FOLDED: [&str; 6] = [
+pub const FOLDED: [&str; 7] = [
     "Answers",
     "How it breaks, and how it is made robust",
     "What it costs",
     "What was left out",
     "Columns in and out",
     "The whole chapter",
+    lesson::SUMMARY,
 ];
 
 /// The headings that every chapter has, in this order.
@@ -25,7 +26,7 @@ const WORDS_A_LINE: usize = 12;
 const WORDS_A_MINUTE: usize = 200;
 
 /// The page's lines, each with whether it is folded.
-fn folded<'p>(scan: &'p Scan<'p>) -> impl Iterator<Item = (&'p super::scan::Line<'p>, bool)> {
+pub fn folded<'p>(scan: &'p Scan<'p>) -> impl Iterator<Item = (&'p super::scan::Line<'p>, bool)> {
     let mut depth = 0_usize;
     scan.lines.iter().map(move |line| {
         let text = line.text.trim_start();
@@ -92,7 +93,7 @@ impl Measure {
 pub fn problems(all: &[Page]) -> Vec<Problem> {
     let stem = |page: &Page| page.name.trim_end_matches(".md").to_owned();
     let chapters = all.iter().filter(|page| is_chapter(&stem(page)) && stem(page) != "cover");
-    chapters.flat_map(of_chapter).collect()
+    chapters.flat_map(of_chapter).chain(lesson::problems(all)).collect()
 }
 
 fn of_chapter(page: &Page) -> Vec<Problem> {

@@ -1,0 +1,187 @@
+//! What teachers are shown of the course: tables of what may be skipped, of goals and minutes, and of paths.
+
+use crate::check::Page;
+use crate::check::course::Course;
+use crate::check::directive::Part;
+use crate::check::lesson::label_of;
+use crate::check::syllabus::{Stretch, Syllabus, declared};
+use crate::graph;
+use crate::math;
+use std::fmt::Write;
+
+/// A part of the course, as markdown.
+///
+/// Errors: a page without what it has to say of itself, or a goal whose formula cannot be read.
+pub fn part(part: Part, all: &[Page]) -> Result<String, String> {
+    let course = Course::of(all).map_err(|problem| problem.to_string())?;
+    match part {
+        Part::Graph => Ok(graph::drawn(&course)),
+        Part::Needed => Ok(needed(&course)),
+        Part::Goals => goals(&course),
+        Part::Paths => paths(&declared(all, &course), &course),
+    }
+}
+
+/// For every chapter: which later ones build on it.
+fn needed(course: &Course) -> String {
+    let mut table = String::from("| chapter | built on by | by these, too, through others |\n|---|---|---|\n");
+    for at in 0..course.chapters.len() {
+        let [direct, indirect] = course.builds_on(at).map(|later| later.into_iter().collect::<Vec<_>>());
+        let title = titled(course, at);
+        let _ = match direct.as_slice() {
+            [] => writeln!(table, "| {title} | **none: it may be skipped** | |"),
+            _ => writeln!(table, "| {title} | {} | {} |", course.listed(&direct), course.listed(&indirect)),
+        };
+    }
+    table
+}
+
+/// For every chapter: what its reader can do, and how long that takes.
+fn goals(course: &Course) -> Result<String, String> {
+    let mut table = String::from("| chapter, and what its reader can do | read | do |\n|---|---|---|\n");
+    let (mut reading, mut doing) = (0, 0);
+    for (at, chapter) in course.chapters.iter().enumerate() {
+        let goals = chapter.lesson.goals.iter().map(|goal| cell(goal)).collect::<Result<Vec<_>, _>>()?;
+        let minutes = chapter.lesson.minutes;
+        let items: String = goals.iter().map(|goal| format!("<li>{goal}</li>")).collect();
+        let _ = writeln!(table, "| **{}**<ul>{items}</ul> | {} | {minutes} |", titled(course, at), chapter.reading);
+        reading += chapter.reading;
+        doing += minutes;
+    }
+    let _ = writeln!(table, "| *all chapters, in hours* | *{}* | *{}* |", hours(reading), hours(doing));
+    Ok(table)
+}
+
+/// The table of the paths, for the introduction.
+fn paths(syllabi: &[Syllabus], course: &Course) -> Result<String, String> {
+    let mut table = String::from("| time | chapters | what you have then |\n|---|---|---|\n");
+    for syllabus in syllabi {
+        for (at, stretch) in syllabus.stretches.iter().enumerate() {
+            let time = match stretch.weeks {
+                Some((first, last)) if at == 0 => format!("{}, weeks {first} to {last}", syllabus.name),
+                Some((first, last)) => format!("weeks {first} to {last}"),
+                None => syllabus.name.clone(),
+            };
+            let sessions: Vec<String> = stretch.sessions.iter().map(|session| course.listed(session)).collect();
+            let _ = writeln!(table, "| {time} | {} | {} |", sessions.join("; "), cell(&stretch.result)?);
+        }
+    }
+    Ok(table)
+}
+
+/// One path with its minutes, and what it leaves out.
+///
+/// Errors: those of [`Syllabus::read`].
+pub fn syllabus(text: &str, all: &[Page]) -> Result<String, String> {
+    let course = Course::of(all).map_err(|problem| problem.to_string())?;
+    let syllabus = Syllabus::read(text, &course)?;
+    let minutes = |chapters: &[usize]| {
+        let of = |chapter: &usize| (course.chapters[*chapter].reading, course.chapters[*chapter].lesson.minutes);
+        chapters.iter().map(of).fold((0, 0), |sum, one| (sum.0 + one.0, sum.1 + one.1))
+    };
+    let has_weeks = syllabus.stretches.iter().any(|stretch| stretch.weeks.is_some());
+    let mut table =
+        format!("| {} | read | do |\n|---|---|---|\n", if has_weeks { "week, and chapters" } else { "chapter" });
+    for stretch in &syllabus.stretches {
+        for (name, chapters) in rows(stretch, &course) {
+            let (reading, doing) = minutes(&chapters);
+            let _ = writeln!(table, "| {name} | {reading} | {doing} |");
+        }
+        if has_weeks {
+            let _ = writeln!(table, "| *then:* {} | | |", cell(&stretch.result)?);
+        }
+    }
+    let (reading, doing) = minutes(&syllabus.chapters());
+    let _ = writeln!(table, "| *altogether, in hours* | *{}* | *{}* |", hours(reading), hours(doing));
+    Ok(table + "\n" + &omitted(&syllabus, &course))
+}
+
+/// The rows of a stretch: its weeks, or its chapters.
+fn rows(stretch: &Stretch, course: &Course) -> Vec<(String, Vec<usize>)> {
+    let week = |(at, session): (usize, &Vec<usize>), first: usize| {
+        let titles: Vec<String> = session.iter().map(|&chapter| titled(course, chapter)).collect();
+        (format!("**{}**: {}", first + at, titles.join("; ")), session.clone())
+    };
+    match stretch.weeks {
+        Some((first, _)) => stretch.sessions.iter().enumerate().map(|row| week(row, first)).collect(),
+        None => stretch.sessions.iter().flatten().map(|&chapter| (titled(course, chapter), vec![chapter])).collect(),
+    }
+}
+
+/// One sentence about what is left out though chapters of the path build on it.
+fn omitted(syllabus: &Syllabus, course: &Course) -> String {
+    let left_out = syllabus.left_out(course);
+    if left_out.is_empty() {
+        return "Every chapter that these build on comes before them in the list.\n".to_owned();
+    }
+    let told = |(need, chapters): (&usize, &Vec<usize>)| {
+        let name = &course.chapters[*need].name;
+        format!("[{}]({name}) (for {})", label_of(name), course.listed(chapters))
+    };
+    let told: Vec<String> = left_out.iter().map(told).collect();
+    format!(
+        "Left out though chapters of this list build on it, so say in a sentence what it has: {}.\n",
+        told.join(", ")
+    )
+}
+
+fn titled(course: &Course, at: usize) -> String {
+    let chapter = &course.chapters[at];
+    format!("[{}]({})", chapter.title, chapter.name)
+}
+
+fn hours(minutes: usize) -> String {
+    format!("{:.1}", minutes as f64 / 60.0)
+}
+
+/// Markdown inside a cell of a table: its formulas are converted, and no bar of its own ends the cell.
+fn cell(text: &str) -> Result<String, String> {
+    Ok(math::expand(text)?.replace('|', "\\|"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::course::made_up;
+    use crate::check::made_up as page;
+
+    #[test]
+    fn tables_are_made_from_the_pages() {
+        let all = made_up();
+        let needed = part(Part::Needed, &all).expect("a table");
+        assert!(needed.contains("| [1. The one](01_a.md) | [2](02_b.md) to [3](03_c.md) |  |"), "{needed}");
+        assert!(needed.contains("| [3. The three](03_c.md) | **none: it may be skipped** | |"), "{needed}");
+        let goals = part(Part::Goals, &all).expect("a table");
+        assert!(goals.contains("<li>Derive <math") && goals.contains("| *0.1* | *3.0* |"), "{goals}");
+        let without = part(Part::Goals, &all[1..]).expect("no summary, no chapters");
+        assert!(!without.contains("<li>"));
+    }
+
+    #[test]
+    fn paths_are_those_that_a_page_declares() {
+        let mut all = made_up();
+        all.push(page("teaching.md", "{{#syllabus an hour | 1, Monte Carlo: less}}\n"));
+        let paths = part(Part::Paths, &all).expect("a table");
+        let row = "| an hour | [1](01_a.md), [Monte Carlo](monte_carlo.md) | less |";
+        assert!(paths.contains(row), "{paths}");
+    }
+
+    #[test]
+    fn a_path_sums_its_minutes_and_says_what_it_leaves_out() {
+        let all = made_up();
+        let hour = syllabus("an hour | 1, Monte Carlo: less", &all).expect("a table");
+        assert!(hour.contains("| [Monte Carlo](monte_carlo.md) | 1 | 45 |"), "{hour}");
+        assert!(hour.contains("| *altogether, in hours* | *0.0* | *1.5* |"), "{hour}");
+        assert!(
+            hour.ends_with(
+                "say in a sentence what it has: [chapter 2](02_b.md) (for [Monte Carlo](monte_carlo.md)).\n"
+            )
+        );
+        let weeks = syllabus("a term | weeks 1 to 2: 1; 2, 3: more", &all).expect("a table");
+        assert!(weeks.contains("| **2**: [2. The two](02_b.md); [3. The three](03_c.md) | 2 | 90 |"), "{weeks}");
+        assert!(
+            weeks.contains("| *then:* more | | |") && weeks.contains("Every chapter that these build on"),
+            "{weeks}"
+        );
+    }
+}
