@@ -58,26 +58,35 @@ fn filled(lines: &[&str], head: &str) -> Vec<String> {
     out
 }
 
-/// A line in parts that fit, all but the first indented by so much more; not within a string, where that would change it.
+/// A line in parts that fit, all but the first indented by so much more; within a string only where nothing else is left,
+/// and then with the mark by which Rust reads on as if it were not broken.
 fn broken(line: &str, further: usize, has_strings: bool) -> Vec<String> {
     let indent = line.len() - line.trim_start().len() + further;
-    let (mut out, mut rest) = (Vec::new(), line.to_owned());
+    let (mut out, mut rest, mut begins_inside) = (Vec::new(), line.to_owned(), false);
     while is_wide(&rest) {
         let least = rest.len() - rest.trim_start().len();
-        let is_outside = |at: usize| !has_strings || rest[..at].matches('"').count() % 2 == 0;
-        let fits = |at: usize| at > least && width(&rest[..at]) <= COLUMNS && is_outside(at);
-        let Some((at, _)) = rest.match_indices(' ').rfind(|&(at, _)| fits(at)) else { break };
+        let quotes = |at: usize| usize::from(begins_inside) + rest[..at].matches('"').count();
+        let is_outside = |at: usize| !has_strings || quotes(at) % 2 == 0;
+        let fits = |at: usize, mark: usize| at > least && width(&rest[..at]) + mark <= COLUMNS;
+        let place = |of: &dyn Fn(usize) -> bool| rest.match_indices(' ').map(|(at, _)| at).rfind(|&at| of(at));
+        let outside = place(&|at| fits(at, 0) && is_outside(at));
+        let Some(at) = outside.or_else(|| place(&|at| fits(at, MARK.len()))) else { break };
+        let mark = if outside.is_some() { "" } else { MARK };
         let next = format!("{}{}", " ".repeat(indent), rest[at..].trim_start());
         // A part that is no shorter would be broken for ever.
         if next.len() >= rest.len() {
             break;
         }
-        out.push(rest[..at].trim_end().to_owned());
+        begins_inside = has_strings && quotes(at) % 2 == 1;
+        out.push(format!("{}{mark}", rest[..at].trim_end()));
         rest = next;
     }
     out.push(rest);
     out
 }
+
+/// What stands at the end of a line within a string that goes on below: the space, and a mark.
+const MARK: &str = " \\";
 
 fn width(text: &str) -> usize {
     text.chars().count()
@@ -92,6 +101,16 @@ mod tests {
         let listing = "/// A comment.\n/// Another.\nfn one() {\n    two(\"three\");\n}";
         assert_eq!(source(listing), listing);
         assert_eq!(printed(listing), listing);
+    }
+
+    #[test]
+    fn a_long_string_goes_on_below() {
+        let words = "word ".repeat(18);
+        let text = source(&format!("    Chapter::new(\"cover\", \"{}\", scene)", words.trim_end()));
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(lines.len() > 2 && lines.iter().all(|line| !is_wide(line)), "{text}");
+        assert!(lines.iter().any(|line| line.ends_with("word \\")), "{text}");
+        assert_eq!(text.replace(" \\\n", " ").matches("word").count(), 18);
     }
 
     #[test]
