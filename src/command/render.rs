@@ -85,7 +85,7 @@ pub fn render_mine(
             streams.note(&format!("note: {sentence}; `check {number}` shows the first"))?;
         }
     }
-    let beside = options.output.is_empty() && format == Format::Text;
+    let beside = is_compared(&options, format);
     let mine_file = Path::new("out").join(format!("{number}_mine.png"));
     if options.output.is_empty() {
         options.output = vec![mine_file.clone()];
@@ -125,11 +125,16 @@ pub fn render_naive(
     render_with(subject, options, None, format, streams)?;
     let targets = Targets::of(subject, options)?;
     match targets.pictures.first() {
-        Some(naive) if options.output.is_empty() && format == Format::Text => {
+        Some(naive) if is_compared(options, format) => {
             compare_with_pinhole(subject, &subject.stem(), options, naive, streams)
         }
         _ => Ok(()),
     }
+}
+
+/// Whether a picture is compared with pinhole's: not where only time ends a render, for the two would differ in samples.
+fn is_compared(options: &RenderOptions, format: Format) -> bool {
+    options.output.is_empty() && options.time.is_none() && format == Format::Text
 }
 
 /// Writes the picture of pinhole's own stages and how another differs from it, and says how far they are apart.
