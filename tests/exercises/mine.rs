@@ -218,6 +218,10 @@ fn the_command_renders_notes_and_refuses() {
         let (status, out, notes) = said(&["render", "5", "--mine", "--size", "48x27", "-o", "mine.png"]);
         assert!(status == Some(0) && out.contains("mine.png") && !out.contains("differ"), "{out} {notes}");
     }
+    // What only time ends is compared with nothing, which would have no end.
+    let naive = "area-light-without-cosine";
+    let (status, out, notes) = said(&["render", "21", "--naive", naive, "--size", "16x9", "--time", "100ms"]);
+    assert!(status == Some(0) && out.contains(naive) && !out.contains("differ"), "{out} {notes}");
     let (status, _, notes) = said(&["render", "5", "--mine", "--resume"]);
     assert!(status == Some(2) && notes.contains("`--mine` begins anew") && notes.lines().count() == 1, "{notes}");
     let (status, _, notes) = said(&["render", "18", "--mine"]);
