@@ -1,6 +1,7 @@
 //! What every registered shape must hold, with no line for any of them: a new shape is tested as soon as it is listed.
 
 mod closed_forms;
+mod together;
 
 use bevy_ecs::prelude::*;
 use glam::DVec3;

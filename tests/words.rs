@@ -14,7 +14,14 @@ use std::path::Path;
 const FOLDERS: [&str; 6] = ["src", "chapters", "tests", "book/src", "book/builder", "README.md"];
 const ENDINGS: [&str; 6] = ["rs", "md", "snap", "txt", "json", "ron"];
 /// Where a lane is a SIMD lane.
-const KERNELS: [&str; 3] = ["src/pinhole/intersect/", "src/pinhole/shapes/", "tests/bench/fused.rs"];
+const KERNELS: [&str; 6] = [
+    "src/pinhole/intersect/",
+    "src/pinhole/rasterise/setup.rs",
+    "src/pinhole/shade/receivers.rs",
+    "src/pinhole/shapes/",
+    "tests/bench/fused.rs",
+    "tests/shapes/together.rs",
+];
 /// This file and its rules, which have to name them.
 const EXEMPT: &str = "tests/words";
 

@@ -3,11 +3,12 @@
 use super::*;
 use glam::DVec3;
 use pinhole::Error;
+use pinhole::extract::{camera_entity, emissive_evidence};
 use pinhole::look::{MISTAKES, Preflight, preflight};
-use pinhole::plan::Census;
+use pinhole::plan::{Census, Stage, TileSystems};
 use pinhole::render::prepare;
 use pinhole::scene::*;
-use pinhole::{Chapter, stages};
+use pinhole::{Chapter, Overrides, stages};
 
 /// What is said of a scene for which every stage is on offer, or the refusal.
 fn said(scene: &World) -> Result<Vec<String>, Error> {
@@ -291,4 +292,37 @@ fn paths_that_hardly_end_are_announced() {
         eprintln!("{what}: {told:?}");
         assert_eq!(long(&told), announced, "{what}");
     }
+}
+
+/// Chapters whose lights are sampled by MIS do not offer the stage that adds emission in full; whoever asks for BSDF
+/// sampling there is told so, and gets no black picture.
+#[test]
+fn emission_that_no_stage_on_offer_adds_is_refused() {
+    let (mut refused, mut rendered) = (0, 0);
+    let follows = |chapter: &Chapter| chapter.offer.iter().any(|stage| stage.set == TileSystems::RemainingBounces);
+    for chapter in chapters::all().into_iter().filter(follows) {
+        let mut world = chapter.world(&Overrides::default());
+        let camera = camera_entity(&world).expect("a camera");
+        let by = |lights| Integrator::Path { max_depth: 3, lights, roulette: 0 };
+        for (lights, is_refused) in [(LightStrategy::Mis, false), (LightStrategy::Bsdf, true)] {
+            world.entity_mut(camera).insert(by(lights));
+            let census = Census::of(&world);
+            let is_lit = emissive_evidence(&census).needed;
+            match prepare(&census, &chapter.stages()) {
+                Err(error) if error.to_string().contains("paths find no light by hitting it") => {
+                    let sentence = error.to_string();
+                    assert!(is_refused && sentence.contains("\"Add emission\""), "{}: {sentence}", chapter.name);
+                    refused += 1;
+                }
+                Err(error) => panic!("{} by {lights:?}: {error}", chapter.name),
+                Ok((plan, _)) => {
+                    let adds = |stage: &Stage| stage.name.starts_with("Add emission");
+                    assert!(!is_lit || plan.stages.iter().any(adds), "{} by {lights:?}", chapter.name);
+                    rendered += usize::from(is_lit);
+                }
+            }
+        }
+    }
+    assert!(refused >= 3 && rendered >= 5, "{refused} {rendered}");
+    eprintln!("emission: {refused} chapters say that nothing adds it, {rendered} plans with lights add it");
 }

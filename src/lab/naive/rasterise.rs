@@ -85,8 +85,7 @@ pub fn fill_hits(
         let Some((triangle, _)) = nearest else { continue };
         let ray = [rays.origin_of(row), rays.direction_of(row)];
         let mesh = &meshes.row[triangle.row as usize];
-        let t = mesh.triangle_t(ray, triangle.primitive);
-        let t = if t < f64::INFINITY { t } else { plane_t(ray, mesh.placed_triangle(triangle.primitive as usize)) };
+        let t = plane_t(ray, mesh.placed_triangle(triangle.primitive as usize));
         if t < hits.t[row] {
             (hits.t[row], hits.shape[row]) = (t, triangle.shape);
             if let Some(primitives) = &mut primitives {

@@ -1,5 +1,5 @@
 use super::FilmTile;
-use crate::plan::{Column, Evidence, Stage, TileSystems};
+use crate::plan::{Evidence, Stage, TileSystems};
 use crate::rays::{PixelSamples, SampleSigns, sampling_evidence, signed_evidence};
 use crate::shade::Radiance;
 use bevy_ecs::prelude::*;
@@ -11,7 +11,7 @@ pub fn add_to_film(mut tiles: Query<(&Radiance, Option<&PixelSamples>, Option<&S
         let (r, g, b) = radiance.slices();
         let light = |row: usize| [r[row], g[row], b[row]];
         match (samples, signs) {
-            (None, _) => (0..film.rows().min(r.len())).for_each(|row| film.add(row, light(row))),
+            (None, _) => film.add_rows(r, g, b),
             (Some(samples), None) => {
                 for (row, &pixel) in samples.pixel.iter().enumerate() {
                     film.add(pixel as usize, light(row));

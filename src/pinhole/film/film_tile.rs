@@ -77,7 +77,8 @@ impl FilmTile {
     /// Whether a sample is valid: all components are finite and not negative.
     #[inline(always)]
     pub fn accepts(radiance: [f32; 3]) -> bool {
-        radiance.iter().all(|&value| (0.0..f32::INFINITY).contains(&value))
+        let [r, g, b] = radiance.map(|value| (value >= 0.0) & (value < f32::INFINITY));
+        r & g & b
     }
 
     /// Adds a sample to a row, or rejects it if a component is negative or not finite.
@@ -90,6 +91,19 @@ impl FilmTile {
             self.count[row] += 1;
         } else {
             self.reject(row, radiance);
+        }
+    }
+
+    /// Adds a sample to each row, component by component; there may be fewer samples than rows.
+    pub fn add_rows(&mut self, r: &[f32], g: &[f32], b: &[f32]) {
+        let samples = r.iter().zip(g).zip(b).map(|((&r, &g), &b)| [r, g, b]);
+        if samples.clone().fold(true, |all, sample| all & Self::accepts(sample)) {
+            for (sums, parts) in [(&mut self.r, r), (&mut self.g, g), (&mut self.b, b)] {
+                sums.iter_mut().zip(parts).for_each(|(sum, &part)| *sum += f64::from(part));
+            }
+            self.count.iter_mut().zip(r).for_each(|(count, _)| *count += 1);
+        } else {
+            (0..self.rows()).zip(samples).for_each(|(row, sample)| self.add(row, sample));
         }
     }
 

@@ -152,7 +152,7 @@ impl<'h> Pixels<'h> {
         if x < -1 || y < -1 || x >= width || y >= height {
             return None;
         }
-        let [right, down] = (raster - 0.5 - corner).as_vec2().to_array();
+        let [right, down] = (raster - 0.5 - corner).to_array();
         let offset = self.origin - surface.place;
         let mut sum = Known { radiance: [0.0; 3], samples: 0.0 };
         let mut whole = 0.0;
@@ -164,7 +164,8 @@ impl<'h> Pixels<'h> {
             let other = (line.clamp(0, height - 1) * width + column.clamp(0, width - 1)) as usize;
             let samples = self.samples[other];
             let counts = is_inside & (samples > 0.0) & self.is_of_surface(other, offset, surface.normal);
-            let weight = if counts { across * along } else { 0.0 };
+            // Rounded last, since a small weight is the difference of two numbers near 1.
+            let weight = if counts { (across * along) as f32 } else { 0.0 };
             for (sum, radiance) in sum.radiance.iter_mut().zip(self.radiance) {
                 *sum += if counts { weight * radiance[other] } else { 0.0 };
             }

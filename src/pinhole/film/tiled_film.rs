@@ -112,8 +112,9 @@ impl Film {
                 let [red, green, blue] = [&own.r, &own.g, &own.b].map(|sums| &sums[rows.clone()]);
                 let parts = red.iter().zip(green).zip(blue).zip(&own.count[rows]);
                 for (at, (((&red, &green), &blue), &count)) in parts.enumerate() {
-                    let count = f64::from(count.max(1));
-                    each(start + at, [red / count, green / count, blue / count].map(shown));
+                    let sums = [red, green, blue];
+                    let means = if count > 1 { sums.map(|sum| sum / f64::from(count)) } else { sums };
+                    each(start + at, means.map(shown));
                 }
             } else {
                 for (at, row) in rows.enumerate() {

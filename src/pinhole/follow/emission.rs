@@ -108,7 +108,7 @@ pub fn mis_emission_stage() -> Stage {
 }
 
 /// Evidence that some emitting surfaces are sampled as lights, so that their emission must not be counted twice.
-fn mis_emission_evidence(scene: &Census<'_>) -> Evidence {
+pub(super) fn mis_emission_evidence(scene: &Census<'_>) -> Evidence {
     let emits = emissive_evidence(scene).and(|| followed_evidence(scene));
     let traced = emits.clone().and(|| traced_evidence(scene));
     if traced.needed { traced } else { emits.and(|| light_sampling_evidence(scene)) }

@@ -1,17 +1,21 @@
-//! Materials whose BSDF no stage on offer samples.
+//! Materials whose BSDF no stage on offer samples, and light that no stage on offer adds.
 
-use crate::extract::{camera_entity, followed_evidence, integrator_of, shape_entities, shape_name};
+use super::emission::mis_emission_evidence;
+use crate::extract::{camera_entity, emissive_evidence, followed_evidence, integrator_of, shape_entities, shape_name};
 use crate::material::{BsdfClass, REGISTERED, material_kind};
 use crate::plan::{Census, Stage, TileSystems};
 use crate::scene::{SceneError, UsesMaterial, called};
+use crate::shade::emissive_stage;
 use bevy_ecs::prelude::*;
 
 /// Checks that where paths are traced, a stage on offer samples the BSDF of every specular or glossy material in the
 /// scene: a chapter offers the stages taught so far, and other materials would be black without a warning.
 ///
-/// Errors: the first shape of a material that no stage on offer samples; a sky whose light none finds.
+/// Errors: the first shape of a material that no stage on offer samples; a sky whose light none finds, or emission that
+/// none adds.
 pub fn check_materials_are_followed(scene: &Census<'_>, offer: &[Stage]) -> Result<(), SceneError> {
     check_sky_is_followed(scene, offer)?;
+    check_emission_is_added(scene, offer)?;
     let shapes = shape_entities(scene);
     for own in REGISTERED.iter().filter(|own| own.class != BsdfClass::Diffuse) {
         let table = (own.table)();
@@ -31,6 +35,23 @@ pub fn check_materials_are_followed(scene: &Census<'_>, offer: &[Stage]) -> Resu
         }
     }
     Ok(())
+}
+
+/// Checks that paths which hit an emissive surface find its light, where nothing else finds it.
+fn check_emission_is_added(scene: &Census<'_>, offer: &[Stage]) -> Result<(), SceneError> {
+    let found = emissive_evidence(scene);
+    let adds = emissive_stage();
+    let is_sampled = mis_emission_evidence(scene).needed;
+    if !(found.needed && followed_evidence(scene).needed) || is_sampled || offer.contains(&adds) {
+        return Ok(());
+    }
+    let value = integrator_of(scene).integrator.in_words();
+    let accepted = format!(
+        "\"{}\" is not on offer, so that paths find no light by hitting it ({}): offer stages::all(), which adds it",
+        adds.name, found.reason
+    );
+    let camera = camera_entity(scene)?;
+    Err(SceneError::new(format!("camera {}", called(scene, camera)), "integrator", value, accepted))
 }
 
 /// Checks that a sky which lights the scene is found by paths, where no integrator is named.

@@ -10,10 +10,11 @@ use crate::extract::{
 };
 use crate::plan::{Column, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
-use crate::shapes::{ClosestHits, Listed, RayHit, RaySlices, ShapeVisitor, keep_closest_of, visit_shapes};
+use crate::shapes::{
+    ClosestHits, HITS, HitBlock, Listed, RayHit, RaySlices, ShapeVisitor, keep_closest_of, visit_shapes,
+};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use std::hint::black_box;
 
 /// Intersects any column of rays with all shapes of one kind and keeps the closest hits.
 pub fn intersect_shapes<S: Listed, R: RayColumn, H: HitColumn>(
@@ -51,44 +52,39 @@ fn keep_closest<S: Listed>(
     }
 }
 
-/// The rows whose primitives are read ahead.
-const AHEAD: usize = 16;
-
 /// Fills the surface of every row that hit a shape of one kind.
 pub fn fill_surfaces<S: Listed>(
     shapes: Res<Shared<ShapesOf<S>>>,
     all: Res<Shared<ShapeTable>>,
     uv_spaces: Option<Res<Shared<UvSpaceTable>>>,
+    mut block: Local<HitBlock>,
     mut tiles: Query<SurfaceView<ShapeRows<S>>>,
 ) {
     for SurfaceViewItem { rays, hits, primitives, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
-        for (place, &row) in list.row.iter().enumerate() {
-            if let (Some(primitives), true) = (primitives, S::HAS_PRIMITIVES && place.is_multiple_of(AHEAD)) {
-                let ahead = &list.row[place..list.row.len().min(place + AHEAD)];
-                let read = ahead.iter().map(|&row| {
-                    let shape = all.row[hits.shape[row as usize] as usize];
-                    shapes.row[shape as usize].read_ahead(primitives.primitive[row as usize])
-                });
-                black_box(read.sum::<f32>());
+        for rows in list.row.chunks(if S::IS_TRIANGULAR { HITS } else { 1 }) {
+            for (lane, &row) in rows.iter().enumerate() {
+                let row = row as usize;
+                let primitive = primitives.map_or(0, |primitives| primitives.primitive[row]);
+                let hit = RayHit::at_rest(rays.origin_of(row), rays.direction_of(row), hits.t[row]);
+                block.set_hit(lane, all.row[hits.shape[row] as usize], &RayHit { primitive, ..hit });
             }
-            let row = row as usize;
-            let number = hits.shape[row] as usize;
-            let (shape, material) = (all.row[number] as usize, all.material[number]);
-            let (shape, beside) = (&shapes.row[shape], &shapes.beside[shape]);
-            let (origin, direction, t) = (rays.origin_of(row), rays.direction_of(row), hits.t[row]);
-            let primitive = primitives.map_or(0, |primitives| primitives.primitive[row]);
-            let hit = RayHit { primitive, ..RayHit::at_rest(origin, direction, t) };
-            let surface = shape.surface(beside, &hit);
-            surfaces.set(row, Surface::of(surface, material));
-            if let Some(sides) = &mut sides {
-                sides.outside[row] = u32::from(surface.outside);
-            }
-            if let Some(uvs) = &mut uvs {
-                let own = match &uv_spaces {
-                    Some(spaces) if S::HAS_UV_SPACE => spaces.point(number, hit.point()),
-                    _ => DVec3::ZERO,
-                };
-                uvs.set(row, shape.uv(beside, &hit, surface.at, own));
+            S::fill_surfaces(&shapes.row, &shapes.beside, &mut block, rows.len());
+            for (lane, &row) in rows.iter().enumerate() {
+                let row = row as usize;
+                let (number, surface) = (hits.shape[row] as usize, block.surface(lane));
+                surfaces.set(row, Surface::of(surface, all.material[number]));
+                if let Some(sides) = &mut sides {
+                    sides.outside[row] = u32::from(surface.outside);
+                }
+                if let Some(uvs) = &mut uvs {
+                    let (shape, hit) = block.hit(lane);
+                    let own = match &uv_spaces {
+                        Some(spaces) if S::HAS_UV_SPACE => spaces.point(number, hit.point()),
+                        _ => DVec3::ZERO,
+                    };
+                    let shape = shape as usize;
+                    uvs.set(row, shapes.row[shape].uv(&shapes.beside[shape], &hit, surface.at, own));
+                }
             }
         }
     }

@@ -137,9 +137,9 @@ impl ComponentKind {
     }
 }
 
-/// A number with its noun: `1 sphere`, `3 spheres`, `2 triangles with normals`.
+/// A number with its noun: `1 sphere`, `3 spheres`, `2 triangles with normals`, `2 lights without an area`.
 pub fn counted(count: usize, noun: &str) -> String {
-    let (noun, what) = noun.split_at(noun.find(" with ").unwrap_or(noun.len()));
+    let (noun, what) = noun.split_at(noun.find(" with").unwrap_or(noun.len()));
     let ending = match count {
         1 => "",
         _ if noun.ends_with('s') || noun.ends_with("sh") => "es",

@@ -38,10 +38,10 @@ impl Cover {
         cover(self, table, (tile, raster), in_order);
     }
 
-    /// The nearest triangle of a row and its nearness.
+    /// The nearest triangle of a row.
     #[inline(always)]
-    pub fn nearest(&self, row: usize) -> Option<(usize, f64)> {
-        (self.nearest[row] >= 0.0).then(|| (self.nearest[row] as usize, self.nearness[row]))
+    pub fn nearest(&self, row: usize) -> Option<usize> {
+        (self.nearest[row] >= 0.0).then(|| self.nearest[row] as usize)
     }
 }
 

@@ -23,6 +23,8 @@ mod box_extent;
 mod boxes;
 mod clip;
 mod cover;
+mod ray_projection;
+mod setup;
 mod spaces;
 mod stage;
 mod table;

@@ -1,9 +1,10 @@
 //! All triangles of the scene in raster space, sorted into bins of the image.
 
-use super::bins::{Bins, Extent, bins_near, bins_of};
+use super::bins::{Bins, bins_near, bins_of};
 use super::clip::{ClipPlanes, Polygon};
+use super::setup::{Image, Unsorted, Waiting, Whose, pixels};
 use super::spaces::{ClipPoint, Projection};
-use super::triangle::{Edge, NearnessPlane, RasterTriangle, SUBPIXELS, edge_function, fixed};
+use super::triangle::{RasterTriangle, SUBPIXELS, fixed};
 use crate::extract::{FilterTable, MeshTable, TriangleTable, radius_of};
 use crate::intersect::NO_PRIMITIVE;
 use crate::plan::{Census, Table};
@@ -16,8 +17,6 @@ use std::ops::Range;
 
 /// The fewest vertices or triangles that are worth a task of their own.
 const TASK: usize = 2048;
-/// The most pixels of a triangle that is tested at all of their centres before it is kept.
-const FEW: u32 = 4;
 /// How many runs a scene of many triangles is divided into; more would cost each tile more lists.
 const RUNS: usize = 64;
 /// The most triangles of a run, and the room for what clipping makes of them: eight of each at most.
@@ -42,12 +41,6 @@ struct Run {
     bins: Bins,
 }
 
-/// The triangles of a run before they are sorted into bins, and the pixels that each may cover.
-struct Unsorted {
-    triangles: Vec<RasterTriangle>,
-    extents: Vec<Extent>,
-}
-
 /// What makes raster triangles.
 struct Setup<'s> {
     projection: &'s Projection,
@@ -63,14 +56,6 @@ struct Vertex {
     raster: Option<[i32; 2]>,
 }
 
-/// The shape that a triangle belongs to, and its number there.
-#[derive(Clone, Copy)]
-struct Whose {
-    shape: u32,
-    primitive: u32,
-    row: u32,
-}
-
 impl Setup<'_> {
     #[inline(always)]
     fn vertex(&self, clip: ClipPoint) -> Vertex {
@@ -78,95 +63,35 @@ impl Setup<'_> {
         Vertex { clip, nearness: self.projection.nearness(clip), raster }
     }
 
-    /// Appends a triangle, or the triangles that clipping leaves of it.
+    /// Adds a triangle to those that wait, or the triangles that clipping leaves of it.
     #[inline(always)]
-    fn push(&self, corners: [Vertex; 3], whose: Whose, into: &mut Unsorted) {
+    fn push(&self, corners: [Vertex; 3], whose: Whose, waiting: &mut Waiting, into: &mut Unsorted) {
         let clip = corners.map(|corner| corner.clip);
         match corners.map(|corner| corner.raster) {
             [Some(a), Some(b), Some(c)] => {
                 let nearness = corners.map(|corner| corner.nearness);
-                let plane = || NearnessPlane::of_nearness(self.projection, clip, nearness);
-                self.push_unclipped([a, b, c], plane, whose, into);
+                waiting.push([a, b, c], (clip, nearness), whose, (self.image(), into));
             }
-            _ => self.push_clipped(clip, whose, into),
+            _ => self.push_clipped(clip, whose, waiting, into),
         }
     }
 
+    /// The plane of a part is that of the whole triangle, whose vertices are where the author put them.
     #[cold]
-    fn push_clipped(&self, corners: [ClipPoint; 3], whose: Whose, into: &mut Unsorted) {
+    fn push_clipped(&self, corners: [ClipPoint; 3], whose: Whose, waiting: &mut Waiting, into: &mut Unsorted) {
         let polygon: Polygon = self.planes.clip(corners);
         let Some((first, others)) = polygon.points().split_first() else { return };
         for pair in others.windows(2) {
             let part = [*first, pair[0], pair[1]];
             let raster = part.map(|point| fixed(self.projection.raster(point)));
-            // The plane is that of the whole triangle, whose vertices are where the author put them.
-            let plane = || {
-                let [of_part, of_whole] = [part, corners].map(|of| NearnessPlane::through(self.projection, of));
-                Some(NearnessPlane { range: of_part?.range, ..of_whole? })
-            };
-            self.push_unclipped(raster, plane, whose, into);
+            let nearness = part.map(|point| self.projection.nearness(point));
+            waiting.push(raster, (corners, nearness), whose, (self.image(), into));
         }
     }
 
-    #[inline(always)]
-    fn push_unclipped(
-        &self,
-        mut corners: [[i32; 2]; 3],
-        plane: impl FnOnce() -> Option<NearnessPlane>,
-        whose: Whose,
-        into: &mut Unsorted,
-    ) {
-        let area = edge_function(corners[0], corners[1], corners[2]);
-        let extent = if area == 0 { None } else { self.pixels(&corners) };
-        let Some(extent) = extent else { return };
-        if area < 0 {
-            corners.swap(1, 2);
-        }
-        if !self.may_cover(&corners, extent) {
-            return;
-        }
-        let Whose { shape, primitive, row } = whose;
-        if let Some(plane) = plane() {
-            into.triangles.push(RasterTriangle { corners, shape, primitive, row, plane });
-            into.extents.push(extent);
-        }
+    fn image(&self) -> Image<'_> {
+        Image { projection: self.projection, margin: self.margin }
     }
-
-    /// Whether a sample may be inside; only a triangle of few pixels is tested, for a large one covers some.
-    #[inline(always)]
-    fn may_cover(&self, &[a, b, c]: &[[i32; 2]; 3], [[left, right], [top, bottom]]: Extent) -> bool {
-        if self.margin > 0 || (right - left + 1) * (bottom - top + 1) > FEW {
-            return true;
-        }
-        let corner = [left, top].map(|pixels| pixels as i32 * SUBPIXELS as i32);
-        let edges = [Edge::new(a, b, corner), Edge::new(b, c, corner), Edge::new(c, a, corner)];
-        let centre = |pixels: u32| (f64::from(pixels) + 0.5) * SUBPIXELS;
-        (0..=bottom - top).any(|down| {
-            (0..=right - left).any(|across| edges.iter().all(|edge| edge.at(centre(across), centre(down)) >= 0.0))
-        })
-    }
-
-    /// The pixels that a sample inside the triangle may belong to.
-    #[inline(always)]
-    fn pixels(&self, corners: &[[i32; 2]; 3]) -> Option<Extent> {
-        let size = [self.projection.size.x as i32, self.projection.size.y as i32];
-        pixels_near(corners, self.margin, size)
-    }
-}
-
-/// The first and last pixel to the right and downward whose centres are within a distance of the triangle's extent, in
-/// an image of this size.
-#[inline(always)]
-fn pixels_near(corners: &[[i32; 2]; 3], margin: i32, size: [i32; 2]) -> Option<Extent> {
-    const STEPS: i32 = SUBPIXELS as i32;
-    let along = |axis: usize| {
-        let [a, b, c] = corners.map(|corner| corner[axis]);
-        let (least, most) = (a.min(b).min(c), a.max(b).max(c));
-        let first = (least - margin - STEPS / 2 + STEPS - 1).div_euclid(STEPS).max(0);
-        let last = (most + margin - STEPS / 2).div_euclid(STEPS).min(size[axis] - 1);
-        (first <= last).then_some([first as u32, last as u32])
-    };
-    Some([along(0)?, along(1)?])
 }
 
 impl RasterTriangles {
@@ -174,10 +99,12 @@ impl RasterTriangles {
     #[inline(always)]
     pub fn pixels_of(&self, triangle: &RasterTriangle, tile: &Tile) -> Option<[[usize; 2]; 2]> {
         let size = [tile.x + tile.width, tile.y + tile.height].map(|pixels| pixels as i32);
-        let [[left, right], [top, bottom]] = pixels_near(&triangle.corners, self.margin, size)?;
-        let inside = right >= tile.x && bottom >= tile.y;
-        let own = |pixel: u32, start: u32| pixel.saturating_sub(start) as usize;
-        inside.then(|| [[own(left, tile.x), own(right, tile.x)], [own(top, tile.y), own(bottom, tile.y)]])
+        let along = |axis: usize, start: u32| {
+            let [first, last] = pixels(triangle.corners.map(|corner| corner[axis]), self.margin, size[axis]);
+            let own = |pixel: i32| (pixel as u32).saturating_sub(start) as usize;
+            (first <= last && last >= start as i32).then(|| [own(first), own(last)])
+        };
+        Some([along(0, tile.x)?, along(1, tile.y)?])
     }
 
     /// The triangle with a number.
@@ -258,19 +185,19 @@ impl<'s> Source<'s> {
     }
 
     /// Appends some of the triangles, by their places in the source, to those of a run.
-    fn push(&self, setup: &Setup<'_>, places: Range<usize>, into: &mut Unsorted) {
+    fn push(&self, setup: &Setup<'_>, places: Range<usize>, waiting: &mut Waiting, into: &mut Unsorted) {
         match self {
             Self::Table(table, rows) => {
                 for row in rows.start + places.start..rows.start + places.end {
                     let corners = table.row[row].corners.map(|corner| setup.vertex(setup.projection.clip(corner)));
                     let whose = Whose { shape: table.shape[row], primitive: NO_PRIMITIVE, row: row as u32 };
-                    setup.push(corners, whose, into);
+                    setup.push(corners, whose, waiting, into);
                 }
             }
             Self::Mesh(mesh, vertices, whose) => {
                 for triangle in places {
                     let corners = mesh.geometry.triangles[triangle].map(|vertex| vertices[vertex as usize]);
-                    setup.push(corners, Whose { primitive: triangle as u32, ..*whose }, into);
+                    setup.push(corners, Whose { primitive: triangle as u32, ..*whose }, waiting, into);
                 }
             }
         }
@@ -307,11 +234,13 @@ impl Setup<'_> {
             let (start, end) = (run * length, count.min((run + 1) * length));
             let mut unsorted =
                 Unsorted { triangles: Vec::with_capacity(end - start), extents: Vec::with_capacity(end - start) };
+            let mut waiting = Waiting::new();
             let first = starts.partition_point(|&own| own <= start).saturating_sub(1);
             for (source, &own) in sources[first..].iter().zip(&starts[first..]).take_while(|(_, own)| **own < end) {
                 let places = start.saturating_sub(own)..(end - own).min(source.len());
-                source.push(self, places, &mut unsorted);
+                source.push(self, places, &mut waiting, &mut unsorted);
             }
+            waiting.finish(self.image(), &mut unsorted);
             Run::binned(unsorted, bins)
         });
         runs.collect()

@@ -1,7 +1,7 @@
 //! A triangle in raster space: vertices in fixed point, edge functions, and depth as a plane.
 
 use super::spaces::{ClipPoint, Projection};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 /// The steps of a pixel to which vertices and samples are rounded.
 pub const SUBPIXELS: f64 = 256.0;
@@ -35,32 +35,32 @@ pub struct NearnessPlane {
 
 impl NearnessPlane {
     /// The plane through three clip points; none if it holds the eye, so that it is seen from the side.
+    pub fn through(projection: &Projection, corners: [ClipPoint; 3]) -> Option<Self> {
+        let coefficients = Self::coefficients(projection, corners.map(|corner| projection.camera(corner).into()));
+        let nearness = corners.map(|corner| projection.nearness(corner));
+        let range = [
+            nearness.into_iter().fold(f64::INFINITY, f64::min),
+            nearness.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        ];
+        coefficients.iter().all(|part| part.is_finite()).then_some(Self { coefficients, range })
+    }
+
+    /// The coefficients of the plane through three points in camera space, not all finite if it holds the eye.
     ///
     /// With a normal n and n · P = d, the point of a plane at a depth z on the ray (x, y, −1) is z (x, y, −1), so
     /// 1/z = n · (x, y, −1) / d.
     #[inline(always)]
-    pub fn through(projection: &Projection, corners: [ClipPoint; 3]) -> Option<Self> {
-        Self::of_nearness(projection, corners, corners.map(|corner| projection.nearness(corner)))
-    }
-
-    /// The same where it is known how near the points are.
-    #[inline(always)]
-    pub(super) fn of_nearness(projection: &Projection, corners: [ClipPoint; 3], nearness: [f64; 3]) -> Option<Self> {
-        let [a, b, c] = corners.map(|corner| projection.camera(corner));
-        let normal = (b - a).cross(c - a);
-        let distance = normal.dot(a);
-        let DVec3 { x, y, z } = normal;
+    pub(super) fn coefficients(projection: &Projection, [a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+        let ([bx, by, bz], [cx, cy, cz]) = (difference(b, a), difference(c, a));
+        let [x, y, z] = [by * cz - cy * bz, bz * cx - cz * bx, bx * cy - cx * by];
+        let distance = x * a[0] + y * a[1] + z * a[2];
         let (right, up) = (x * projection.half.x, y * projection.half.y);
         let [right, up, at_centre, whole] = match projection.is_perspective {
             true => [right, up, -z, distance],
             false => [-right, -up, distance, z],
         };
         let (width, height) = (projection.size.x, projection.size.y);
-        let coefficients = [2.0 * right / width, -2.0 * up / height, at_centre - right + up].map(|part| part / whole);
-        let [a, b, c] = nearness;
-        let (low, high) = if a < b { (a, b) } else { (b, a) };
-        let range = [if c < low { c } else { low }, if c > high { c } else { high }];
-        coefficients.iter().all(|part| part.is_finite()).then_some(Self { coefficients, range })
+        [2.0 * right / width / whole, -2.0 * up / height / whole, (at_centre - right + up) / whole]
     }
 
     /// The nearness at a raster point.
@@ -69,6 +69,11 @@ impl NearnessPlane {
         let [right, down, at_corner] = self.coefficients;
         within(right * raster.x + down * raster.y + at_corner, self.range)
     }
+}
+
+#[inline(always)]
+fn difference([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> [f64; 3] {
+    [ax - bx, ay - by, az - bz]
 }
 
 /// A number, or the end of a range that it is beyond.

@@ -30,12 +30,12 @@ impl<L: Light> MakesRays for L {
         let sample = self.sample(origin.as_dvec3());
         let cosine = cosine_of(surface, normal, sample.direction);
         let irradiance = L::irradiance(&sample, cosine);
-        let is_lit = sample.strength != [0.0; 3];
+        let [r, g, b] = sample.strength.map(|part| part != 0.0);
         let ray = ShadowRay {
             origin,
             direction: sample.direction,
             distance: sample.distance,
-            cosine: if is_lit { cosine } else { 0.0 },
+            cosine: if r | g | b { cosine } else { 0.0 },
         };
         LightRay { ray, t_max: shadow_t_max(sample.distance), irradiance }
     }

@@ -4,7 +4,7 @@ use super::light::ShadowRay;
 use super::{LightPdfs, LightRays, TransmissiveRows};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces};
 use crate::plan::Column;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// A shadow ray with the irradiance that it carries.
 pub(super) struct LightRay {
@@ -121,26 +121,112 @@ pub(super) fn is_apart(ray: &ShadowRay) -> bool {
     ray.distance * ray.distance >= f64::MIN_POSITIVE
 }
 
-/// Every row is written, and the next one overwrites it unless it counts, so that no branch depends on the surface.
+/// How many shadow rays are made at once.
+const AT_ONCE: usize = 32;
+
+/// The place of t_max among the components of a ray.
+const T_MAX: usize = 6;
+
+/// The surfaces of some rows, component by component, so that one loop handles several.
+struct SurfaceBlock {
+    position: [[f32; AT_ONCE]; 3],
+    geometric: [[f32; AT_ONCE]; 3],
+    bound: [f32; AT_ONCE],
+    material: [u32; AT_ONCE],
+    normal: [[f64; AT_ONCE]; 3],
+}
+
+/// Their shadow rays: the components in the order of [`LightRays`], and 1 for each that carries light.
+struct LightRayBlock {
+    components: [[f32; AT_ONCE]; 10],
+    counts: [u32; AT_ONCE],
+}
+
+impl SurfaceBlock {
+    const NONE: Self = Self {
+        position: [[0.0; AT_ONCE]; 3],
+        geometric: [[0.0; AT_ONCE]; 3],
+        bound: [0.0; AT_ONCE],
+        material: [0; AT_ONCE],
+        normal: [[0.0; AT_ONCE]; 3],
+    };
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, (surface, normal): (Surface, DVec3)) {
+        let [position, geometric] = [surface.position, surface.normal].map(|vector| vector.to_array());
+        let normal = normal.to_array();
+        for axis in 0..3 {
+            self.position[axis][lane] = position[axis];
+            self.geometric[axis][lane] = geometric[axis];
+            self.normal[axis][lane] = normal[axis];
+        }
+        (self.bound[lane], self.material[lane]) = (surface.bound, surface.material);
+    }
+
+    #[inline(always)]
+    fn get(&self, lane: usize) -> (Surface, DVec3) {
+        let [position, normal] =
+            [&self.position, &self.geometric].map(|of| Vec3::new(of[0][lane], of[1][lane], of[2][lane]));
+        let surface = Surface { position, normal, bound: self.bound[lane], material: self.material[lane] };
+        (surface, DVec3::new(self.normal[0][lane], self.normal[1][lane], self.normal[2][lane]))
+    }
+}
+
+impl LightRayBlock {
+    #[inline(always)]
+    fn set(&mut self, lane: usize, LightRay { ray, t_max, irradiance }: &LightRay) {
+        let [r, g, b] = irradiance.map(|part| if part < MOST { part as f32 } else { f32::MAX });
+        let (origin, direction) = (ray.origin, ray.direction);
+        let all = [origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, *t_max, r, g, b];
+        for component in 0..10 {
+            self.components[component][lane] = all[component];
+        }
+        self.counts[lane] = u32::from((ray.cosine > 0.0) & is_apart(ray));
+    }
+}
+
+/// Makes the rays of some surfaces.
+#[inline(always)]
+fn make(light: &impl MakesRays, block: &SurfaceBlock, made: &mut LightRayBlock) {
+    for lane in 0..AT_ONCE {
+        let (surface, normal) = block.get(lane);
+        made.set(lane, &light.ray_from(&surface, normal));
+    }
+}
+
+/// Appends the rays of all rows that carry light.
 #[inline(always)]
 fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, light: &impl MakesRays, receivers: &impl Receivers) {
-    let length = rays.rows();
-    let (path, ox, oy, oz, dx, dy, dz, t_max, r, g, b) = rays.slices_mut(length + rows.len());
-    let mut at = length;
-    for &row in rows {
-        let (surface, normal) = receivers.of_row(row as usize);
-        let light_ray = light.ray_from(&surface, normal);
-        path[at] = row;
-        (ox[at], oy[at], oz[at]) = light_ray.ray.origin.into();
-        (dx[at], dy[at], dz[at]) = light_ray.ray.direction.into();
-        t_max[at] = light_ray.t_max;
-        [r[at], g[at], b[at]] = light_ray.irradiance.map(|part| part.min(MOST) as f32);
-        at += usize::from(light_ray.ray.cosine > 0.0 && is_apart(&light_ray.ray));
+    let (mut block, mut made) =
+        (SurfaceBlock::NONE, LightRayBlock { components: [[0.0; AT_ONCE]; 10], counts: [0; AT_ONCE] });
+    let mut path = [0; AT_ONCE];
+    for rows in rows.chunks(AT_ONCE) {
+        for (lane, &row) in rows.iter().enumerate() {
+            block.set(lane, receivers.of_row(row as usize));
+        }
+        make(light, &block, &mut made);
+        path[..rows.len()].copy_from_slice(rows);
+        let mut count = rows.len();
+        if made.counts[..count].contains(&0) {
+            count = 0;
+            // Every ray is written, and the next one overwrites it unless it counts, so that no branch depends on it.
+            for (lane, &row) in rows.iter().enumerate() {
+                path[count] = row;
+                for component in &mut made.components {
+                    component[count] = component[lane];
+                }
+                count += made.counts[lane] as usize;
+            }
+        }
+        if !casts_shadows {
+            made.components[T_MAX] = [0.0; AT_ONCE];
+        }
+        rays.path.extend_from_slice(&path[..count]);
+        let LightRays { ox, oy, oz, dx, dy, dz, t_max, r, g, b, .. } = rays;
+        for (column, component) in [ox, oy, oz, dx, dy, dz, t_max, r, g, b].into_iter().zip(&made.components) {
+            column.extend_from_slice(&component[..count]);
+        }
     }
-    if !casts_shadows {
-        t_max[length..at].fill(0.0);
-    }
-    rays.slices_mut(at);
 }
 
 /// Appends one shadow ray per row in a sampled direction, and its pdf; all of them cast shadows.

@@ -3,7 +3,8 @@ use super::double_double_ellipsoid::{double_double_ellipsoid_point, double_doubl
 use super::emitter::NeverSampled;
 use super::offset::l1_norm;
 use super::ray_block::{Intersection, UNIT_ROUNDOFF};
-use super::shape::{Placed, RayHit, Shape, SurfacePoint};
+use super::ray_hit::{RayHit, SurfacePoint};
+use super::shape::{Placed, Shape};
 use super::space::{direction_object_from_world, normal_world_from_object, point_object_from_world};
 use super::uv::sphere_uv;
 use super::uv_slope::UvSlope;

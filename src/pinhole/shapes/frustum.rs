@@ -1,7 +1,7 @@
 use super::arithmetic::{Arithmetic, Bounded, Precise};
 use super::bounds::Bounds;
 use super::ray_block::Intersection;
-use super::shape::{RayHit, SurfacePoint};
+use super::ray_hit::{RayHit, SurfacePoint};
 use super::unit_space::{UnitRay, UnitSpace};
 use super::uv::{face_axes, within_unit};
 use glam::DVec3;

@@ -2,15 +2,18 @@ use super::arithmetic::{Arithmetic, Precise, dot_of};
 use super::bounds::Bounds;
 use super::emitter::EmittingTriangle;
 use super::mesh_hierarchy::MeshHierarchy;
+use super::mesh_instance::{hierarchy_in, is_closed};
 use super::mesh_normal::unnormalised_normal;
 use super::mesh_packet::{MeshPacket, may_be_coherent};
 use super::mesh_traversal::{MeshStacks, keep_closest_apart};
 use super::offset::l1_norm;
 use super::ray_block::{ClosestHit, ClosestHits, Intersection, RaySlices};
-use super::shape::{Placed, RayHit, SceneShape, Shape, SurfacePoint};
+use super::ray_hit::{HitBlock, RayHit, SurfacePoint};
+use super::shape::{Placed, Shape};
 use super::space::{norm, normal_world_from_object};
 use super::triangle_hit::TriangleHit;
 use super::triangle_row::TriangleRow;
+use super::triangle_surfaces::{ObjectMaps, interpolate_mesh};
 use super::uv_slope::{UvSlope, planar_slope};
 use crate::bvh::{PACKET, Stack, TestCounts};
 use crate::scene::{MeshGeometry, MeshInstance, SceneError, number};
@@ -43,26 +46,6 @@ pub struct PlacedMesh {
 /// A ray that starts farther away than this many times the radius of the sphere around a mesh is moved on to it; from
 /// there f64 still resolves 2⁻⁴² of the radius.
 const FAR_AWAY: f64 = 1024.0;
-
-impl SceneShape for MeshInstance {
-    const NAME: &'static str = "MeshInstance";
-    const WORD: &'static str = "mesh";
-
-    fn scale(&mut self, by: f64) {
-        let mut mesh = (*self.geometry).clone();
-        for part in mesh.positions.iter_mut().flatten() {
-            *part = (f64::from(*part) * by) as f32;
-        }
-        self.geometry = MeshGeometry::new(mesh);
-    }
-
-    /// An octahedron, and a flat one.
-    fn examples() -> Vec<Self> {
-        let mut flat = (*MeshGeometry::default()).clone();
-        flat.positions.iter_mut().for_each(|[_, y, _]| *y *= 0.25);
-        vec![Self::default(), Self { geometry: MeshGeometry::new(flat) }]
-    }
-}
 
 impl PlacedMesh {
     // ANCHOR: near_ray
@@ -219,11 +202,6 @@ impl Shape for PlacedMesh {
         self.hierarchy.keep_closest_counted(self.own_ray(ray), number, closest, above, counts)
     }
 
-    #[inline(always)]
-    fn read_ahead(&self, primitive: u32) -> f32 {
-        self.geometry.corners(primitive as usize).map(|[x, ..]| x).iter().sum()
-    }
-
     fn surface(&self, _: &(), hit: &RayHit) -> SurfacePoint {
         let triangle = self.triangle(hit.primitive);
         let ([origin, direction], _) = self.own_ray([hit.origin, hit.direction]);
@@ -234,6 +212,19 @@ impl Shape for PlacedMesh {
         let normal = if outside { normal } else { -normal };
         let at = DVec3::from(triangle_hit.weights);
         SurfacePoint { point, normal, bound: hit.bound(point, self.size), outside, at }
+    }
+
+    /// Together where all of them are of one mesh.
+    fn fill_surfaces(meshes: &[Self], beside: &[()], hits: &mut HitBlock, count: usize) {
+        let is_one = hits.shape[..count].windows(2).all(|pair| pair[0] == pair[1]);
+        if is_one {
+            meshes[hits.shape[0] as usize].interpolate(hits, count);
+        }
+        for lane in 0..count {
+            if !(is_one && hits.is_certain(lane)) {
+                Self::fill_surface(meshes, beside, hits, lane);
+            }
+        }
     }
 
     fn uv(&self, _: &(), hit: &RayHit, at: DVec3, _own: DVec3) -> [f64; 2] {
@@ -275,6 +266,24 @@ impl Shape for PlacedMesh {
 }
 
 impl PlacedMesh {
+    /// The surfaces of hits that are all of this mesh, where f64 is certain of them.
+    fn interpolate(&self, hits: &mut HitBlock, count: usize) {
+        for lane in 0..count {
+            let corners = self.geometry.corners(hits.primitive[lane] as usize);
+            hits.set_corners(lane, corners.map(|corner| DVec3::from(corner.map(f64::from))));
+        }
+        let maps = ObjectMaps {
+            object_from_world: self.object_from_world,
+            world_from_object: self.world_from_object,
+            normal_from_object: self.object_from_world.transpose(),
+            position: self.position,
+            centre: self.centre,
+            far_away: (FAR_AWAY * self.radius) * (FAR_AWAY * self.radius),
+            size: self.size,
+        };
+        interpolate_mesh(hits, &maps);
+    }
+
     /// The texture coordinates of a triangle's vertices: those of the mesh, or else (0, 0), (1, 0) and (0, 1).
     fn uvs_of(&self, triangle: u32) -> [DVec2; 3] {
         match &self.geometry.uvs {
@@ -283,16 +292,6 @@ impl PlacedMesh {
                 .map(|vertex| DVec2::from(uvs[vertex as usize].map(f64::from))),
         }
     }
-}
-
-/// The hierarchy of a mesh, built when the first instance asks for it.
-fn hierarchy_in(geometry: &MeshGeometry) -> Arc<MeshHierarchy> {
-    geometry.once(MeshHierarchy::of)
-}
-
-/// Whether a mesh encloses an interior; found out when something first asks for it.
-fn is_closed(geometry: &MeshGeometry) -> bool {
-    hierarchy_in(geometry).is_closed(geometry)
 }
 
 /// Intersects rays with one mesh after another: coherent ones in packets, others one by one, or several in turns where

@@ -1,6 +1,5 @@
 use super::ray_block::ClosestHit;
 use super::triangle_block::{BLOCK, MeshRay, TriangleBlock};
-use super::triangle_row::TriangleRow;
 use crate::bvh::{BoundingBox, Bvh};
 use glam::{DMat3, DVec3};
 use pinhole_models::TriangleMesh;
@@ -48,13 +47,6 @@ impl MeshHierarchy {
         let (ray, mut closest) = (MeshRay::new(origin, direction, start, self.size), ClosestHit::NONE);
         self.blocks.iter().for_each(|block| block.keep_closest(&ray, 0, &mut closest));
         closest
-    }
-
-    /// The t at which a ray in object space, which starts at t = `start`, hits one triangle; infinity for a miss.
-    ///
-    /// It is the same to the last bit as in a leaf.
-    pub(super) fn triangle_t(&self, ([origin, direction], start): ([DVec3; 2], f64), triangle: &TriangleRow) -> f64 {
-        start + MeshRay::new(origin, direction, start, self.size).triangle_t(triangle)
     }
 
     /// Whether every edge is passed as often in one direction as in the other, as it is on a closed surface.

@@ -1,9 +1,10 @@
 use super::exact_sum::{exact_cross, exact_difference};
 use super::mesh::PlacedMesh;
-use super::shape::RayHit;
+use super::ray_hit::RayHit;
 use super::space::normal_world_from_object;
 use super::triangle_hit::TriangleHit;
 use super::triangle_row::TriangleRow;
+use super::triangle_surfaces::EXACT_BELOW;
 use glam::DVec3;
 
 /// The least cosine between a shading normal and the direction to the viewer.
@@ -39,9 +40,8 @@ pub(super) fn unnormalised_normal(triangle: &TriangleRow) -> DVec3 {
     let [a, b, c] = triangle.corners;
     let (one, other) = (b - a, c - a);
     let cross = one.cross(other);
-    // Where a component cancels, f64 would turn the normal of a thin triangle.
     let largest = one.abs().max_element() * other.abs().max_element();
-    if cross.abs().max_element() > largest * (1.0 / (1_u64 << 24) as f64) { cross } else { exact_normal([a, b, c]) }
+    if cross.abs().max_element() > largest * EXACT_BELOW { cross } else { exact_normal([a, b, c]) }
 }
 
 #[cold]

@@ -2,7 +2,8 @@
 
 use super::emitter::Parallelogram;
 use super::offset::l1_norm;
-use super::shape::{Placed, RayHit, SurfacePoint};
+use super::ray_hit::{RayHit, SurfacePoint};
+use super::shape::Placed;
 use super::space::{Pose, normal_world_from_object};
 use super::uv::planar_uv;
 use super::uv_slope::UvSlope;

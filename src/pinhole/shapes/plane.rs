@@ -1,7 +1,8 @@
 use super::bounds::Bounds;
 use super::emitter::NeverSampled;
 use super::ray_block::{ClosestHits, Intersection, RaySlices};
-use super::shape::{Placed, RayHit, SceneShape, Shape, SurfacePoint};
+use super::ray_hit::{RayHit, SurfacePoint};
+use super::shape::{Placed, SceneShape, Shape};
 use super::space::normal_world_from_object;
 use super::uv::plane_axes;
 use super::uv_slope::UvSlope;

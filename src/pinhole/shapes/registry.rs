@@ -3,7 +3,8 @@
 use super::emitter::{Emitting, LightPoint};
 use super::kind::ShapeKind;
 use super::ray_block::{ClosestHit, ClosestHits, RayBlock, keep_closest_block, vector};
-use super::shape::{RayHit, Shape, ShapeNames, SurfacePoint};
+use super::ray_hit::{RayHit, SurfacePoint};
+use super::shape::{Shape, ShapeNames};
 use super::uv::face_axes;
 use super::uv_slope::{UvSlope, most_of, round_step};
 use crate::bvh::{Stack, TestCounts};

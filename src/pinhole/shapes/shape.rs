@@ -1,7 +1,7 @@
 use super::bounds::Bounds;
 use super::emitter::{Emitting, NeverSampled};
-use super::offset::{l1_norm, offset_bound};
 use super::ray_block::{ClosestHit, ClosestHits, Intersection, RaySlices, keep_closest_rows};
+use super::ray_hit::{HitBlock, RayHit, SurfacePoint};
 use super::space::Pose;
 use super::uv_slope::UvSlope;
 use crate::bvh::{Stack, TestCounts};
@@ -41,67 +41,6 @@ pub struct Placed<'a> {
     pub scale: DVec3,
     /// Whether a parent is placed too.
     pub has_parent: bool,
-}
-
-/// A ray and the distance at which it hits a shape, in the frame in which the shape is at rest.
-#[derive(Clone, Copy, Debug)]
-pub struct RayHit {
-    /// The ray's origin, less the shape's displacement.
-    pub origin: DVec3,
-    /// Its direction.
-    pub direction: DVec3,
-    /// The distance t in r(t) = O + tR.
-    pub t: f64,
-    /// Which primitive of the shape, where it consists of several; otherwise 0.
-    pub primitive: u32,
-    /// How far the shape has moved since the shutter opened; 0 for shapes that keep still.
-    pub displacement: DVec3,
-}
-
-impl RayHit {
-    /// A hit of a shape that keeps still and has one primitive.
-    #[inline(always)]
-    pub fn at_rest(origin: DVec3, direction: DVec3, t: f64) -> Self {
-        Self { origin, direction, t, primitive: 0, displacement: DVec3::ZERO }
-    }
-
-    /// r(t).
-    #[inline(always)]
-    pub fn point(&self) -> DVec3 {
-        self.origin + self.t * self.direction
-    }
-
-    /// [`offset_bound`] at a point, for a shape whose own numbers have this size.
-    #[inline(always)]
-    pub fn bound(&self, point: DVec3, shape_size: f64) -> f32 {
-        let moved = self.displacement;
-        offset_bound(point + moved, self.origin + moved, shape_size + l1_norm(moved))
-    }
-
-    // ANCHOR: facing
-    /// The surface at a point whose normal is flipped if necessary to face the ray; unflipped, it is on the outside.
-    #[inline(always)]
-    pub fn facing(&self, point: DVec3, normal: DVec3, shape_size: f64) -> SurfacePoint {
-        let from_behind = normal.dot(self.direction) > 0.0;
-        let normal = if from_behind { -normal } else { normal };
-        SurfacePoint { point, normal, bound: self.bound(point, shape_size), outside: !from_behind, at: DVec3::ZERO }
-    }
-    // ANCHOR_END: facing
-}
-
-/// The surface where a ray hits a shape.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfacePoint {
-    /// The hit point.
-    pub point: DVec3,
-    /// The unit geometric normal, facing the ray.
-    pub normal: DVec3,
-    /// The error bound of the hit point along the normal, as [`offset_bound`] gives it.
-    pub bound: f32,
-    /// Whether the ray arrived on the shape's outward side.
-    pub outside: bool,
-    /// Where on the shape it is, in coordinates of the shape's own that its u and v are computed from; 0 if they are not.
-    pub at: DVec3,
 }
 
 /// All that the renderer asks of a shape; everything else is generic over it.
@@ -195,14 +134,21 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
         0
     }
 
-    /// Some number of what [`surface`](Self::surface) reads of a primitive: asked for many rows one after another, it
-    /// brings them into the caches together, where each row alone would wait for its own.
-    fn read_ahead(&self, _primitive: u32) -> f32 {
-        0.0
-    }
-
     /// The surface where a ray hits it.
     fn surface(&self, beside: &Self::Beside, hit: &RayHit) -> SurfacePoint;
+
+    /// The surface of one hit of a block, each of which is given with the row of its shape.
+    #[inline(always)]
+    fn fill_surface(shapes: &[Self], beside: &[Self::Beside], hits: &mut HitBlock, lane: usize) {
+        let (row, hit) = hits.hit(lane);
+        hits.set_surface(lane, &shapes[row as usize].surface(&beside[row as usize], &hit));
+    }
+
+    /// The surfaces of the first `count` hits; a shape that computes several together answers with the same bits.
+    #[inline(always)]
+    fn fill_surfaces(shapes: &[Self], beside: &[Self::Beside], hits: &mut HitBlock, count: usize) {
+        (0..count).for_each(|lane| Self::fill_surface(shapes, beside, hits, lane));
+    }
 
     /// u and v where a ray hits it: at [`SurfacePoint::at`], and at `own` in its uv space, which is given where
     /// [`Self::HAS_UV_SPACE`] says so.

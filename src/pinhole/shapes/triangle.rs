@@ -1,12 +1,14 @@
 use super::bounds::Bounds;
 use super::emitter::EmittingTriangle;
 use super::ray_block::{ClosestHits, Intersection, RaySlices};
-use super::shape::{Placed, RayHit, SceneShape, Shape, SurfacePoint};
+use super::ray_hit::{HitBlock, RayHit, SurfacePoint};
+use super::shape::{Placed, SceneShape, Shape};
 use super::space::normal_world_from_object;
 use super::triangle_edges::{triangle_intersection, triangle_rows};
 use super::triangle_exact::exact_triangle_t;
 use super::triangle_hit::{TriangleHit, triangle_surface};
 use super::triangle_row::{TriangleRow, order};
+use super::triangle_surfaces::interpolate_triangles;
 use super::uv_slope::{UvSlope, planar_slope};
 use crate::scene::{SceneError, Triangle, finite_point, number, triple};
 use glam::{DMat3, DVec2, DVec3};
@@ -101,6 +103,20 @@ impl Shape for TriangleRow {
     fn surface(&self, face: &TriangleFace, hit: &RayHit) -> SurfacePoint {
         let triangle_hit = TriangleHit::of(hit.origin, hit.direction, self);
         triangle_surface(self, (face.normal, face.turned), hit, &triangle_hit)
+    }
+
+    fn fill_surfaces(triangles: &[Self], faces: &[TriangleFace], hits: &mut HitBlock, count: usize) {
+        for lane in 0..count {
+            let row = hits.shape[lane] as usize;
+            hits.set_corners(lane, triangles[row].corners);
+            hits.set_face(lane, faces[row].normal, faces[row].turned);
+        }
+        interpolate_triangles(hits);
+        for lane in 0..count {
+            if !hits.is_certain(lane) {
+                Self::fill_surface(triangles, faces, hits, lane);
+            }
+        }
     }
 
     #[inline(always)]

@@ -67,21 +67,6 @@ impl MeshRay {
     }
 }
 
-impl MeshRay {
-    /// The t, from where it starts, at which it hits a triangle that is in no block; infinity for a miss.
-    #[inline(always)]
-    pub fn triangle_t(&self, triangle: &TriangleRow) -> f64 {
-        let permuted = |vector: DVec3| by_axis(|axis| vector[self.axes[axis]]);
-        let origin = permuted(self.origin);
-        let values = edge_values(triangle.corners.map(permuted), origin, self.shear, ROUNDING * self.size);
-        let (areas, _, error) = values;
-        if may_be_hit(areas, error) == 0 {
-            return f64::INFINITY;
-        }
-        certain_t(values, self.shear[2]).unwrap_or_else(|| exact_triangle_t(self.origin, self.direction, triangle))
-    }
-}
-
 /// What the edge functions say of a ray and a triangle: the three areas, the depths of the vertices along the ray, and
 /// the areas' error.
 pub(super) type EdgeValues = ([f64; 3], [f64; 3], f64);

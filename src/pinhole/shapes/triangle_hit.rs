@@ -1,5 +1,5 @@
 use super::ray_block::UNIT_ROUNDOFF;
-use super::shape::{RayHit, SurfacePoint};
+use super::ray_hit::{RayHit, SurfacePoint};
 use super::triangle_edges::{Edges, Shear, edges, longest_axis};
 use super::triangle_exact::exact_barycentrics;
 use super::triangle_row::TriangleRow;
@@ -38,7 +38,7 @@ impl TriangleHit {
         } else {
             exact_barycentrics(origin, direction, triangle)
         };
-        let weights = by_axis(|corner| weights[corner].max(0.0));
+        let weights = by_axis(|corner| if weights[corner] < 0.0 { 0.0 } else { weights[corner] });
         let sum: f64 = weights.iter().sum();
         Self { weights: by_axis(|corner| weights[corner] / sum), along: along > 0.0 }
     }

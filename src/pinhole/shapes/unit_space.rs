@@ -2,7 +2,8 @@ use super::arithmetic::{Arithmetic, Precise, dot_of};
 use super::bounds::Bounds;
 use super::offset::l1_norm;
 use super::ray_block::UNIT_ROUNDOFF;
-use super::shape::{Placed, RayHit, SurfacePoint};
+use super::ray_hit::{RayHit, SurfacePoint};
+use super::shape::Placed;
 use crate::scene::{SceneError, positive_length, triple};
 use glam::{DMat3, DVec3};
 
