@@ -70,7 +70,12 @@ fn chapters_that_rasterise_see_what_rays_see() {
         }
         let seen = compare_visibility(&mut world).expect("valid");
         assert!(seen.unexplained.is_empty() && 100 * seen.differ < seen.pixels, "{}: {seen:?}", chapter.name);
-        eprintln!("{}: {} of {} samples see another triangle", chapter.name, seen.differ, seen.pixels);
+        // Both are exact but for the rounding of f64, one by the triangle's plane and the other by its edges.
+        assert!(seen.t_apart < 1e-12, "{}: t is off by {:e} of itself", chapter.name, seen.t_apart);
+        eprintln!(
+            "{}: {} of {} samples see another triangle; t differs by at most {:.1e} of itself",
+            chapter.name, seen.differ, seen.pixels, seen.t_apart
+        );
         compared += 1;
     }
     assert!(compared >= 2, "{compared} chapters rasterise");

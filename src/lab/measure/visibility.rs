@@ -33,6 +33,8 @@ pub struct Visibility {
     pub too_near: u64,
     /// The rest.
     pub unexplained: Vec<[u32; 2]>,
+    /// Where both see the same triangle, the largest difference of the two t, as a part of t.
+    pub t_apart: f64,
 }
 
 /// What is seen in one pixel.
@@ -59,6 +61,9 @@ pub fn compare_visibility(scene: &mut World) -> pinhole::Result<Visibility> {
         found.pixels += 1;
         found.covered += u64::from(rasterised.shape != NO_SHAPE || traced.shape != NO_SHAPE);
         if (rasterised.shape, rasterised.primitive) == (traced.shape, traced.primitive) {
+            if traced.shape != NO_SHAPE {
+                found.t_apart = found.t_apart.max((rasterised.t - traced.t).abs() / traced.t);
+            }
             continue;
         }
         found.differ += 1;
