@@ -214,6 +214,34 @@ fn under(integrator: impl Bundle, light: impl Fn(&mut World)) -> Vec<String> {
     said(&world).expect("accepted")
 }
 
+/// A picture of light that reaches nothing in so few segments says that, by every integrator that has a `max_depth`, and no
+/// longer once it may have two.
+#[test]
+fn a_max_depth_of_1_is_named_as_what_makes_a_picture_black() {
+    let lamp = |world: &mut World| {
+        let glow = Emissive { radiance: Rgb::grey(900.0), ..Emissive::default() };
+        world.spawn((Name::new("lamp"), Sphere::default(), Placement::at(0.0, 30.0, 10.0), glow));
+        world.spawn((Name::new("bulb"), PointLight::default(), Placement::at(0.0, 2.0, 0.0)));
+    };
+    let (roulette, mut tried) = (0, 0);
+    for max_depth in [1, 2] {
+        let by = [LightStrategy::Light, LightStrategy::Bsdf, LightStrategy::Mis].map(|lights| Integrator::Path {
+            max_depth,
+            lights,
+            roulette,
+        });
+        for integrator in
+            by.into_iter().chain([Integrator::Whitted { max_depth }, Integrator::Distribution { max_depth }])
+        {
+            let told = under(integrator, lamp);
+            let named = told.iter().any(|line| line.contains("probably be black") && line.contains("at max_depth 1"));
+            assert_eq!(named, max_depth == 1, "{integrator:?}: {told:?}");
+            tried += 1;
+        }
+    }
+    eprintln!("max_depth: {tried} scenes, named in those where it is 1");
+}
+
 /// Emitters that cannot be sampled are named where light sampling is asked for alone, and only there; lights in one place
 /// always.
 #[test]

@@ -139,44 +139,80 @@ struct LayerInputs<'t> {
 }
 
 impl LayerInputs<'_> {
-    /// The channels of a kind at a row that hit a surface; channels that the kind does not have are 0.
-    #[inline(always)]
-    fn value(&self, kind: LayerKind, row: usize) -> DVec3 {
-        let normal = || self.surfaces.map_or(DVec3::ZERO, |surfaces| surfaces.get(row).normal.as_dvec3());
-        let shading_normal = || self.shading_normals.map_or_else(normal, |normals| normals.get(row));
-        let to_camera = |normal: DVec3| self.table.world_from_camera.transpose() * normal;
-        let scalar = |number: f64| DVec3::new(number, 0.0, 0.0);
-        match kind {
-            LayerKind::Position => {
-                self.surfaces.map_or(DVec3::ZERO, |own| self.table.eye + own.get(row).position.as_dvec3())
+    /// Adds the channels of a kind, at the rows that hit a surface, to the sums of their pixels.
+    ///
+    /// The kind is asked for once, and not in every row; a column that does not exist adds nothing.
+    fn add(&self, kind: LayerKind, sums: &mut [Vec<f64>], pixels: Option<&PixelSamples>) {
+        match (kind, self.surfaces) {
+            (LayerKind::Position, Some(own)) => {
+                let eye = self.table.eye;
+                self.add_rows(sums, pixels, |row| eye + own.get(row).position.as_dvec3());
             }
-            LayerKind::Normal => normal(),
-            LayerKind::NormalCamera => to_camera(normal()),
-            LayerKind::ShadingNormal => shading_normal(),
-            LayerKind::ShadingNormalCamera => to_camera(shading_normal()),
-            LayerKind::Uv => self.uvs.map_or(DVec3::ZERO, |uvs| DVec3::new(uvs.u[row], uvs.v[row], 0.0)),
-            LayerKind::Albedo => self.albedo(row),
-            LayerKind::DepthAlongRay => {
-                scalar(self.hits.t[row] * self.rays.map_or(1.0, |own| own.direction_of(row).length()))
+            (LayerKind::Normal, _) => self.add_rows(sums, pixels, |row| self.normal(row)),
+            (LayerKind::NormalCamera, _) => self.add_rows(sums, pixels, |row| self.to_camera(self.normal(row))),
+            (LayerKind::ShadingNormal, _) => self.add_rows(sums, pixels, |row| self.shading_normal(row)),
+            (LayerKind::ShadingNormalCamera, _) => {
+                self.add_rows(sums, pixels, |row| self.to_camera(self.shading_normal(row)));
             }
-            LayerKind::DepthAlongAxis => {
+            (LayerKind::Uv, _) => match self.uvs {
+                Some(uvs) => self.add_rows(sums, pixels, |row| DVec3::new(uvs.u[row], uvs.v[row], 0.0)),
+                None => {}
+            },
+            (LayerKind::Albedo, _) => match (self.colours, self.materials, self.surfaces) {
+                (Some(colours), _, _) => {
+                    self.add_rows(sums, pixels, |row| DVec3::new(colours.r[row], colours.g[row], colours.b[row]));
+                }
+                // A surface that only emits has no material, and reflects no light.
+                (None, Some(materials), Some(surfaces)) => self.add_rows(sums, pixels, |row| {
+                    let colour = materials.colour.get(surfaces.material[row] as usize);
+                    colour.map_or(DVec3::ZERO, |&colour| DVec3::from(colour))
+                }),
+                _ => {}
+            },
+            (LayerKind::DepthAlongRay, _) => self.add_rows(sums, pixels, |row| {
+                let length = self.rays.map_or(1.0, |own| own.direction_of(row).length());
+                DVec3::new(self.hits.t[row] * length, 0.0, 0.0)
+            }),
+            (LayerKind::DepthAlongAxis, _) => self.add_rows(sums, pixels, |row| {
                 let backward = self.table.world_from_camera.z_axis;
-                scalar(self.rays.map_or(0.0, |rays| -backward.dot(rays.point_at(row, self.hits.t[row]))))
-            }
-            LayerKind::Coverage | LayerKind::Entity | LayerKind::Samples | LayerKind::Variance => DVec3::ZERO,
+                let depth = self.rays.map_or(0.0, |rays| -backward.dot(rays.point_at(row, self.hits.t[row])));
+                DVec3::new(depth, 0.0, 0.0)
+            }),
+            (LayerKind::Position, None)
+            | (LayerKind::Coverage | LayerKind::Entity | LayerKind::Samples | LayerKind::Variance, _) => {}
         }
     }
 
-    fn albedo(&self, row: usize) -> DVec3 {
-        match (self.colours, self.materials, self.surfaces) {
-            (Some(colours), _, _) => DVec3::new(colours.r[row], colours.g[row], colours.b[row]),
-            // A surface that only emits has no material, and reflects no light.
-            (None, Some(materials), Some(surfaces)) => {
-                let colour = materials.colour.get(surfaces.material[row] as usize);
-                colour.map_or(DVec3::ZERO, |&colour| DVec3::from(colour))
-            }
-            _ => DVec3::ZERO,
+    /// Adds a value for each row that hit a surface.
+    #[inline(always)]
+    fn add_rows(&self, sums: &mut [Vec<f64>], pixels: Option<&PixelSamples>, value: impl Fn(usize) -> DVec3) {
+        let hit = (0..self.hits.rows()).filter(|&row| self.hits.shape[row] != NO_SHAPE);
+        let rows = hit.map(|row| (pixels.map_or(row, |pixels| pixels.pixel[row] as usize), value(row)));
+        match sums {
+            [x, y, z] => rows.for_each(|(pixel, value)| {
+                x[pixel] += value.x;
+                y[pixel] += value.y;
+                z[pixel] += value.z;
+            }),
+            sums => rows.for_each(|(pixel, value)| {
+                sums.iter_mut().enumerate().for_each(|(channel, sums)| sums[pixel] += value[channel]);
+            }),
         }
+    }
+
+    #[inline(always)]
+    fn normal(&self, row: usize) -> DVec3 {
+        self.surfaces.map_or(DVec3::ZERO, |surfaces| surfaces.get(row).normal.as_dvec3())
+    }
+
+    #[inline(always)]
+    fn shading_normal(&self, row: usize) -> DVec3 {
+        self.shading_normals.map_or_else(|| self.normal(row), |normals| normals.get(row))
+    }
+
+    #[inline(always)]
+    fn to_camera(&self, normal: DVec3) -> DVec3 {
+        self.table.world_from_camera.transpose() * normal
     }
 }
 
@@ -217,15 +253,11 @@ pub fn add_to_layers(
         }
         let materials = materials.as_deref().map(|materials| &**materials);
         let inputs = LayerInputs { table: &table, materials, rays, hits, surfaces, shading_normals, uvs, colours };
-        let mut components = layers.sums.iter_mut();
+        let mut sums = layers.sums.as_mut_slice();
         for kind in layers.kinds.iter().copied().filter(|kind| kind.is_mean()) {
-            let mut channels: Vec<&mut Vec<f64>> = components.by_ref().take(kind.channels().len()).collect();
-            for row in (0..hits.rows()).filter(|&row| hits.shape[row] != NO_SHAPE) {
-                let (pixel, value) = (pixel_of(row), inputs.value(kind, row));
-                for (channel, sums) in channels.iter_mut().enumerate() {
-                    sums[pixel] += value[channel];
-                }
-            }
+            let of_kind;
+            (of_kind, sums) = std::mem::take(&mut sums).split_at_mut(kind.channels().len());
+            inputs.add(kind, of_kind, samples);
         }
     }
 }

@@ -113,6 +113,13 @@ fn why_black(scene: &Census<'_>, pilot: &Pilot) -> String {
     if pilot.hits == 0 {
         return format!("none of {} rays hits a shape, and there is no background with a colour", pilot.rays);
     }
+    if does.max_depth == 1 {
+        return format!(
+            "at max_depth 1 a path has one segment, from a light to the camera, so that what emits nothing is black ({}); \
+             max_depth 2 illuminates it",
+            lights.reason
+        );
+    }
     if !sampled && does.samples_diffuse {
         let (found, rays) = (pilot.rays - pilot.black, pilot.rays);
         return format!(

@@ -96,9 +96,11 @@ pub fn place_samples(
 /// Draws a uniform point in [0, 1)² for each active pixel of a tile.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn draw_points<D: Draw>(draw: D, (active, tile, seed): (&[u32], &Tile, u64), xs: &mut [f64], ys: &mut [f64]) {
-    for (pixel, (x, y)) in tile.pixels_of(active).zip(xs.iter_mut().zip(ys)) {
-        let [right, down] = draw.two(PixelKey::new(seed, pixel));
-        (*x, *y) = (unit(right), unit(down));
+    for (run, [first, line]) in tile.runs_of(active) {
+        for ((x, y), column) in xs[run.clone()].iter_mut().zip(&mut ys[run]).zip(first..) {
+            let [right, down] = draw.two(PixelKey::new(seed, [column, line]));
+            (*x, *y) = (unit(right), unit(down));
+        }
     }
 }
 
@@ -114,9 +116,11 @@ fn fill_signs(cells: &FilterCells, xs: &[f64], ys: &[f64], signs: &mut [f32]) {
 /// The sum is taken in f64, where no bit of a 24-bit fraction is lost beside a pixel index below 2²⁸.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn spread<K: Kernel>((kernel, cells): (K, &FilterCells), active: &[u32], tile: &Tile, xs: &mut [f64], ys: &mut [f64]) {
-    for ([column, line], (x, y)) in tile.pixels_of(active).zip(xs.iter_mut().zip(ys)) {
-        *x = f64::from(column) + 0.5 + kernel.offset(*x, cells).0;
-        *y = f64::from(line) + 0.5 + kernel.offset(*y, cells).0;
+    for (run, [first, line]) in tile.runs_of(active) {
+        for ((x, y), column) in xs[run.clone()].iter_mut().zip(&mut ys[run]).zip(first..) {
+            *x = f64::from(column) + 0.5 + kernel.offset(*x, cells).0;
+            *y = f64::from(line) + 0.5 + kernel.offset(*y, cells).0;
+        }
     }
 }
 

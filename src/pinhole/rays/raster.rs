@@ -2,6 +2,7 @@ use super::sampling_evidence;
 use crate::plan::{Column, Evidence, Stage, StageKind, TileSystems, column};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use std::ops::Range;
 
 /// A rectangle of the image's pixels; its entity has the columns as components, with a row per pixel.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,15 +36,27 @@ impl Tile {
         [self.x + row % self.width, self.y + row / self.width]
     }
 
-    /// The pixels that rows in ascending order stand for, found without a division.
+    /// Splits rows in ascending order where a line of the tile ends or a row is left out: a range of `rows`, and the pixel
+    /// that the first of it stands for, each with its neighbours to the right.
     #[inline(always)]
-    pub(super) fn pixels_of(&self, rows: &[u32]) -> impl Iterator<Item = [u32; 2]> {
-        let (mut first, mut line) = (0, self.y);
-        rows.iter().map(move |&row| {
+    pub(super) fn runs_of(&self, rows: &[u32]) -> impl Iterator<Item = (Range<usize>, [u32; 2])> {
+        let (mut start, mut first, mut line) = (0, 0, self.y);
+        std::iter::from_fn(move || {
+            let row = *rows.get(start)?;
             while row - first >= self.width {
                 (first, line) = (first + self.width, line + 1);
             }
-            [self.x + (row - first), line]
+            let column = row - first;
+            let longest = ((self.width - column) as usize).min(rows.len() - start);
+            let own = &rows[start..start + longest];
+            // Rows ascend, so that as many as there are from the first to the last leave out none.
+            let length = match own[longest - 1] - row == longest as u32 - 1 {
+                true => longest,
+                false => own.iter().zip(row..).take_while(|(own, next)| *own == next).count(),
+            };
+            let run = start..start + length;
+            start = run.end;
+            Some((run, [self.x + column, line]))
         })
     }
 }
@@ -124,8 +137,16 @@ mod tests {
             assert_eq!(tile.row_of(x, y), Some(row));
         }
         let some: Vec<u32> = (0..tile.rows() as u32).filter(|row| row % 3 != 1).collect();
-        let walked: Vec<[u32; 2]> = tile.pixels_of(&some).collect();
-        assert_eq!(walked, some.iter().map(|&row| tile.pixel_of(row as usize)).collect::<Vec<_>>());
+        for rows in [some, (0..tile.rows() as u32).collect(), vec![34], vec![6, 7, 8], vec![]] {
+            let (mut walked, mut tried) = (Vec::new(), 0);
+            for (run, [x, y]) in tile.runs_of(&rows) {
+                assert_eq!(run.start, walked.len());
+                walked.extend(run.zip(x..).map(|(_, x)| [x, y]));
+                tried += 1;
+            }
+            assert_eq!(walked, rows.iter().map(|&row| tile.pixel_of(row as usize)).collect::<Vec<_>>());
+            assert!(rows.len() < tile.rows() || tried == tile.height, "{tried} runs for whole lines");
+        }
         assert_eq!(tile.row_of(63, 32), None);
         assert_eq!(tile.row_of(71, 32), None);
     }
