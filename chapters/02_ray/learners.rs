@@ -45,7 +45,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "I made the vector small by its largest part so that nothing overflows, and then divided by the length of v as the formula says, v being the one that I was given.",
             exercise(second_b),
-            "",
+            "the divided vector's own length",
         ),
         (
             "The largest part is the maximum of the three; I forgot that parts can be negative, so that the 'largest' may be 0 or turn the vector round.",

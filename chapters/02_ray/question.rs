@@ -137,6 +137,10 @@ fn question() -> Question<Vector, Option<Vector>> {
             Mistake::new(PASSED_OVER, |&v| {
                 unit(v).or_else(|| (largest(v) > 0.0 && largest(v).is_finite()).then_some([f64::NAN; 3]))
             }),
+            Mistake::new(
+                "v is divided by its largest part, then by the length of v; the divided vector's own length is meant",
+                |&v| unit(v).map(|_| divided(divided(v, largest(v)), length(v))),
+            ),
         ],
         hints: &[
             "divide by the length; then ask what has no direction at all",

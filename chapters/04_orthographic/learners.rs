@@ -49,7 +49,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "I thought that the screen point still runs from 0 to 1 with y down, so I brought it to −1 to 1 before I scaled it.",
             exercise(second_b),
-            "",
+            "from 0 to 1 with y down",
         ),
         (
             "The screen's x is already longer than its y by the aspect, so only y has to be scaled to the view height.",

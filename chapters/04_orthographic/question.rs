@@ -126,6 +126,10 @@ fn question() -> Question<Input, Ray> {
             Mistake::new(SPREAD, |&(screen, _)| with(spread(&(screen, 2.0), false), |(o, _)| *o = [0.0; 3])),
             Mistake::new(SPREADING, |i| (right(i).0, spread(&(i.0, 2.0), true).1)),
             Mistake::new(SPREADING, |i| (right(i).0, spread(&(i.0, 2.0), false).1)),
+            Mistake::new(
+                "the screen point is taken to run from 0 to 1 with y down; its origin is the centre, and y points up",
+                |&([x, y], h)| ray([2.0 * x - 1.0, 1.0 - 2.0 * y], h / 2.0),
+            ),
         ],
         hints: &[
             "all rays have the same direction; only the origin depends on the screen point",

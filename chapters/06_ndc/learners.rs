@@ -37,7 +37,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
             exercise(f),
             "a half is put in or taken off",
         ),
-        ("I know NDC from OpenGL, where they run from −1 to 1 with y up.", exercise(second_a), ""),
+        ("I know NDC from OpenGL, where they run from −1 to 1 with y up.", exercise(second_a), "with y up; they run"),
         (
             "I turned the product into a whole number first and then asked whether there is such a pixel; a whole number without sign cannot be below 0, so only the upper end needs asking.",
             exercise(second_b),

@@ -119,6 +119,10 @@ fn question() -> Question<Input, Pixel> {
                 Some(scaled(i, 0.0, |n, size| n.max(0.0) % size))
             }),
             Mistake::new(NEAREST_PIXEL, |i| Some(scaled(i, 0.0, |n, size| n.clamp(0.0, size)))),
+            Mistake::new(
+                "NDC are taken to run from −1 to 1 with y up; they run from 0 to 1, and y points down",
+                |&([x, y], w, h)| right(&([(x + 1.0) / 2.0, (1.0 - y) / 2.0], w, h)),
+            ),
         ],
         hints: &[
             "undo the division by the size, then ask in which unit square the raster point lies",

@@ -36,7 +36,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "I undid the three steps in the order in which they were made: the middle, then the sign, then the aspect.",
             exercise(second_a),
-            "",
+            "in the order in which they were made",
         ),
         (
             "Aspect is width over height; both are whole numbers, and I made the quotient an f64 after dividing.",

@@ -124,6 +124,9 @@ fn question() -> Question<Input, [f64; 2]> {
                 let aspect = w as f32 / h as f32;
                 [(x as f32 / aspect + 1.0) / 2.0, (1.0 - y as f32) / 2.0].map(f64::from)
             }),
+            Mistake::new("the steps are undone in the order in which they were made; undo the last step first", |i| {
+                answer(i, |x, a| (x + 1.0) / 2.0 / a, |y, _| -(y + 1.0) / 2.0)
+            }),
         ],
         hints: &[
             "write down x and y of the screen as the page has them, and solve each for NDC",

@@ -45,7 +45,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "I had learnt from the exercise that half the diagonal is √2 on the screen, and did not notice that this was for a square image.",
             exercise(second_a),
-            "",
+            "taken to be √2 heights",
         ),
         (
             "'The tangent is as many times larger as the half is longer', so I multiplied by the length across the axis and did not see that I was going the other way.",

@@ -8,7 +8,7 @@ use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, probes};
 use pinhole_lab::measure::oracle_camera::ExactCamera;
 use pinhole_lab::measure::ray_aim::Draws;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, SQRT_2};
 
 pub(super) type Input = (f64, FovAxis, u32, u32);
 
@@ -165,6 +165,10 @@ fn question() -> Question<Input, f64> {
                 let squares = i.2.wrapping_mul(i.2).wrapping_add(i.3.wrapping_mul(i.3));
                 along_if(i, FovAxis::Diagonal, |_| f64::from(squares).sqrt() / f64::from(i.3))
             }),
+            Mistake::new(
+                "the diagonal is taken to be √2 heights, as in a square; it is √(width² + height²), over the height",
+                |i| along_if(i, FovAxis::Diagonal, |_| SQRT_2),
+            ),
         ],
         hints: &[
             "at distance 1 the angle spans 2 tan(angle / 2) along its axis; how much is that along the height?",

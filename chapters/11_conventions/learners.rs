@@ -36,12 +36,12 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "'Two axes turned over are a rotation, which an orientation undoes', so only a mirror, one or three axes turned over, needs anything from me.",
             exercise(second_a),
-            "",
+            "a right-handed camera's axes are left",
         ),
         (
             "I turned each axis, and since a left-handed program's numbers come out mirrored without `Scale -1 1 1`, I mirrored x as well where the axes were left-handed.",
             exercise(second_b),
-            "",
+            "x is mirrored once more",
         ),
         (
             "I asked for one difference after the other and wrote `else if`, so that only the first that is found is mended.",

@@ -135,6 +135,14 @@ fn question() -> Question<Input, Vector> {
             ),
             Mistake::new(TWO, |i| signed(i, [Never, Never, Opposite])),
             Mistake::new(TWO, |i| signed(i, [Opposite, Opposite, Never])),
+            Mistake::new(
+                "a right-handed camera's axes are left as they are; each axis turns by itself, even where two do",
+                |&(v, x, y, z)| if x == (y == z) { turned(v, !x, !y, z) } else { v },
+            ),
+            Mistake::new(
+                "x is mirrored once more in a left-handed camera; the three signs have mended that already",
+                |&(v, x, y, z)| turned(v, !x ^ (x == (y == z)), !y, z),
+            ),
         ],
         hints: &[
             "the three axes are the same lines in both cameras; only which end is positive differs, axis by axis",

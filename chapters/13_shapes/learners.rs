@@ -49,7 +49,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "I used the page's (n·f ∓ h) / n·R with the centre between the corners, and took for h how large the box is, most − least.",
             exercise(second_b),
-            "",
+            "a whole size from the centre",
         ),
         (
             "Only what is ahead counts, so I began the entry at 0, and the entry is the answer; who is inside already is at the box at once.",

@@ -171,6 +171,11 @@ fn question() -> Question<Input, Answer> {
                 "the first or last face that is found counts; the ray hits two of them, and the nearer one is meant",
                 |i| faces_hit(i, |least, at, most| least <= at && at <= most).next(),
             ),
+            Mistake::new("the faces are put a whole size from the centre; half the size is meant", |&(o, d, l, m)| {
+                let half = (DVec3::from(m) - DVec3::from(l)) / 2.0;
+                let (least, most) = ((DVec3::from(l) - half).into(), (DVec3::from(m) + half).into());
+                ahead(by_slabs(&(o, d, least, most), Zero::Checked, &sorted, &common))
+            }),
         ],
         hints: &[
             "a box is what three slabs have in common: least ≤ x ≤ most for each coordinate by itself",

@@ -41,7 +41,11 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
             exercise(f),
             "cosines at the corners are mixed",
         ),
-        ("Light counts only if both normals see it, so I took the smaller of the two cosines.", exercise(second_a), ""),
+        (
+            "Light counts only if both normals see it, so I took the smaller of the two cosines.",
+            exercise(second_a),
+            "the smaller of the two cosines is taken",
+        ),
         (
             "The barycentric coordinates are u, v and what is left, so I gave u to the first corner's normal instead of the second's, and the rest to the last.",
             exercise(second_b),

@@ -137,6 +137,10 @@ fn question() -> Question<Input, f64> {
             Mistake::new("the normals are added without their weights", |i| {
                 right(&(i.0, i.1, [1.0; 3], i.3, i.4)) * mixed(&(i.0, i.1, [1.0; 3], i.3, i.4)).length()
             }),
+            Mistake::new(
+                "the smaller of the two cosines is taken; the surface's own only tells whether any light falls at all",
+                |i| faced(i).dot(light(i)).min(turned(i).dot(light(i))).max(0.0),
+            ),
         ],
         hints: &[
             "three steps: mix the corners' normals by the weights; see on which side of the triangle eye and light are; \

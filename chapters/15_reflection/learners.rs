@@ -44,7 +44,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "The mirror direction is twice the normal less the light's direction; I left out how long the light's part along the normal is, and brought the vector to length 1.",
             exercise(second_a),
-            "",
+            "normalising does not replace it",
         ),
         (
             "No more may leave than arrives, so the matte part gets only what the highlight leaves over, 1 − specular.",

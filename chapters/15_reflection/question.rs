@@ -111,6 +111,14 @@ fn question() -> Question<Input, f64> {
             Mistake::new("the mirrored direction has a wrong sign: it is 2(n·l)n − l", |i| {
                 sent(i, lobe(i, alpha(i) + 2.0 * towards_light(i)), lit(i))
             }),
+            Mistake::new(
+                "n·l is missing in the mirrored direction, and normalising does not replace it: it is 2(n·l)n − l",
+                |i| {
+                    let [normal, to_light] = [i.2, i.3].map(DVec3::from);
+                    let cosine = (2.0 * normal - to_light).normalize().dot(i.4.into());
+                    sent(i, phong_peak(i.0[2]) * cosine.max(0.0).powf(i.0[2]), lit(i))
+                },
+            ),
             Mistake::new("the highlight is about the light itself; it is about the mirrored light", |i| {
                 sent(i, lobe(i, towards_light(i)), lit(i))
             }),

@@ -36,7 +36,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "The area grows by the fraction in an even stripe and falls by it in an odd one; I forgot that at the start of an odd stripe 1 has already been gathered.",
             exercise(second_a),
-            "",
+            "that the even stripe before it has gathered",
         ),
         (
             "The zigzag repeats every 2, so I took x % 2 and forgot that this is negative below 0.",

@@ -58,6 +58,10 @@ fn question() -> Question<Input, f64> {
         Mistake::new("the area grows on over the odd stripes; there it falls back to 0", |i| {
             by_area(i, |x| x.rem_euclid(2.0).min(1.0), |x| x.rem_euclid(2.0) < 1.0)
         }),
+        Mistake::new(
+            "in an odd stripe the area starts from 0; it falls from the 1 that the even stripe before it has gathered",
+            |i| by_area(i, |x| (x - x.floor()) * wave(x), |x| wave(x) > 0.0),
+        ),
         Mistake::new("a range without width has no mean by division: it is its one point", |&(x, w)| {
             if w == 0.0 { f64::NAN } else { wave_mean(x, w) }
         }),

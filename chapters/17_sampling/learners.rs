@@ -24,7 +24,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "numbers from −1 to 1, and the inverse of a square is a root, so the root with the sign kept",
             exercise(c),
-            "counted from the rim",
+            "not from the rim",
         ),
         ("the area up to x is (x + r)²/2r², so x = r √(2u) − r, everywhere", exercise(d), "left slope goes on"),
         (
@@ -40,7 +40,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "The area under a straight line is a square, so I take a root of how far u is from the middle, with its sign.",
             exercise(second_a),
-            "",
+            "counted from the centre, not from the rim",
         ),
         (
             "More samples should be near the centre, so I took the box's place from −1 to 1 and squared it, keeping its sign.",

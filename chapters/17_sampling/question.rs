@@ -28,7 +28,7 @@ fn question() -> Question<Input, f64> {
         mistakes: vec![
             Mistake::new("a step of u is a step of the place: that is a box", |&(u, r)| (2.0 * u - 1.0) * r),
             Mistake::new(
-                "the area is counted from the rim, so that most samples land there; a tent is highest in the middle",
+                "the root is of the area counted from the centre, not from the rim; a tent is highest in the middle",
                 |i| both_sides(i, |s| s.sqrt()),
             ),
             Mistake::new("the square root is missing; the area of a triangle grows as a square", |i| {

@@ -54,7 +54,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "I take the part along the normal away (once), and since the result is then too short I make its length 1 again.",
             exercise(second_c),
-            "",
+            "normalising does not replace it",
         ),
     ]
 }

@@ -60,6 +60,13 @@ fn question() -> Question<Input, Vector> {
             Mistake::new("the 2 is missing: the part along the normal is taken off, and not turned round", |input| {
                 turned(input, -1.0, 0)
             }),
+            Mistake::new(
+                "the 2 is missing, and normalising does not replace it: the part along the normal must be turned round",
+                |input| {
+                    let along_the_mirror = DVec3::from(turned(input, -1.0, 2));
+                    (along_the_mirror / along_the_mirror.length()).into()
+                },
+            ),
             Mistake::new("the part along the normal is taken off four times; twice turns it round", |input| {
                 turned(input, -4.0, 2)
             }),

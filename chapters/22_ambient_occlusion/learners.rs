@@ -50,7 +50,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "I remembered the Phong lobe: for a power n of the cosine, z is a number to the power 1/(n + 2), with n = 1 a cube root.",
             exercise(second_c),
-            "",
+            "goes with the cosine squared",
         ),
     ]
 }

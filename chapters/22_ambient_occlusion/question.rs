@@ -76,6 +76,13 @@ fn question() -> Question<Input, [f64; 3]> {
                 |&(u, v)| raised((u * (2.0 - u)).sqrt(), TAU * v, 1.0 - u),
             ),
             Mistake::new(
+                "z is a cube root, which goes with the cosine squared; for the cosine itself it is the root of 1 − u",
+                |&(u, v)| {
+                    let z = (1.0 - u).cbrt();
+                    raised((1.0 - z * z).max(0.0).sqrt(), TAU * v, z)
+                },
+            ),
+            Mistake::new(
                 "those are directions of the whole sphere; asked are those of the hemisphere about +z",
                 |&(u, v)| raised(2.0 * (u * (1.0 - u)).sqrt(), TAU * v, 1.0 - 2.0 * u),
             ),

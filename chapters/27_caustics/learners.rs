@@ -45,7 +45,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "d times the cosine is the depth −z, so I simplified the distance and the cosines together to the depth cubed.",
             exercise(second_b),
-            "",
+            "is taken for (−z)³",
         ),
         (
             "From photography I know that it is the fourth power of the cosine, and I trusted that more than the page.",

@@ -90,6 +90,9 @@ fn question() -> Question<Input, f64> {
             Mistake::new("cos θ is −z / d, not −z", |&input| {
                 ahead(input, fraction(input, 3, distance(input).powi(-3)))
             }),
+            Mistake::new("d² cos³ θ is taken for (−z)³; as cos θ is −z / d, it is (−z)³ / d", |&input| {
+                ahead(input, fraction(input, 3, 1.0 / distance(input)))
+            }),
             Mistake::new("A is the area of a pixel, its side squared", |&input| {
                 ahead(input, fraction(input, 3, side(input)))
             }),

@@ -54,7 +54,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "The ray hits the box if it is in every one of the three slabs at some t from 0 to t_max, so I checked slab after slab.",
             exercise(second_c),
-            "",
+            "at a t of its own",
         ),
     ]
 }

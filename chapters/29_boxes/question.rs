@@ -73,6 +73,7 @@ fn question() -> Question<Input, bool> {
                 from_first_to_last,
             ),
             Mistake::new("one slab is enough for a hit; the ray must be in all three at once", in_one_slab),
+            Mistake::new("each slab is asked at a t of its own; the ray must be in all three at once", in_each_slab),
             Mistake::new("a ray that goes towards smaller coordinates enters by the upper plane", |input| {
                 in_order(input, [1.0; 3])
             }),
@@ -173,6 +174,15 @@ fn in_one_slab(input: &Input) -> bool {
     (0..3).any(|axis| {
         let [one, other] = crossed(input, axis);
         one.min(other).max(0.0) <= one.max(other).min(input.4)
+    })
+}
+
+/// Each slab by itself; one whose plane the ray lies in counts.
+fn in_each_slab(input: &Input) -> bool {
+    (0..3).all(|axis| {
+        let [one, other] = crossed(input, axis);
+        let (enters, leaves) = if input.1[axis].is_sign_negative() { (other, one) } else { (one, other) };
+        enters.max(0.0) <= leaves.min(input.4)
     })
 }
 

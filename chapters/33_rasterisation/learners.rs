@@ -44,17 +44,17 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "The inside is to the right of the edge, so I compute the edge's x at the height of the sample and ask whether the sample's is larger.",
             exercise(second_a),
-            "",
+            "on the image's right",
         ),
         (
             "I wrote the area down from memory and measured the sample's y from the edge's end, but its x from the beginning.",
             exercise(second_b),
-            "",
+            "measured from different ends",
         ),
         (
             "A pixel is sampled in its middle, and half a pixel is 128 of these steps, so I added 128 to the sample's coordinates.",
             exercise(second_c),
-            "",
+            "half a pixel is added to the sample",
         ),
     ]
 }

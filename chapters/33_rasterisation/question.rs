@@ -53,6 +53,10 @@ fn question() -> Question<Input, bool> {
                 -area(input) >= 0
             }),
             Mistake::new(
+                "the inside is taken to be on the image's right; if an edge goes down, its right is the image's left",
+                to_the_right_in_the_image,
+            ),
+            Mistake::new(
                 "level edges are forgotten: a top edge belongs to the triangle, a bottom edge does not",
                 |input| by_rule(input, |_, dy| dy < 0),
             ),
@@ -106,6 +110,14 @@ fn question() -> Question<Input, bool> {
                 let &([fx, fy], [tx, ty], [x, y]) = input;
                 at([tx - fx, ty - fy].map(i64::from), [x, y].map(i64::from), |[dx, dy], [x, y]| dx * y - dy * x)
             }),
+            Mistake::new(
+                "the sample's x and y are measured from different ends of the edge: subtract `from` from both",
+                |input| moved(input, [0, input.0[1] - input.1[1]]),
+            ),
+            Mistake::new(
+                "half a pixel is added to the sample; its coordinates already say exactly where it is",
+                |input| moved(input, [128, 128]),
+            ),
             Mistake::new("the edge's end is taken for its direction: subtract `from` from `to`", |input| {
                 let &([fx, fy], to, [x, y]) = input;
                 at(to.map(i64::from), [x - fx, y - fy].map(i64::from), |[dx, dy], [x, y]| dx * y - dy * x)
@@ -157,6 +169,23 @@ fn summed(&([fx, fy], [tx, ty], [x, y]): &Input, function: fn([i64; 2], [i64; 2]
 fn at([dx, dy]: [i64; 2], sample: [i64; 2], function: fn([i64; 2], [i64; 2]) -> i64) -> bool {
     let area = function([dx, dy], sample);
     area > 0 || (area == 0 && (dy < 0 || (dy == 0 && dx > 0)))
+}
+
+/// With the sample further to the right and further down.
+fn moved(&(from, to, [x, y]): &Input, [right, down]: [i32; 2]) -> bool {
+    let input = (from, to, [x + right, y + down]);
+    area(&input) > 0 || (area(&input) == 0 && on_top_left(&input))
+}
+
+/// To the right of the edge's line, or below a level one, whatever the direction of the edge.
+fn to_the_right_in_the_image(input: &Input) -> bool {
+    let &([_, fy], [_, ty], [_, y]) = input;
+    let side = match (ty - fy).signum() {
+        -1 => area(input),
+        0 => i64::from(y - fy),
+        _ => -area(input),
+    };
+    side > 0 || (side == 0 && on_top_left(input))
 }
 
 fn divided(&(from, to, sample): &Input, divide: fn(i32) -> i32) -> bool {

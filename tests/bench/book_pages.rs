@@ -1,4 +1,5 @@
-//! All pages of the built book in a headless Chromium: 1,280 and 390 pixels wide, light and dark, everything unfolded.
+//! All pages and slides of the built book in a headless Chromium: 1,280 and 390 pixels wide, light and dark, everything
+//! unfolded.
 //!
 //! `cargo test -p book --bench pages`, after `cargo run -p book`; `PINHOLE_VIEW_PICTURES=folder` keeps a picture of each.
 //! It fails where a page complains on the console, asks anything of another machine, or is wider than the window, and
@@ -30,7 +31,12 @@ const STICKING_OUT: &str = r#"(async () => {
 
 fn main() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../out/book");
-    let mut pages: Vec<PathBuf> = folder.read_dir().into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+    let name_of = |page: &Path| {
+        let name = page.strip_prefix(&folder).unwrap_or(page).with_extension("");
+        name.to_string_lossy().replace('\\', "/")
+    };
+    let inside = |folder: PathBuf| folder.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut pages: Vec<PathBuf> = inside(folder.clone()).chain(inside(folder.join("slides"))).collect();
     pages.retain(|page| page.extension().is_some_and(|extension| extension == "html") && !page.ends_with("toc.html"));
     pages.sort();
     if pages.is_empty() {
@@ -49,7 +55,7 @@ fn main() {
             let words = format!("try {{ localStorage.setItem('mdbook-theme', '{theme}') }} catch {{}}");
             let script = browser.call("Page.addScriptToEvaluateOnNewDocument", &json!({ "source": words }));
             for page in &pages {
-                let name = page.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                let name = name_of(page);
                 browser.call("Page.navigate", &json!({ "url": address(page) }));
                 browser.until(&format!(
                     "location.pathname.endsWith('/{name}.html') && document.readyState === 'complete' \
@@ -60,7 +66,7 @@ fn main() {
                 let complaints = std::mem::take(&mut browser.errors);
                 let place = format!("{name}, {width} pixels, {theme}");
                 problems.extend(found.chain(complaints).map(|what| format!("{place}: {what}")));
-                browser.photograph(&format!("{name}_{width}_{theme}"));
+                browser.photograph(&format!("{}_{width}_{theme}", name.replace('/', "_")));
                 looked += 1;
             }
             browser.call("Page.removeScriptToEvaluateOnNewDocument", &script);

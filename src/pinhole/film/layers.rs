@@ -149,15 +149,16 @@ impl LayerInputs<'_> {
                 self.add_rows(sums, pixels, |row| eye + own.get(row).position.as_dvec3());
             }
             (LayerKind::Normal, _) => self.add_rows(sums, pixels, |row| self.normal(row)),
-            (LayerKind::NormalCamera, _) => self.add_rows(sums, pixels, |row| self.to_camera(self.normal(row))),
+            (LayerKind::NormalCamera, _) => self.add_rows(sums, pixels, |row| self.in_camera_space(self.normal(row))),
             (LayerKind::ShadingNormal, _) => self.add_rows(sums, pixels, |row| self.shading_normal(row)),
             (LayerKind::ShadingNormalCamera, _) => {
-                self.add_rows(sums, pixels, |row| self.to_camera(self.shading_normal(row)));
+                self.add_rows(sums, pixels, |row| self.in_camera_space(self.shading_normal(row)));
             }
-            (LayerKind::Uv, _) => match self.uvs {
-                Some(uvs) => self.add_rows(sums, pixels, |row| DVec3::new(uvs.u[row], uvs.v[row], 0.0)),
-                None => {}
-            },
+            (LayerKind::Uv, _) => {
+                if let Some(uvs) = self.uvs {
+                    self.add_rows(sums, pixels, |row| DVec3::new(uvs.u[row], uvs.v[row], 0.0));
+                }
+            }
             (LayerKind::Albedo, _) => match (self.colours, self.materials, self.surfaces) {
                 (Some(colours), _, _) => {
                     self.add_rows(sums, pixels, |row| DVec3::new(colours.r[row], colours.g[row], colours.b[row]));
@@ -211,7 +212,7 @@ impl LayerInputs<'_> {
     }
 
     #[inline(always)]
-    fn to_camera(&self, normal: DVec3) -> DVec3 {
+    fn in_camera_space(&self, normal: DVec3) -> DVec3 {
         self.table.world_from_camera.transpose() * normal
     }
 }
