@@ -7,6 +7,7 @@ use pinhole::plan::{Census, plan};
 use pinhole::render::render;
 use pinhole::scene::*;
 use pinhole_lab::measure::extremes::{Group, try_group};
+use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::measure::torus_knot::torus_knot;
 use pinhole_lab::measure::visibility::compare_visibility;
 
@@ -79,6 +80,39 @@ fn chapters_that_rasterise_see_what_rays_see() {
         compared += 1;
     }
     assert!(compared >= 2, "{compared} chapters rasterise");
+}
+
+/// Cameras in the middle of things: the near plane of an orthographic one cuts triangles before its pixels, and beside the
+/// eye of the others a ground's edges end 10¹⁴ pixels away.
+#[test]
+fn what_the_near_plane_cuts_is_seen_as_by_rays() {
+    let knot = MeshGeometry::new(torus_knot(160, 24));
+    let (mut pixels, mut differ) = (0, 0);
+    for index in 0..800 {
+        let mut draws = Draws::new(1605, index);
+        let mut world = World::new();
+        let eye = draws.unit_vector() * draws.between(0.0, 3.0);
+        let look = LookAt { eye, target: draws.unit_vector() * 2.0, up: draws.unit_vector() };
+        let mut camera = world.spawn((look, Resolution { width: 96, height: 54 }, Integrator::RayCasting));
+        if index % 2 == 0 {
+            camera.insert(OrthographicCamera { view_height: draws.power_of_ten(-1.0, 1.0) });
+            world.spawn((MeshInstance { geometry: knot.clone() }, Matte::default()));
+        } else {
+            camera
+                .insert(PerspectiveCamera { fov: Degrees(draws.between(5.0, 150.0)), ..PerspectiveCamera::default() });
+            let corner = |x: f64, z: f64| DVec3::new(x * 1e4, -2.0, z * 1e4);
+            let [one, two, three, four] =
+                [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)].map(|(x, z)| corner(x, z));
+            for vertices in [[one, two, three], [one, three, four]] {
+                world.spawn((Triangle { vertices, ..Triangle::default() }, Matte::default()));
+            }
+        }
+        let seen = compare_visibility(&mut world).expect("valid");
+        assert!(seen.unexplained.is_empty(), "camera {index}: {seen:?}");
+        (pixels, differ) = (pixels + seen.pixels, differ + seen.differ);
+    }
+    assert!(differ > 0, "not one pixel differs, so nothing was explained");
+    eprintln!("800 cameras: {differ} of {pixels} pixels see another triangle, each of them explained");
 }
 
 /// Samples anywhere in their pixels, in passes over some of a tile's pixels, in tiles of any size.

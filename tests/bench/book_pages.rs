@@ -22,7 +22,8 @@ const STICKING_OUT: &str = r#"(async () => {
   const scrolled = [...document.querySelectorAll("main :is(SCROLLED)")].filter((it) => it.scrollWidth > it.clientWidth + 1);
   const found = scrolled.map((it) => `${named(it)} is ${it.scrollWidth - it.clientWidth} pixels too wide`);
   if (document.documentElement.scrollWidth > width + 1) {
-    found.push(`the page is ${document.documentElement.scrollWidth} pixels wide`);
+    const beyond = [...document.querySelectorAll("main *")].filter((it) => it.getBoundingClientRect().right > width + 1);
+    found.push(`the page is ${document.documentElement.scrollWidth} pixels wide: ${beyond.slice(0, 3).map(named).join(", ")}`);
   }
   const asked = performance.getEntriesByType("resource").map((it) => it.name);
   found.push(...asked.filter((name) => !/^(file|blob|data):/.test(name)).map((name) => `it asks for ${name}`));

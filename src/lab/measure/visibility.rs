@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use pinhole::extract::{MeshTable, ShapeTable, TriangleTable, camera_entity};
 use pinhole::intersect::{HitPrimitives, Hits, NO_SHAPE};
 use pinhole::plan::Census;
-use pinhole::rasterise::{ClipPlanes, NearnessPlane, Projection, SUBPIXELS};
+use pinhole::rasterise::{ClipPlanes, ClipPoint, NearnessPlane, Projection, SUBPIXELS, clip_from_camera};
 use pinhole::rays::RasterPoints;
 use pinhole::render::{first_bounce_only, inspect};
 use pinhole::scene::Rasterisation;
@@ -138,29 +138,53 @@ impl Explanation {
     }
 
     /// Whether an edge of what was seen passes the raster point so closely that rounding decides.
+    ///
+    /// Where the near plane cuts a triangle, what is rasterised of it has one edge more, whose ends are rounded alike.
     fn at_an_edge(&self, seen: &Seen) -> bool {
         let Some(corners) = self.corners(seen) else { return false };
         let corners = corners.map(|corner| self.projection.camera_from_world * corner);
-        [(0, 1), (1, 2), (2, 0)]
-            .iter()
-            .any(|&(from, to)| self.distance(corners[from], corners[to], seen.raster) <= self.rounding)
+        let edges = [(0, 1), (1, 2), (2, 0)].map(|(from, to)| [corners[from], corners[to]]);
+        let cuts: Vec<DVec3> = edges.iter().filter_map(|&edge| self.cut(edge)).collect();
+        let cut = <[DVec3; 2]>::try_from(cuts).ok();
+        let in_front = edges.iter().filter_map(|&edge| Some((edge, self.in_front(edge)?)));
+        let cut = cut.map(|cut| (cut, cut));
+        in_front.chain(cut).any(|(edge, part)| self.distance(edge, part, seen.raster) <= self.rounding)
     }
 
-    /// The distance of a raster point from an edge in camera space, as far as that is in front of the near plane.
-    fn distance(&self, from: DVec3, to: DVec3, raster: DVec2) -> f64 {
+    /// Where the near plane cuts an edge in camera space.
+    fn cut(&self, [from, to]: [DVec3; 2]) -> Option<DVec3> {
         let near = self.planes.near;
-        let (from, to) = if from.z < to.z { (from, to) } else { (to, from) };
-        if -from.z < near {
-            return f64::INFINITY;
+        ((-from.z < near) != (-to.z < near)).then(|| from + (to - from) * ((-near - from.z) / (to.z - from.z)))
+    }
+
+    /// The part of an edge that the near plane leaves.
+    fn in_front(&self, edge: [DVec3; 2]) -> Option<[DVec3; 2]> {
+        let is_in_front = |camera: &DVec3| -camera.z >= self.planes.near;
+        match (edge.iter().filter(|camera| is_in_front(camera)).count(), self.cut(edge)) {
+            (2, _) => Some(edge),
+            (1, Some(cut)) => Some(edge.map(|camera| if is_in_front(&camera) { camera } else { cut })),
+            _ => None,
         }
-        let to = if -to.z < near { from + (to - from) * ((-near - from.z) / (to.z - from.z)) } else { to };
-        let [from, to] = [from, to].map(|camera| {
-            let Projection { half, is_perspective, .. } = self.projection;
-            self.projection.raster(pinhole::rasterise::clip_from_camera(camera, half, is_perspective)) - raster
-        });
+    }
+
+    /// The distance of a raster point from the part of an edge in camera space that is in front of the near plane.
+    ///
+    /// An edge cut close to the eye ends 10¹⁴ pixels away, where the last digit of a raster coordinate is 1/64, so the
+    /// distance is that from the whole edge's line, in homogeneous coordinates about the raster point.
+    fn distance(&self, edge: [DVec3; 2], part: [DVec3; 2], raster: DVec2) -> f64 {
+        let Projection { half, is_perspective, size, .. } = self.projection;
+        let about_raster = |camera: DVec3| {
+            let ClipPoint { x, y, w, .. } = clip_from_camera(camera, half, is_perspective);
+            (0.5 * size * DVec2::new(w + x, w - y) - raster * w).extend(w)
+        };
+        let [from, to] = part.map(about_raster).map(|end| end.truncate() / end.z);
         let along = to - from;
-        let fraction = (-from.dot(along) / along.length_squared()).clamp(0.0, 1.0);
-        (from + along * if fraction.is_finite() { fraction } else { 0.0 }).length()
+        if from.dot(along) >= 0.0 || to.dot(along) <= 0.0 {
+            return from.length().min(to.length());
+        }
+        let [from, to] = edge.map(about_raster);
+        let line = from.cross(to);
+        line.z.abs() / line.truncate().length()
     }
 
     /// Whether two surfaces are equally near within the rounding of the sample.
