@@ -4,6 +4,8 @@
 //! sizes each; the slopes between the sizes leave out all that a program does once.
 //! Instructions are counted by callgrind, bytes allocated by dhat, on one thread; images are compared byte by byte.
 //! valgrind shows its guests no AVX-512, so the kernels for AVX2 run.
+//!
+//! `-- --against FOLDER` counts what samples of chapters cost here and in another checkout, both built with `--release`.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 use pinhole::film::{film_stage, write_checkpoint, write_exr};
@@ -182,8 +184,62 @@ fn main() {
         println!("instructions: valgrind is not installed here; nothing was counted");
         return;
     }
+    if let Some(at) = words.iter().position(|word| word == "--against") {
+        return against(Path::new(words.get(at + 1).expect("a folder")));
+    }
     let most = CASES.iter().map(compare).fold(0.0_f64, f64::max);
     assert!(most <= MOST, "a scene pays for what it does not use: {most:.4} times the instructions, at most {MOST}");
+}
+
+/// Chapters that rasterise nothing; together they have all kinds of shapes, lights and integrators.
+const TRACED: [&str; 17] = [
+    "10_light_and_shadow",
+    "13_shapes",
+    "14_transforms",
+    "16_textures",
+    "17_sampling",
+    "19_mirrors",
+    "20_glass",
+    "21_soft_shadows",
+    "22_ambient_occlusion",
+    "23_depth_of_field",
+    "24_motion_blur",
+    "25_path_tracing",
+    "26_choosing_samples",
+    "27_caustics",
+    "28_meshes",
+    "29_boxes",
+    "31_wide_tree",
+];
+
+/// Prints how many instructions twelve samples more of each pixel take, here as a multiple of another checkout's.
+///
+/// Before a picture is rendered, a few rays are traced for so many milliseconds; the same number of pixels leaves that out.
+fn against(other: &Path) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut most = 0.0_f64;
+    for chapter in TRACED {
+        let [own, others] = [Path::new(env!("CARGO_MANIFEST_DIR")), other].map(|checkout| {
+            let exr = folder.path().join("picture.exr");
+            let [few, many] = ["4", "16"].map(|samples| {
+                let mut tool = callgrind();
+                tool.current_dir(checkout)
+                    .arg("target/release/pinhole")
+                    .args(["render", chapter, "--quiet", "-j", "1"]);
+                tool.args(["--size", "96x64", "-n", samples, "-o"]).arg(&exr);
+                count(tool, "Collected :")
+            });
+            (many - few, fs::read(exr).expect("a picture"))
+        });
+        let (ratio, same) = (own.0 / others.0, if own.1 == others.1 { "the same picture" } else { "another picture" });
+        println!(
+            "{chapter}: {:.1} million instructions, {ratio:.4} times the other's {:.1}; {same}",
+            own.0 / 1e6,
+            others.0 / 1e6
+        );
+        most = most.max(ratio);
+    }
+    assert!(most <= MOST, "a chapter takes {most:.4} times the instructions, at most {MOST}");
 }
 
 /// Renders a case at a size by the stages that it needs, with the others on offer or without them.

@@ -67,7 +67,9 @@ fn told(what: &str, mut took: Vec<f64>) -> f64 {
     median
 }
 
+/// Clicks what a selector finds, as soon as it is there: lists are made anew with each picture.
 fn click(browser: &mut Browser, selector: &str) {
+    browser.until(&format!("document.querySelector({})", json!(selector)));
     browser.value(&format!("document.querySelector({}).click()", json!(selector)));
 }
 
