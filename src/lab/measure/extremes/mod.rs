@@ -46,6 +46,7 @@ mod triangle_surface;
 
 pub use case::{Case, Method, Outcome, Score, Tally, Trial, Worst};
 pub use print::Words;
+pub use rasterisation::seen_by;
 
 use pinhole::render::Watch;
 use rayon::prelude::*;
