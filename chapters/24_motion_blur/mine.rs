@@ -22,9 +22,11 @@ pub fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
                         let still = at_rest(origin, velocity, time);
                         let t = match body {
                             Body::Sphere(PlacedSphere { centre, radius }, ()) => {
-                                let (o, d) = (origin.into(), direction.into());
+                                // The reader is promised a direction of length 1, which f32 is not to the last digit.
+                                let length = direction.length();
+                                let (o, d) = (origin.into(), (direction / length).into());
                                 let asked = (o, d, (*centre).into(), *radius, velocity.into(), time);
-                                ask.at(place, row, asked).flatten().unwrap_or(f64::INFINITY)
+                                ask.at(place, row, asked).flatten().map_or(f64::INFINITY, |t| t / length)
                             }
                             other => other.t(still, direction),
                         };

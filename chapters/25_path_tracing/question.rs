@@ -103,10 +103,13 @@ fn question() -> Question<Input, [f64; 3]> {
                     ended_below(input, 1.0 - survival, survival)
                 },
             ),
-            Mistake::new("a number that is just the probability ends the path: it goes on only below that", |input| {
-                let survival = survival_probability(input.0);
-                if input.1 <= survival { input.0.map(|part| part / survival) } else { [0.0; 3] }
-            }),
+            Mistake::new(
+                "a path goes on where the number is just the probability; it goes on only below that",
+                |input| {
+                    let survival = survival_probability(input.0);
+                    if input.1 <= survival { input.0.map(|part| part / survival) } else { [0.0; 3] }
+                },
+            ),
             Mistake::new(
                 "a probability above 1 divides light away; it is at most 1, and then nothing changes",
                 |input| {

@@ -12,8 +12,8 @@ pub fn solved() -> Exercise {
 /// The wrong solutions.
 pub fn all() -> Vec<(Exercise, &'static str)> {
     vec![
-        (exercise(|point, t, h| shared(point, 2.0 * t / h, 2, 4)), "not cos⁴"),
-        (exercise(|point, t, h| shared(point, 2.0 * t / h, 2, 1)), "not cos:"),
+        (exercise(|point, t, h| shared(point, 2.0 * t / h, 2, 4)), "cos⁴ is taken"),
+        (exercise(|point, t, h| shared(point, 2.0 * t / h, 2, 1)), "cos is taken"),
         (exercise(|point, t, h| shared(point, 2.0 * t / h, 2, 0)), "cos³ θ is missing"),
         (exercise(|point, t, h| shared(point, 2.0 * t / h, 1, 3)), "its side squared"),
         (exercise(|point, t, h| shared(point, 2.0 * t / h, 0, 3)), "area A is missing"),

@@ -46,21 +46,21 @@ fn question() -> Question<Input, f64> {
         allowed: 1e-10,
         measured: "of the fraction",
         mistakes: vec![
-            Mistake::new("what lies behind the eye reaches no pixel; there the fraction is 0", |&input| {
+            Mistake::new("a point behind the eye counts; it reaches no pixel, so the fraction is 0", |&input| {
                 fraction(input, 3, 1.0).abs()
             }),
-            Mistake::new("what lies behind the eye reaches no pixel; there the fraction is 0", |&input| {
+            Mistake::new("a point behind the eye counts; it reaches no pixel, so the fraction is 0", |&input| {
                 fraction(input, 3, 1.0)
             }),
             Mistake::new(
-                "cos³, not cos⁴: the fourth belongs to an opening, which is seen obliquely too, and an eye is a point",
+                "cos⁴ is taken; it is cos³: the fourth belongs to an opening, which is seen obliquely too, and an eye is a point",
                 |&input| ahead(input, fraction(input, 4, 1.0)),
             ),
             Mistake::new(
-                "cos³, not cos²: the depth is d cos θ, so 1 / (A d² cos³ θ) is more than 1 / (A depth²)",
+                "cos² is taken; it is cos³: the depth is d cos θ, so 1 / (A d² cos³ θ) is more than 1 / (A depth²)",
                 |&input| ahead(input, fraction(input, 2, 1.0)),
             ),
-            Mistake::new("cos³, not cos: 1/d² is not yet all that the angle does", |&input| {
+            Mistake::new("cos is taken; it is cos³: 1/d² is not yet all that the angle does", |&input| {
                 ahead(input, fraction(input, 1, 1.0))
             }),
             Mistake::new("cos³ θ is missing: a pixel off the axis fills a smaller solid angle", |&input| {

@@ -14,7 +14,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "a vector is turned by x X + y Y + z Z, so I do that with the origin and the direction (the inverse of the turn forgotten), then undo the scale",
             exercise(a),
-            "back to the world",
+            "object to world space",
         ),
         (
             "a ray's direction has length 1 everywhere else, so I normalise it in object space too",
@@ -40,7 +40,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "The axes are the columns of the matrix, so I multiplied by it as usual: x times the first axis plus y times the second plus z times the third.",
             exercise(second_a),
-            "the axes take a vector back to the",
+            "object to world space",
         ),
         (
             "I undid the scale first and the turn afterwards, the order in which they were applied.",

@@ -16,7 +16,7 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
         (exercise(|o, d, p, axes, s| [ray_in_object_space(o, d, p, axes, s)[0], moved(d, p, axes, s)]), "no place"),
         (exercise(|o, d, p, axes, _| ray_in_object_space(o, d, p, axes, [1.0; 3])), "scale is left out"),
         (exercise(|o, d, p, axes, s| ray_in_object_space(o, d, p, axes, s.map(|part| 1.0 / part))), "multiplied"),
-        (exercise(|o, d, p, axes, s| ray_in_object_space(o, d, p, across(axes), s)), "back to the world"),
+        (exercise(|o, d, p, axes, s| ray_in_object_space(o, d, p, across(axes), s)), "object to world space"),
         (exercise(|o, d, _, axes, s| ray_in_object_space(o, d, [0.0; 3], axes, s)), "position"),
     ]
 }

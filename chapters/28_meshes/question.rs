@@ -73,7 +73,7 @@ fn question() -> Question<Input, Answer> {
                     .map(|v| turned_back(axes, v / DVec3::from(scale)).into())
             }),
             Mistake::new(
-                "the axes take a vector back to the world; to object space each component is its product with one axis",
+                "the vector is taken from object to world space; to object space each component is its product with one axis",
                 |input| {
                     let &(o, d, position, axes, scale) = input;
                     right(&(o, d, position, transposed(axes), scale))

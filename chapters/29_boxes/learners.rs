@@ -14,7 +14,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "a ray that enters and leaves at the same t is not in the box for any time, so the comparison is <",
             exercise(a),
-            "from = until",
+            "flat boxes and edges are lost",
         ),
         (
             "the largest entry and the smallest exit start at −∞ and t_max (boxes behind the origin count)",

@@ -14,7 +14,7 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
     vec![
         (exercise(min_and_max), "pass over NaN"),
         (exercise(|o, i, l, h, _| enters_box(o, i, l, h, f64::INFINITY)), "beyond t_max"),
-        (exercise(strictly), "from = until"),
+        (exercise(strictly), "flat boxes and edges are lost"),
         (exercise(lower_first), "upper plane"),
     ]
 }

@@ -47,12 +47,14 @@ fn question() -> Question<Input, bool> {
             Mistake::new("a box counts wherever it is on the line: t is from 0 to t_max", |input| {
                 entered(input).is_some_and(|[from, until]| from <= until)
             }),
-            Mistake::new("from = until is a hit too, or flat boxes and edges are lost", |input| {
-                entered(input).is_some_and(|[from, until]| from.max(0.0) < until.min(input.4))
-            }),
-            Mistake::new("from = until is a hit too, or flat boxes and edges are lost", |input| {
-                entered(input).is_some_and(|[from, until]| from < until && until >= 0.0 && from <= input.4)
-            }),
+            Mistake::new(
+                "flat boxes and edges are lost: where a ray enters and leaves at the same t, it hits, too",
+                |input| entered(input).is_some_and(|[from, until]| from.max(0.0) < until.min(input.4)),
+            ),
+            Mistake::new(
+                "flat boxes and edges are lost: where a ray enters and leaves at the same t, it hits, too",
+                |input| entered(input).is_some_and(|[from, until]| from < until && until >= 0.0 && from <= input.4),
+            ),
             Mistake::new("a ray from inside the box is in it, too, though it entered before t = 0", |input| {
                 entered(input).is_some_and(|[from, until]| 0.0 <= from && from <= until.min(input.4))
             }),

@@ -14,7 +14,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "slot i of the answer is for child i, so a child that is not visited leaves None in its own slot; only if both are visited do I sort",
             exercise(a),
-            "nothing may stand before",
+            "None stands before a child",
         ),
         ("the ray ends in the nearer box, so only that one is visited", exercise(b), "farther child is left out"),
         (
@@ -45,7 +45,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "Each place of the answer belongs to one child: its number if it is visited and None if not.",
             exercise(second_b),
-            "nothing may stand before a child:",
+            "None stands before a child",
         ),
         (
             "A box for which there is no entry is one that the ray is in from the start, so I counted it as entered at 0.",

@@ -18,7 +18,7 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
         (exercise(farther_first), "the farther child comes first"),
         (
             exercise(|enters, closest| [0, 1].map(|at| enters[at].filter(|&t| t < closest).map(|_| at as u32))),
-            "nothing",
+            "None stands before a child",
         ),
     ]
 }

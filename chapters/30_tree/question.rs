@@ -51,11 +51,11 @@ fn question() -> Question<Input, Answer> {
                 |&(enters, closest)| farther_first(enters, closest),
             ),
             Mistake::new(
-                "nothing may stand before a child: where only one is visited, it is the first",
+                "None stands before a child; where only one is visited, it is the first",
                 |&(enters, closest)| slots(enters, closest),
             ),
             Mistake::new(
-                "nothing may stand before a child: where only one is visited, it is the first",
+                "None stands before a child; where only one is visited, it is the first",
                 |&(enters, closest)| {
                     if slots(enters, closest).contains(&None) {
                         slots(enters, closest)
@@ -65,7 +65,7 @@ fn question() -> Question<Input, Answer> {
                 },
             ),
             Mistake::new(
-                "nothing may stand before a child: where only one is visited, it is the first",
+                "None stands before a child; where only one is visited, it is the first",
                 |&(enters, closest)| {
                     let [lower, upper] = slots(enters, closest);
                     if enters[1].zip(enters[0]).is_some_and(|(upper, lower)| upper < lower) {

@@ -19,7 +19,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "the ray begins at 0, so a box is entered only if its entry is at 0 or later",
             exercise(b),
-            "from inside a box",
+            "in which the ray starts",
         ),
         (
             "it is a hit where it enters before it leaves and before the closest hit (boxes behind the ray forgotten)",
@@ -54,7 +54,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "I build the number bit by bit, shift it to the left and append the next box, so that the first box ends up on the left.",
             exercise(second_c),
-            "bit 0 is the first box: yours are",
+            "the bits are in the opposite order",
         ),
     ]
 }

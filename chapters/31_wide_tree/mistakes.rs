@@ -22,7 +22,7 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
             exercise(|enters, leaves, closest| {
                 those(|i| enters[i] <= leaves[i] && enters[i] >= 0.0 && enters[i] <= closest)
             }),
-            "from inside",
+            "in which the ray starts",
         ),
         (exercise(|enters, leaves, closest| those(|i| leaves[i] >= 0.0 && enters[i] <= closest)), "misses"),
     ]

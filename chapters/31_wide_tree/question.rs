@@ -28,10 +28,10 @@ fn question() -> Question<Input, u32> {
         allowed: 0.0,
         measured: "wrong bits",
         mistakes: vec![
-            Mistake::new("bit 0 is the first box: yours are in the opposite order", |&(enters, leaves, closest)| {
+            Mistake::new("the bits are in the opposite order: bit 0 is the first box", |&(enters, leaves, closest)| {
                 entered(enters, leaves, closest).reverse_bits() >> 24
             }),
-            Mistake::new("bit 0 is the first box: yours begin with bit 1", |&(enters, leaves, closest)| {
+            Mistake::new("the bits begin with bit 1: bit 0 is the first box", |&(enters, leaves, closest)| {
                 entered(enters, leaves, closest) << 1
             }),
             Mistake::new(
@@ -53,7 +53,7 @@ fn question() -> Question<Input, u32> {
                 |&(enters, leaves, closest)| nearest(enters, leaves, closest),
             ),
             Mistake::new(
-                "a box that begins behind the closest hit cannot hold a closer one",
+                "a box that begins behind the closest hit is entered; it cannot hold a closer one",
                 |&(enters, leaves, _)| entered(enters, leaves, f64::INFINITY),
             ),
             Mistake::new("a box behind the ray is one that it has left before t = 0", |&(enters, leaves, closest)| {
@@ -64,13 +64,13 @@ fn question() -> Question<Input, u32> {
                 |&(enters, leaves, _)| those(|i| enters[i] <= leaves[i]),
             ),
             Mistake::new(
-                "a ray that starts from inside a box has entered it before t = 0",
+                "a box is missed in which the ray starts; it was entered before t = 0",
                 |&(enters, leaves, closest)| {
                     those(|i| enters[i] <= leaves[i] && enters[i] >= 0.0 && enters[i] <= closest)
                 },
             ),
             Mistake::new(
-                "a ray that starts from inside a box has entered it before t = 0",
+                "a box is missed in which the ray starts; it was entered before t = 0",
                 |&(enters, leaves, closest)| {
                     those(|i| enters[i] <= leaves[i] && enters[i] > 0.0 && enters[i] <= closest)
                 },

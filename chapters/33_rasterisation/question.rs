@@ -131,7 +131,7 @@ fn question() -> Question<Input, bool> {
                 |input| divided(input, |part| part >> 8),
             ),
             Mistake::new("the products overflow i32: two numbers of 25 bits take 50", narrow),
-            Mistake::new("f32 has 24 bits, and the products take 50: with it the edge function is rounded", rounded),
+            Mistake::new("the edge function is rounded: f32 has 24 bits, and the products take 50", rounded),
         ],
         hints: &[
             "the edge function is twice the area of the triangle from, to, sample: \

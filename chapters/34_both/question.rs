@@ -194,9 +194,10 @@ fn question() -> Question<Input, [f64; 2]> {
                     [low.max(-half), high.min(half)]
                 },
             ),
-            Mistake::new("what is beyond the image's edge must be cut off there", |&[right, ahead, radius, _]| {
-                sphere_interval(right, ahead, radius, 1e9)
-            }),
+            Mistake::new(
+                "an end beyond the image's edge is left there; it must be cut off at the edge",
+                |&[right, ahead, radius, _]| sphere_interval(right, ahead, radius, 1e9),
+            ),
             Mistake::new(
                 "the ends are divided by half; they lie between −half and half",
                 |&[right, ahead, radius, most]| sphere_interval(right, ahead, radius, most).map(|end| end / most),
