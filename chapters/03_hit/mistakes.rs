@@ -15,7 +15,7 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
         (exercise(|o, d, c, r| school(o, d, c, r).map(|(near, _)| near)), "behind the origin"),
         (exercise(|o, d, c, r| Some(school(o, d, c, r)?.0).filter(|&t| t > 0.0)), "from inside"),
         (exercise(|o, d, c, r| Some(school(o, d, c, r)?.1).filter(|&t| t > 0.0)), "farther root"),
-        (exercise(both_roots), "b² − ac"),
+        (exercise(both_roots), "b² − ac (or b² − 4ac)"),
         (exercise(unit_assumed), "length 1"),
     ]
 }

@@ -107,14 +107,14 @@ fn question() -> Question<Input, Answer> {
                 solved(coefficients(i), |[b, a, c]| (b * b - a * c) * (b * b - a * c).abs(), 1.0)
             }),
             Mistake::new(
-                "b² − ac is computed as it stands; far away it is a small difference of huge numbers",
+                "b² − ac (or b² − 4ac) is computed as it stands; far away it is a small difference of huge numbers",
                 |input| {
                     let &(o, d, c, r) = input;
                     hit_f64_plain(single(o), single(d), c.into(), r)
                 },
             ),
             Mistake::new(
-                "b² − ac is computed as it stands; far away it is a small difference of huge numbers",
+                "b² − ac (or b² − 4ac) is computed as it stands; far away it is a small difference of huge numbers",
                 |i| solved(coefficients(i), right_discriminant, 1.0),
             ),
             Mistake::new(

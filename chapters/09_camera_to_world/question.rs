@@ -22,7 +22,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, Vector> {
     Question {
-        pinhole_has: ("src/pinhole/extract/pose.rs", "normal_world_from_object"),
+        pinhole_has: ("src/pinhole/shapes/space.rs", "normal_world_from_object"),
         probes: asked(),
         tell: |(columns, normal)| format!("columns {}, normal {}", columns.shown(), normal.shown()),
         right: |&(columns, normal)| {

@@ -40,7 +40,7 @@ fn question() -> Question<Input, Vector> {
     asked.extend(probes("parts of 0", every([0.0, 0.0, 0.0])));
     asked.extend(probes("parts of all sizes", every([1e-300, 1e300, 5e-324])));
     Question {
-        pinhole_has: ("src/pinhole/rays/camera.rs", "CameraRays"),
+        pinhole_has: ("src/pinhole/look/convention/program.rs", "camera_axes"),
         probes: asked,
         tell: |(v, x_right, y_up, z_ahead)| {
             format!("direction {}, x_right {x_right}, y_up {y_up}, z_ahead {z_ahead}", v.shown())
