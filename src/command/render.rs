@@ -159,13 +159,13 @@ fn compare_with_pinhole(
     let told = match differing {
         0 => "the same picture".to_owned(),
         _ => format!(
-            "{differing} of {} pixels differ, by at most {largest} of 255, most at {x},{y}: {:?} here, {:?} there",
+            "{differing} of {} pixels differ, by at most {largest} of 255, most at {x},{y}: {:?} in pinhole's, {:?} in the other",
             u64::from(width) * u64::from(height),
             colours[0],
             colours[1]
         ),
     };
-    writeln!(streams.out, "{}, by pinhole's own: {told}", own.display())?;
+    writeln!(streams.out, "{}, pinhole's own picture: {told}", own.display())?;
     if let (Some((bytes, words)), true) = (picture_contrast(&pinholes, &others)?, differing > 0) {
         let file = picture("difference");
         write(&file, &bytes)?;

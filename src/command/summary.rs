@@ -54,10 +54,14 @@ impl Summary<'_> {
             lines.extend([self.files.clone(), came]);
         }
         lines.extend(self.slowest());
-        lines.push(match stats.left_out.len() {
-            0 => format!("{} stages ran, all that are on offer: {} lists them", stats.stages.len(), self.plan),
-            left => format!("{} stages ran, {left} left out: {} says why", stats.stages.len(), self.plan),
-        });
+        let (ran, says) = match stats.left_out.len() {
+            0 => (format!("{} stages ran, all that are on offer", stats.stages.len()), "lists them"),
+            left => (format!("{} stages ran, {left} left out", stats.stages.len()), "says why"),
+        };
+        // A command that is cut off cannot be run.
+        let with_command = format!("{ran}: {} {says}", self.plan);
+        let is_whole = with_command.chars().count() <= WIDEST;
+        lines.push(if is_whole { with_command } else { format!("{ran}: `plan` with the same options {says}") });
         lines.extend(self.integrator.iter().map(|chosen| format!("no integrator is named, so {chosen}")));
         lines.extend(self.ended());
         lines.extend(
@@ -233,6 +237,15 @@ mod tests {
                 "try next: pinhole trace 5 --pixel 1,1",
             ]
         );
+    }
+
+    #[test]
+    fn a_command_is_told_whole_or_not_at_all() {
+        let plan = |options: &str| format!("pinhole plan 5 --set 'lamp.name=\"{options}\"'");
+        for (letters, told) in [(40, plan(&"x".repeat(40))), (60, "`plan` with the same options".into())] {
+            let lines = Summary { plan: plan(&"x".repeat(letters)), ..summary(&stats(5), None) }.lines();
+            assert_eq!(lines[2], format!("5 stages ran, 1 left out: {told} says why"));
+        }
     }
 
     #[test]

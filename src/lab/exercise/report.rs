@@ -67,7 +67,7 @@ impl Report {
             }
         }
         let (file, name) = self.pinhole_has;
-        writeln!(out, "pinhole does it in {file}: look for `{name}`")
+        writeln!(out, "read beside it: `{name}` in {file}")
     }
 
     fn print_hints(&self, earned: usize, out: &mut dyn Write) -> io::Result<()> {
