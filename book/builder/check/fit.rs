@@ -14,7 +14,8 @@ pub fn source(listing: &str) -> String {
             at += 1;
             continue;
         };
-        let end = at + lines[at..].iter().take_while(|line| comment_head(line) == Some(head)).count();
+        let is_same = |line: &&&str| is_plain(line, head) && comment_head(line) == Some(head);
+        let end = at + lines[at..].iter().take_while(is_same).count().max(1);
         out.extend(filled(&lines[at..end], head));
         at = end;
     }
@@ -35,10 +36,13 @@ pub fn printed(text: &str) -> String {
 fn comment_head(line: &str) -> Option<&str> {
     let text = line.trim_start();
     let mark = ["/// ", "//! ", "// "].into_iter().find(|mark| text.starts_with(mark))?;
-    // A list keeps its lines.
-    let says = &text[mark.len()..];
-    let is_plain = !says.starts_with(['-', '*', '#', '|', '`', ' ']);
-    is_plain.then(|| &line[..line.len() - text.len() + mark.len()])
+    Some(&line[..line.len() - text.len() + mark.len()])
+}
+
+/// Whether a comment with this head goes on with the line before it: a list, a heading or a table keeps its lines.
+fn is_plain(line: &str, head: &str) -> bool {
+    let kept = ["- ", "* ", "#", "|", "```", " "];
+    line.strip_prefix(head).is_some_and(|says| !kept.iter().any(|start| says.starts_with(start)))
 }
 
 /// The lines of a comment, filled anew if one of them is too wide.
@@ -129,6 +133,20 @@ mod tests {
         assert_eq!(comment.len(), 3, "{filled}");
         assert!(comment.iter().all(|line| line.starts_with("    /// ") && width(line) <= COLUMNS), "{filled}");
         assert!(comment[2].ends_with("last."));
+    }
+
+    /// What goes on below is a comment, too.
+    #[test]
+    fn no_part_of_a_comment_becomes_code() {
+        for start in ["`name` is", "- item", "| cell", "*Stressed*", "-1 is"] {
+            let text = source(&format!("    /// {start} {}\n    fn one()", "word ".repeat(30).trim()));
+            let lines: Vec<&str> = text.lines().collect();
+            let (code, comment) = lines.split_last().expect("a line");
+            assert!(comment.len() > 1 && comment.iter().all(|line| line.starts_with("    /// ")), "{text}");
+            assert_eq!(*code, "    fn one()");
+        }
+        let filled = source(&format!("/// {}\n/// `name` is one of them.", "word ".repeat(20).trim()));
+        assert!(filled.ends_with("word `name` is one of them."), "{filled}");
     }
 
     #[test]
