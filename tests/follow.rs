@@ -16,6 +16,8 @@ mod distant;
 mod far;
 #[path = "follow/frusta.rs"]
 mod frusta;
+#[path = "follow/inside.rs"]
+mod inside;
 #[path = "follow/leaning.rs"]
 mod leaning;
 #[path = "follow/light_paths.rs"]

@@ -97,6 +97,9 @@ const LIST: &[Part] = &[Part(&[
 ], raster_boxes), Part(&[
     (Rasterisation, rasterise::rasterise_stage),
 
+    // Surfaces that touch glass are hit or crossed together with it.
+    (Glass, intersect::contact_stage),
+
     // What rays were tested against is counted, where a view asks for it.
     (Intersection, intersect::count_stage),
 
@@ -111,6 +114,7 @@ const LIST: &[Part] = &[Part(&[
     // Positions, normals and colours of the surfaces that were hit.
 ], surface_points), Part(&[
     (Motion, intersect::moving_surface_stage),
+    (Glass, intersect::contact_bound_stage),
     (Transforms, intersect::shading_normal_stage),
     (Textures, shade::copy_normals_stage),
     (Textures, shade::footprint_stage),
@@ -150,6 +154,7 @@ const LIST: &[Part] = &[Part(&[
     (Shadows, shade::start_shadow_stage),
 ], shadow_rays), Part(&[
     (Motion, shade::moving_shadow_stage),
+    (Glass, follow::absorb_shadow_stage),
 
     // Direct light is evaluated: the light of unblocked shadow rays, reflected along the path.
 ], direct_light_of_bsdfs), Part(&[
@@ -165,6 +170,7 @@ const LIST: &[Part] = &[Part(&[
     (PathContinuation, follow::roulette_stage),
     (Bounces, follow::add_bounce_stage),
     (LightTracing, follow::splat_stage),
+    (Glass, follow::leave_contacts_stage),
     (Glass, follow::carry_media_stage),
     (AreaLights, follow::keep_departures_stage),
     (Bounces, follow::next_bounce_stage),

@@ -7,9 +7,9 @@ use super::view::{BsdfView, BsdfViewItem};
 use super::{DeeperMedia, Media, Scattered, ScatteredRay, power_heuristic};
 use crate::extract::{
     GlassTable, MaterialTable, SamplingTable, area_light_evidence, bsdf_evidence, environment_light_evidence,
-    mis_evidence, needed_if, traced_evidence,
+    glass_contact_evidence, mis_evidence, needed_if, traced_evidence,
 };
-use crate::intersect::{MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces};
+use crate::intersect::{Contacts, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces};
 use crate::material::{Bsdf, BsdfClass, Site, Transport};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, WorldRays, draws_of_one, draws_of_two};
@@ -37,6 +37,7 @@ pub(super) fn site<B: Bsdf>(
         row: materials.row[material] as usize,
         colour: colours.map_or_else(|| materials.colour[material], |colours| colours.get(row)),
         eta: if B::TRANSMITS { interface.eta(materials.interior[material], row) } else { 1.0 },
+        reflectance: None,
         transport,
         mapped: if B::MAPPED { interface.mapped(row) } else { None },
     }
@@ -215,12 +216,14 @@ pub(super) fn at_interfaces<B: Bsdf>(stage: Stage) -> Stage {
             .reads_where::<SurfaceSides>(bsdf_evidence::<B>)
             .reads_where::<Media>(media_evidence)
             .reads_where::<DeeperMedia>(deeper_media_evidence)
+            .reads_where::<Contacts>(glass_contact_evidence)
     } else {
         stage
             .table_where::<GlassTable>(never)
             .reads_where::<SurfaceSides>(never)
             .reads_where::<Media>(never)
             .reads_where::<DeeperMedia>(never)
+            .reads_where::<Contacts>(never)
     }
 }
 

@@ -1,5 +1,6 @@
 use super::{Media, MediumStack};
 use crate::extract::{NO_ROW, deep_glass, followed_evidence, glass_evidence};
+use crate::intersect::GlassCrossing;
 use crate::plan::{Census, Column, ColumnComponent, ComponentValues, Evidence, Lifetime, column_component};
 
 /// The media around each ray's origin beyond the four that [`Media`] holds, in order of rank; exists only where more
@@ -32,7 +33,7 @@ impl DeeperMedia {
     }
 
     /// Appends a row.
-    fn push(&mut self, beyond: &[u32]) {
+    pub(super) fn push(&mut self, beyond: &[u32]) {
         self.glass.extend_from_slice(beyond);
         self.end.push(self.glass.len() as u32);
     }
@@ -69,36 +70,30 @@ impl Carrier {
         self.kept.start(0);
     }
 
-    /// Appends the media of a ray scattered from another, which crossed a glass surface or did not; returns the first
-    /// four.
+    /// Appends the media of a ray scattered from another, which crossed these surfaces of glass; returns the first four.
     pub(super) fn push(
         &mut self,
         (stack, beyond): (MediumStack, &[u32]),
-        crossed: Option<(u32, bool)>,
+        crossed: &[GlassCrossing],
         priorities: &[u32],
     ) -> MediumStack {
         let whole = &mut self.whole;
         whole.clear();
         whole.extend(stack.rows.iter().filter(|&&row| row != NO_ROW));
         whole.extend_from_slice(beyond);
-        match crossed {
-            Some((row, true)) => {
-                let outranks = |&other: &u32| (priorities[row as usize], other) > (priorities[other as usize], row);
-                let place = whole.iter().position(outranks).unwrap_or(whole.len());
-                whole.insert(place, row);
-            }
-            Some((row, false)) => {
-                if let Some(place) = whole.iter().position(|&own| own == row) {
-                    whole.remove(place);
-                }
-            }
-            None => {}
+        for row in crossed.iter().filter(|own| own.from_outside).map(|own| own.glass) {
+            let outranks = |&other: &u32| (priorities[row as usize], other) > (priorities[other as usize], row);
+            let place = whole.iter().position(outranks).unwrap_or(whole.len());
+            whole.insert(place, row);
         }
-        let first = whole.len().min(4);
-        let mut rows = [NO_ROW; 4];
-        rows[..first].copy_from_slice(&whole[..first]);
-        self.kept.push(&whole[first..]);
-        MediumStack { rows }
+        for row in crossed.iter().filter(|own| !own.from_outside).map(|own| own.glass) {
+            if let Some(place) = whole.iter().position(|&own| own == row) {
+                whole.remove(place);
+            }
+        }
+        let (first, beyond) = MediumStack::of(whole);
+        self.kept.push(beyond);
+        first
     }
 
     /// Exchanges the collected media with those of the column.
@@ -164,7 +159,8 @@ mod tests {
                 inside[shape] = !inside[shape];
                 assert_eq!(far, rule(&inside), "walk {walk}");
                 carrier.start();
-                stack = carrier.push((stack, beyond.get(0)), Some((row, from_outside)), &priorities);
+                let crossed = [GlassCrossing { glass: row, from_outside, depth: 0.0 }];
+                stack = carrier.push((stack, beyond.get(0)), &crossed, &priorities);
                 carrier.swap(&mut beyond);
                 let depth = stack.rows.iter().filter(|&&row| row != NO_ROW).count() + beyond.get(0).len();
                 assert_eq!(depth, inside.iter().filter(|&&inside| inside).count(), "nothing is forgotten");

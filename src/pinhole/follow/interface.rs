@@ -1,7 +1,8 @@
 use super::deeper_media::near_and_far;
 use super::{DeeperMedia, Media};
 use crate::extract::{GlassTable, NO_ROW};
-use crate::intersect::SurfaceSides;
+use crate::intersect::{Contacts, GlassCrossing, SurfaceSides};
+use crate::material::{fresnel, layered_reflectance};
 use crate::plan::Shared;
 use crate::shade::MetallicRoughness;
 use bevy_ecs::query::QueryData;
@@ -16,6 +17,8 @@ pub struct InterfaceView {
     media: Option<&'static Media>,
     /// Those beyond the fourth.
     deeper: Option<&'static DeeperMedia>,
+    /// The surfaces that are crossed together with them, where any may coincide.
+    contacts: Option<&'static Contacts>,
     /// Metallic and roughness, where images give them.
     mapped: Option<&'static MetallicRoughness>,
 }
@@ -26,14 +29,15 @@ pub(super) struct Interface<'a> {
     sides: Option<&'a SurfaceSides>,
     media: Option<&'a Media>,
     deeper: Option<&'a DeeperMedia>,
+    contacts: Option<&'a Contacts>,
     mapped: Option<&'a MetallicRoughness>,
 }
 
 impl<'a> Interface<'a> {
     #[inline(always)]
     pub fn new(view: InterfaceViewItem<'a, '_>, glass: Option<&'a Shared<GlassTable>>) -> Self {
-        let InterfaceViewItem { sides, media, deeper, mapped } = view;
-        Self { glass: glass.map(|glass| &**glass), sides, media, deeper, mapped }
+        let InterfaceViewItem { sides, media, deeper, contacts, mapped } = view;
+        Self { glass: glass.map(|glass| &**glass), sides, media, deeper, contacts, mapped }
     }
 
     /// Whether images give metallic and roughness to any surface of the scene.
@@ -54,21 +58,71 @@ impl<'a> Interface<'a> {
         self.mapped.and_then(|mapped| mapped.get(row))
     }
 
-    /// The relative index η at a row's surface, the far side's over the near side's, where `own` fills the shape;
-    /// without a column of media, everything outside it is a vacuum.
+    /// The media on the near and the far side of a row's surface, where `own` fills the shape; without a column of
+    /// media, everything outside it is a vacuum.
     #[inline(always)]
-    pub fn eta(&self, own: u32, row: usize) -> f64 {
-        let (Some(glass), Some(sides)) = (self.glass, self.sides) else { return 1.0 };
+    pub fn media(&self, own: u32, row: usize) -> [u32; 2] {
+        let Some(sides) = self.sides else { return [self.media.map_or(NO_ROW, |media| media.get(row).top()); 2] };
         let from_outside = sides.outside[row] != 0;
-        let ior = |of: u32| if of == NO_ROW { 1.0 } else { glass.ior[of as usize] };
-        match self.media {
-            Some(media) => {
+        match (self.media, self.glass) {
+            (Some(media), Some(glass)) if own != NO_ROW => {
+                let crossings = self.crossings(row);
+                if !crossings.is_empty() {
+                    let near = media.get(row);
+                    return [near.top(), near.beyond_all(crossings, &glass.priority).top()];
+                }
                 let beyond = self.deeper.map_or(&[][..], |deeper| deeper.get(row));
-                let [near, far] = near_and_far(media.get(row), beyond, own, from_outside, &glass.priority);
-                ior(far) / ior(near)
+                near_and_far(media.get(row), beyond, own, from_outside, &glass.priority)
             }
-            None if from_outside => ior(own),
-            None => 1.0 / ior(own),
+            (Some(media), _) => [media.get(row).top(); 2],
+            _ if from_outside => [NO_ROW, own],
+            _ => [own, NO_ROW],
         }
     }
+
+    /// The relative index η at a row's surface, the far side's over the near side's, where `own` fills the shape.
+    #[inline(always)]
+    pub fn eta(&self, own: u32, row: usize) -> f64 {
+        let (Some(glass), Some(_)) = (self.glass, self.sides) else { return 1.0 };
+        let [near, far] = self.media(own, row).map(|of| if of == NO_ROW { 1.0 } else { glass.ior[of as usize] });
+        far / near
+    }
+
+    /// The surfaces that a row's ray crosses in one event; none where it crosses its hit alone.
+    #[inline(always)]
+    fn crossings(&self, row: usize) -> &[GlassCrossing] {
+        self.contacts.map_or(&[], |contacts| contacts.get(row))
+    }
+
+    // ANCHOR: layers
+    /// The reflectance of a row's surface for a ray with this cosine to its normal, where layers too thin to be kept apart
+    /// lie there: the surfaces of those layers reflect one after the other.
+    ///
+    /// A layer is a body that is entered and left in one event; between bodies that touch there is none.
+    #[inline(always)]
+    pub fn reflectance(&self, row: usize, cosine: f64) -> Option<f64> {
+        let crossings = self.crossings(row);
+        let is_left = |glass: u32| crossings.iter().any(|other| other.glass == glass && !other.from_outside);
+        let mut layers = crossings.iter().filter(|own| own.from_outside && is_left(own.glass)).peekable();
+        let (Some(media), Some(glass)) = (self.media.filter(|_| layers.peek().is_some()), self.glass) else {
+            return None;
+        };
+        let (near, priorities) = (media.get(row), &glass.priority);
+        let far = near.beyond_all(crossings, priorities);
+        // What is on both sides is there in the layers, too.
+        let common = crossings.iter().filter(|own| !own.from_outside).fold(near, |stack, own| stack.left(own.glass));
+        let within = layers.map(|own| common.entered(own.glass, priorities).top());
+        let media = std::iter::once(near.top()).chain(within).chain([far.top()]);
+        let indices = media.map(|of| if of == NO_ROW { 1.0 } else { glass.ior[of as usize] });
+        let first = if near.top() == NO_ROW { 1.0 } else { glass.ior[near.top() as usize] };
+        let mut last = None;
+        let surfaces = indices.filter_map(|index| {
+            let before = last.replace(index)?;
+            // Snell's law: n sin θ is the same in all layers.
+            let sine = first / before * (1.0 - cosine * cosine).max(0.0).sqrt();
+            Some(if sine < 1.0 { fresnel((1.0 - sine * sine).sqrt(), index / before) } else { 1.0 })
+        });
+        Some(layered_reflectance(surfaces))
+    }
+    // ANCHOR_END: layers
 }

@@ -1,14 +1,17 @@
+use super::absorb::absorption_evidence;
 use super::deeper_media::{Carrier, deeper_media_evidence};
-use super::{DeeperMedia, MediumStack, Scattered, transmittance};
+use super::{DeeperMedia, MediumStack, Scattered};
 use crate::extract::{
-    GlassTable, MaterialTable, NO_ROW, followed_evidence, glass_evidence, glass_overlaps, glass_that,
+    GlassBodyTable, GlassTable, MaterialTable, NO_ROW, followed_evidence, glass_contact_evidence, glass_evidence,
+    glass_overlaps, moving_evidence,
 };
-use crate::intersect::{Hits, NO_SHAPE, SurfaceSides, Surfaces};
+use crate::intersect::{Contacts, GlassCrossing, SurfaceSides, Surfaces};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
-use crate::rays::Paths;
+use crate::rays::{RayTimes, WorldRays};
+use crate::shapes::{Bounds, offset_origin};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 column! {
     /// The glass that each ray travels through, as a stack of the media around its origin; exists where glass absorbs
@@ -48,42 +51,78 @@ impl Media {
     }
 }
 
-/// Starts every camera ray outside all glass, except those that hit glass from within, which start in it.
+/// What is read to find the media around the origins of rays, and what is filled.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct StartView {
+    rays: &'static WorldRays,
+    times: Option<&'static RayTimes>,
+    media: &'static mut Media,
+    deeper: Option<&'static mut DeeperMedia>,
+}
+
+// ANCHOR: start_media
+/// Finds the media around the origin of every ray that starts on the camera or on a light: each body of glass is asked
+/// whether the point is inside.
 ///
-/// Other objects inside the glass hide its wall, and then the medium is unknown.
+/// Nothing is concluded from what a ray hits first, which need not be the glass that it starts in.
 pub fn start_media(
-    materials: Res<Shared<MaterialTable>>,
-    mut tiles: Query<(&Hits, &Surfaces, &SurfaceSides, &mut Media, Option<&mut DeeperMedia>)>,
+    (bodies, glass): (Res<Shared<GlassBodyTable>>, Res<Shared<GlassTable>>),
+    (mut near, mut around): (Local<Vec<u32>>, Local<Vec<u32>>),
+    mut tiles: Query<StartView>,
 ) {
-    for (hits, surfaces, sides, mut media, deeper) in &mut tiles {
-        if let Some(mut deeper) = deeper {
-            deeper.start(hits.rows());
+    for StartViewItem { rays, times, mut media, mut deeper } in &mut tiles {
+        let rows = rays.rows();
+        // Few tiles start near any glass; the others ask no row.
+        list_near(&bodies, rays, &mut near);
+        if let Some(deeper) = &mut deeper {
+            deeper.start(if near.is_empty() { rows } else { 0 });
         }
-        let (first, second, third, fourth) = media.slices_mut(hits.rows());
-        [&mut *first, second, third, fourth].into_iter().for_each(|component| component.fill(NO_ROW));
-        for (row, first) in first.iter_mut().enumerate() {
-            if hits.shape[row] != NO_SHAPE && sides.outside[row] == 0 {
-                *first = materials.interior.get(surfaces.material[row] as usize).copied().unwrap_or(NO_ROW);
+        let (first, second, third, fourth) = media.slices_mut(rows);
+        [first, second, third, fourth].into_iter().for_each(|component| component.fill(NO_ROW));
+        if near.is_empty() {
+            continue;
+        }
+        let mut last = None;
+        for row in 0..rows {
+            let (origin, time) = (rays.origin_of(row), times.map_or(0.0, |times| times.time[row]));
+            // All rays of a pinhole camera start at one point.
+            if last != Some((origin, time)) {
+                around.clear();
+                for &body in &*near {
+                    let body = &bodies.row[body as usize];
+                    let windings = if body.bounds.contains(origin) { body.windings(origin, time) } else { 0 };
+                    around.extend((0..windings).map(|_| body.glass));
+                }
+                around.sort_by_key(|&row| (std::cmp::Reverse(glass.priority[row as usize]), row));
+                last = Some((origin, time));
+            }
+            let (stack, beyond) = MediumStack::of(&around);
+            media.set(row, stack);
+            if let Some(deeper) = &mut deeper {
+                deeper.push(beyond);
             }
         }
     }
 }
+// ANCHOR_END: start_media
 
-/// Multiplies each path's throughput by the transmittance of the glass along its ray, which is 0 for an infinite ray.
-pub fn absorb_in_glass(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Hits, &Media, &mut Paths)>) {
-    for (hits, media, mut paths) in &mut tiles {
-        let paths = &mut *paths;
-        for row in 0..hits.rows() {
-            let there = media.get(row).top();
-            if there == NO_ROW {
-                continue;
-            }
-            let absorption = glass.absorption[there as usize];
-            paths.r[row] *= transmittance(absorption[0], hits.t[row]);
-            paths.g[row] *= transmittance(absorption[1], hits.t[row]);
-            paths.b[row] *= transmittance(absorption[2], hits.t[row]);
-        }
+/// Lists the bodies whose boxes overlap the box around the origins of a tile's rays.
+fn list_near(bodies: &GlassBodyTable, rays: &WorldRays, near: &mut Vec<u32>) {
+    near.clear();
+    if rays.rows() == 0 {
+        return;
     }
+    let along = |origins: &[f32]| {
+        let range = origins.iter().fold([f32::INFINITY, f32::NEG_INFINITY], |[least, most], &origin| {
+            [if origin < least { origin } else { least }, if origin > most { origin } else { most }]
+        });
+        range.map(f64::from)
+    };
+    let [x, y, z] = [&rays.ox, &rays.oy, &rays.oz].map(|origins| along(origins));
+    let starts = Bounds { least: DVec3::new(x[0], y[0], z[0]), most: DVec3::new(x[1], y[1], z[1]) };
+    let overlapping = bodies.row.iter().zip(0..).filter(|(body, _)| body.bounds.overlaps(&starts));
+    near.extend(overlapping.map(|(_, number)| number));
 }
 
 /// The scattered rays, the glass that they leave, and the media that each of them starts in.
@@ -95,6 +134,7 @@ pub struct CarryView {
     sides: &'static SurfaceSides,
     media: &'static mut Media,
     deeper: Option<&'static mut DeeperMedia>,
+    contacts: Option<&'static Contacts>,
 }
 
 /// Gives each scattered ray the media of the ray it was scattered from, with the glass that it entered or left by
@@ -105,7 +145,7 @@ pub fn carry_media(
     mut carrier: Local<Carrier>,
     mut tiles: Query<CarryView>,
 ) {
-    for CarryViewItem { scattered, surfaces, sides, mut media, mut deeper } in &mut tiles {
+    for CarryViewItem { scattered, surfaces, sides, mut media, mut deeper, contacts } in &mut tiles {
         carrier.start();
         kept.slices_mut(scattered.rows());
         for ray in 0..scattered.rows() {
@@ -113,12 +153,17 @@ pub fn carry_media(
             let goes = DVec3::new(scattered.dx[ray].into(), scattered.dy[ray].into(), scattered.dz[ray].into());
             let own = materials.interior[surfaces.material[row] as usize];
             let through = own != NO_ROW && goes.dot(surfaces.get(row).normal.as_dvec3()) < 0.0;
-            let (stack, crossed) = (media.get(row), (own, sides.outside[row] != 0));
-            let crossing = || stack.crossing(crossed.0, crossed.1, &glass.priority);
+            let (stack, from_outside) = (media.get(row), sides.outside[row] != 0);
+            let alone = [GlassCrossing { glass: own, from_outside, depth: 0.0 }];
+            let together = contacts.map_or(&[][..], |contacts| contacts.get(row));
+            let crossed = if together.is_empty() { &alone } else { together };
             let next = match &deeper {
-                Some(deeper) => carrier.push((stack, deeper.get(row)), through.then_some(crossed), &glass.priority),
-                None if through => crossing().beyond,
-                None => stack,
+                Some(deeper) => {
+                    carrier.push((stack, deeper.get(row)), if through { crossed } else { &[] }, &glass.priority)
+                }
+                None if !through => stack,
+                None if together.is_empty() => stack.crossing(own, from_outside, &glass.priority).beyond,
+                None => stack.beyond_all(crossed, &glass.priority),
             };
             kept.set(ray, next);
         }
@@ -129,29 +174,44 @@ pub fn carry_media(
     }
 }
 
-/// The stage that finds the media of camera rays.
+/// The stage that finds the media of rays from the camera and from lights.
 pub fn start_media_stage() -> Stage {
     Stage::new("Find the media that rays start in", TileSystems::Media, start_media)
         .on_first_bounce()
+        .reads_where::<RayTimes>(moving_evidence)
         .when(media_evidence)
 }
 
-/// The stage that absorbs.
-pub fn absorb_stage() -> Stage {
-    Stage::new("Absorb light in glass", TileSystems::Absorb, absorb_in_glass)
-        .when(|scene| absorption_evidence(scene).and(|| followed_evidence(scene)))
+// ANCHOR: leave_contacts
+/// Moves the origins of rays that cross several surfaces together beyond the last of them.
+pub fn leave_contacts(mut tiles: Query<(&Surfaces, &Contacts, &mut Scattered)>) {
+    for (surfaces, contacts, mut scattered) in &mut tiles {
+        for ray in 0..scattered.rows() {
+            let row = scattered.path[ray] as usize;
+            let depth = contacts.depth(row);
+            let surface = surfaces.get(row);
+            let goes = Vec3::new(scattered.dx[ray], scattered.dy[ray], scattered.dz[ray]);
+            if depth > 0.0 && goes.dot(surface.normal) < 0.0 {
+                let origin = offset_origin(surface.position, -surface.normal, surface.bound + depth);
+                (scattered.ox[ray], scattered.oy[ray], scattered.oz[ray]) = origin.into();
+            }
+        }
+    }
+}
+// ANCHOR_END: leave_contacts
+
+/// The stage that moves them.
+pub fn leave_contacts_stage() -> Stage {
+    Stage::new("Leave surfaces that touch", TileSystems::Step, leave_contacts)
+        .when(|scene| glass_contact_evidence(scene).and(|| followed_evidence(scene)))
 }
 
 /// The stage that carries media to the next bounce.
 pub fn carry_media_stage() -> Stage {
     Stage::new("Carry media to the next bounce", TileSystems::Step, carry_media)
         .reads_where::<DeeperMedia>(deeper_media_evidence)
+        .reads_where::<Contacts>(glass_contact_evidence)
         .when(media_evidence)
-}
-
-/// Evidence that a shape is made of absorbing glass.
-fn absorption_evidence(scene: &Census<'_>) -> Evidence {
-    glass_that(scene, "absorbing glass surface", |glass| glass.absorption != [0.0; 3])
 }
 
 /// Evidence that the media along rays must be known: glass absorbs, or two glass shapes overlap.
@@ -161,5 +221,7 @@ pub fn media_evidence(scene: &Census<'_>) -> Evidence {
         return glass;
     }
     let (absorbs, overlaps) = (absorption_evidence(scene), glass_overlaps(scene));
-    absorbs.or(overlaps)
+    let touches = glass_contact_evidence(scene);
+    let known = absorbs.or(overlaps);
+    if touches.needed { known.or(touches) } else { known }
 }

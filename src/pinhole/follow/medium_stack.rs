@@ -1,4 +1,5 @@
 use crate::extract::NO_ROW;
+use crate::intersect::GlassCrossing;
 
 // ANCHOR: MediumStack
 /// The media around a point in order of rank, the one that is present first; at most four of them.
@@ -27,6 +28,15 @@ impl MediumStack {
     /// The stack outside all glass.
     pub const OUTSIDE: Self = Self { rows: [NO_ROW; 4] };
 
+    /// The first four of the media around a point, which are given in order of rank, and the others.
+    #[inline(always)]
+    pub fn of(around: &[u32]) -> (Self, &[u32]) {
+        let (first, beyond) = around.split_at(around.len().min(4));
+        let mut rows = [NO_ROW; 4];
+        rows[..first.len()].copy_from_slice(first);
+        (Self { rows }, beyond)
+    }
+
     /// The medium that is present; [`NO_ROW`] for none.
     #[inline(always)]
     pub fn top(self) -> u32 {
@@ -35,7 +45,7 @@ impl MediumStack {
 
     /// The stack after entering a shape of this glass.
     #[inline(always)]
-    fn entered(self, row: u32, priorities: &[u32]) -> Self {
+    pub fn entered(self, row: u32, priorities: &[u32]) -> Self {
         let outranks =
             |other: u32| other == NO_ROW || (priorities[row as usize], other) > (priorities[other as usize], row);
         let mut rows = self.rows;
@@ -54,12 +64,27 @@ impl MediumStack {
 
     /// The stack after leaving a shape of this glass; unchanged where the glass is not in it.
     #[inline(always)]
-    fn left(self, row: u32) -> Self {
+    pub fn left(self, row: u32) -> Self {
         let Some(place) = self.rows.iter().position(|own| *own == row) else { return self };
         let mut rows = self.rows;
         rows.copy_within(place + 1.., place);
         rows[3] = NO_ROW;
         Self { rows }
+    }
+
+    /// The media beyond several surfaces that are crossed together, in whatever order rounding found them.
+    #[inline(always)]
+    pub fn beyond_all(self, crossings: &[GlassCrossing], priorities: &[u32]) -> Self {
+        let left = crossings.iter().filter(|own| !own.from_outside && self.rows.contains(&own.glass));
+        // Those it is in are left first, so that there is room; a layer is entered and left, in this order.
+        let mut stack = left.fold(self, |stack, own| stack.left(own.glass));
+        for own in crossings.iter().filter(|own| own.from_outside) {
+            stack = stack.entered(own.glass, priorities);
+        }
+        for own in crossings.iter().filter(|own| !own.from_outside && !self.rows.contains(&own.glass)) {
+            stack = stack.left(own.glass);
+        }
+        stack
     }
 
     /// What a ray with this stack crosses at a surface of this glass, hit from outside or from inside.

@@ -15,6 +15,7 @@
 //! assert_eq!(survival_probability([0.25, 0.1, 0.0]), 0.25);
 //! ```
 
+mod absorb;
 mod beer;
 mod bsdf;
 mod bsdf_rows;
@@ -40,6 +41,7 @@ mod stop;
 mod unsampled;
 mod view;
 
+pub use absorb::{absorb_in_glass, absorb_shadow_rays, absorb_shadow_stage, absorb_stage};
 pub use beer::{absorbed, transmittance};
 pub use bsdf::{
     LightWeightView, add_direct_light, connections_stage, direct_light_stage, mis_bsdf, mis_stage, sample_bsdf,
@@ -59,7 +61,7 @@ pub use emission::{add_mis_emission, add_mis_environment, mis_emission_stage, mi
 pub use last_bounce::{end_at_max_depth, max_depth_stage};
 pub use light_start::{LIGHT_PATHS, LightPower, light_start, light_start_stage, start_on_lights};
 pub use media::{
-    Media, absorb_in_glass, absorb_stage, carry_media, carry_media_stage, media_evidence, start_media,
+    Media, carry_media, carry_media_stage, leave_contacts, leave_contacts_stage, media_evidence, start_media,
     start_media_stage,
 };
 pub use medium_stack::{Crossing, MediumStack};

@@ -9,7 +9,7 @@ use crate::extract::{
     GlassTable, MaterialTable, SamplingTable, bsdf_evidence, followed_evidence, needed_if, traced_evidence,
 };
 use crate::intersect::{ShadingNormals, Surface};
-use crate::material::{Bsdf, SpecularSample, mirror_direction};
+use crate::material::{Bsdf, Site, SpecularSample, mirror_direction};
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, Paths, draws_of_one};
 use crate::sample::Purpose;
@@ -39,6 +39,12 @@ fn ray(paths: &Paths, row: usize, surface: &Surface, sample: SpecularSample) -> 
     }
 }
 
+/// The reflectance of layers at a surface, where this BSDF is of what they are made of.
+#[inline(always)]
+fn layers<B: Bsdf>(interface: &Interface<'_>, row: usize, cosine: f64) -> Option<f64> {
+    if B::TRANSMITS { interface.reflectance(row, cosine) } else { None }
+}
+
 // ANCHOR: sample_specular
 /// Reflects or refracts a ray at every surface with this BSDF.
 pub fn sample_specular<B: Bsdf, const FROM_LIGHT: bool>(
@@ -56,7 +62,8 @@ pub fn sample_specular<B: Bsdf, const FROM_LIGHT: bool>(
             let (surface, direction) = (surfaces.get(row), rays.direction_of(row));
             let normal = mirroring_normal(shading, row, surface.normal.as_dvec3(), direction);
             let of_row = (None, row, surface.material as usize);
-            let site = site::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
+            let reflectance = layers::<B>(&interface, row, -direction.dot(normal));
+            let site = Site { reflectance, ..site::<B>(&materials, &interface, of_row, transport(FROM_LIGHT)) };
             let number = numbers.get(number).copied().unwrap_or_default();
             ray(paths, row, &surface, bsdf.sample_specular(&site, direction, normal, number))
         });
@@ -81,7 +88,9 @@ pub fn split_rays<B: Bsdf>(
             scattered.append(&list.row, |_, row| {
                 let (surface, direction) = (surfaces.get(row), rays.direction_of(row));
                 let normal = mirroring_normal(shading, row, surface.normal.as_dvec3(), direction);
-                let site = site::<B>(&materials, &interface, (None, row, surface.material as usize), transport(false));
+                let of_row = (None, row, surface.material as usize);
+                let reflectance = layers::<B>(&interface, row, -direction.dot(normal));
+                let site = Site { reflectance, ..site::<B>(&materials, &interface, of_row, transport(false)) };
                 let ray = ray(paths, row, &surface, bsdf.specular_directions(&site, direction, normal)[which]);
                 let seen = ray.throughput.iter().any(|part| *part >= MIN_THROUGHPUT);
                 if seen { ray } else { ScatteredRay::default() }

@@ -17,6 +17,7 @@
 //! ```
 
 mod classify;
+mod contact;
 mod count;
 mod hits;
 mod moving;
@@ -32,6 +33,8 @@ mod view;
 pub use crate::extract::shape_evidence;
 #[doc(hidden)]
 pub use classify::{classify_hits, classify_stage};
+#[doc(hidden)]
+pub use contact::{Contacts, GlassCrossing, contact_bound_stage, contact_stage, merge_contacts, widen_bounds};
 #[doc(hidden)]
 pub use count::{AllShapes, BoxTests, PrimitiveTests, TraversalDepths, count_stage};
 pub use hits::Hits;

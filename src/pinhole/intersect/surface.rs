@@ -54,8 +54,7 @@ column! {
     /// A shape's outward side is the outside of a sphere, ellipsoid or cuboid; the side of a plane's `normal`; the side
     /// of the entity's +y for a disk and a rectangle; and for a triangle the side of its vertex normals or, without
     /// them, the one from which its vertices run anticlockwise.
-    /// A mirroring placement does not change the side, except that it reverses the orientation of a triangle without
-    /// normals.
+    /// A mirroring placement does not change the side.
     /// The column records whether the normal in [`Surfaces`], which always faces the ray, was flipped.
     pub struct SurfaceSides("side", "on the shape", "1 or 0", Ray) {
         /// 1 if the ray arrived on the shape's outward side, so that a transmitted ray enters the shape; 0 if it

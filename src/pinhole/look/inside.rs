@@ -1,7 +1,6 @@
 use crate::Result;
-use crate::extract::{ShapeTable, TriangleTable, listed_kinds, shape_entities, shape_name};
+use crate::extract::{ShapeTable, TriangleTable, listed_kinds, shape_name};
 use crate::plan::Census;
-use crate::scene::{Glass, Rgb, UsesMaterial};
 use crate::shapes::emitter::triangle_solid_angle;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -11,9 +10,6 @@ use std::f64::consts::PI;
 const ALL_ROUND: f64 = 4.0 * PI * (1.0 - 1e-6);
 
 /// A warning that the camera is inside a shape, and inside which: one with an inside of its own, or a closed mesh.
-///
-/// The medium around the camera attenuates the light that the camera receives from that shape's own surface, but not
-/// from objects inside it.
 pub fn shape_around_camera(scene: &Census<'_>, shapes: &ShapeTable) -> Result<Option<String>> {
     // The camera is the origin of render space.
     let mut around = None;
@@ -22,19 +18,11 @@ pub fn shape_around_camera(scene: &Census<'_>, shapes: &ShapeTable) -> Result<Op
     }
     let mesh = triangles_around(&*scene.table::<TriangleTable>()?, shapes);
     let Some(shape) = around.or(mesh) else { return Ok(None) };
-    let name = shape_name(scene, shape as usize);
-    let entity = shape_entities(scene).get(shape as usize).copied();
-    let absorbs = entity.is_some_and(|entity| {
-        let used = scene.get::<UsesMaterial>(entity).and_then(|used| scene.get::<Glass>(used.0));
-        scene.get::<Glass>(entity).or(used).is_some_and(|glass| glass.absorption != Rgb::BLACK)
-    });
-    let lost = if absorbs { "; its absorption is not applied to what is seen within it" } else { "" };
-    Ok(Some(format!("the camera is inside the {name} and sees it from within{lost}")))
+    Ok(Some(format!("the camera is inside the {} and sees it from within", shape_name(scene, shape as usize))))
 }
 
 /// The first triangle of a mesh of one material that is closed around the camera: signed solid angles, negative where a
 /// triangle shows its front, add up to ±4π inside a closed mesh and to zero outside it.
-/// a triangle shows its front, sum to all round inside, and to nothing outside.
 fn triangles_around(triangles: &TriangleTable, shapes: &ShapeTable) -> Option<u32> {
     let mut filled: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
     for (row, &shape) in triangles.shape.iter().enumerate() {

@@ -35,6 +35,8 @@ pub struct Site {
     pub colour: [f64; 3],
     /// The index of refraction beyond the surface over that on the side of the eye; 1 for an opaque material.
     pub eta: f64,
+    /// The reflectance of a smooth surface, where layers lie there that are too thin to be kept apart.
+    pub reflectance: Option<f64>,
     /// What the path carries.
     pub transport: Transport,
     /// The metallic and the perceived roughness, each from 0 to 1, where an image gives them in place of the table.
@@ -44,7 +46,7 @@ pub struct Site {
 impl Site {
     /// A row of a table of opaque materials, on a surface of this colour.
     pub const fn opaque(row: usize, colour: [f64; 3]) -> Self {
-        Self { row, colour, eta: 1.0, transport: Transport::Radiance, mapped: None }
+        Self { row, colour, eta: 1.0, reflectance: None, transport: Transport::Radiance, mapped: None }
     }
 }
 

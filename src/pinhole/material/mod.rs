@@ -63,7 +63,7 @@ pub use erased::ErasedBsdf;
 pub use frame::{cosine_direction, cosine_pdf, frame_of};
 pub use fresnel::{fresnel, fresnel_parts, mirror_direction, refract};
 pub use ggx::{MicrofacetSample, ggx_brdf, ggx_d, ggx_g1, ggx_lambda, ggx_sample, visible_normal, visible_pdf};
-pub use glass::{SmoothGlass, glass_event, glass_samples};
+pub use glass::{SmoothGlass, glass_event, glass_samples, layered_reflectance};
 pub use highlight::highlight;
 pub use highlight_table::HighlightTable;
 pub use kind::MaterialKind;

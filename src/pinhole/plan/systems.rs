@@ -39,6 +39,8 @@ pub enum TileSystems {
     Start,
     /// Rays are intersected with shapes, each kind of which keeps the closest hit, in any order.
     Intersect,
+    /// Surfaces that coincide with a hit on glass within rounding are found, and hit or crossed in one event.
+    Contact,
     /// The rows of each kind of shape and material are listed.
     Classify,
     /// Position, normal and error bound of each hit; every kind of shape fills its own rows.
@@ -67,6 +69,8 @@ pub enum TileSystems {
     ClearShadows,
     /// Shadow rays are intersected with shapes, each kind of which keeps the closest hit, in any order.
     TraceShadowRays,
+    /// The light of shadow rays is multiplied by the transmittance along them.
+    AbsorbShadowRays,
     /// Light samples are weighted against BSDF sampling.
     MisWeights,
     /// The radiance of emission and of direct light is added up.
@@ -104,6 +108,7 @@ impl TileSystems {
         Self::World,
         Self::Start,
         Self::Intersect,
+        Self::Contact,
         Self::Classify,
         Self::Surface,
         Self::Normal,
@@ -118,6 +123,7 @@ impl TileSystems {
         Self::SampleLights,
         Self::ClearShadows,
         Self::TraceShadowRays,
+        Self::AbsorbShadowRays,
         Self::MisWeights,
         Self::Shade,
         Self::SampleBsdfs,

@@ -128,6 +128,12 @@ pub fn shadow_t_max(distance: f64) -> f32 {
 }
 // ANCHOR_END: shadow_t_max
 
+/// The distance to a light, of which [`shadow_t_max`] made this t_max.
+#[inline(always)]
+pub fn light_distance(t_max: f32) -> f64 {
+    f64::from(t_max) / (1.0 - f64::from(f32::EPSILON) * 4.0)
+}
+
 /// Clears every tile's list of shadow rays.
 pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightPdfs>)>) {
     for (mut rays, pdfs) in &mut tiles {

@@ -80,8 +80,8 @@ pub use image_mask::{image_mask_stage, image_mask_stages, mask_image};
 pub use image_texture::{evaluate_images, image_stage};
 #[doc(hidden)]
 pub use light::{
-    LightPdfs, LightRays, add_light, light_evidence, light_stage, lit_evidence, matte_radiance, shadow_t_max,
-    start_light, start_light_stage,
+    LightPdfs, LightRays, add_light, light_distance, light_evidence, light_stage, lit_evidence, matte_radiance,
+    shadow_t_max, start_light, start_light_stage,
 };
 #[doc(hidden)]
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
@@ -98,8 +98,8 @@ pub use radiance::Radiance;
 pub use radiance::{start_radiance, start_stage};
 #[doc(hidden)]
 pub use shadow::{
-    ShadowHits, moving_shadow_stage, plane_shadow_stage, shape_shadow_stage, shape_shadow_stages, sphere_shadow_stage,
-    start_shadow_stage, start_shadows,
+    ShadowHits, moving_shadow_stage, plane_shadow_stage, shadow_evidence, shape_shadow_stage, shape_shadow_stages,
+    sphere_shadow_stage, start_shadow_stage, start_shadows,
 };
 #[doc(hidden)]
 pub use surface_colour::{colour_stage, colour_surfaces};

@@ -12,6 +12,9 @@ pub struct Bounds {
 }
 
 impl Bounds {
+    /// All of space.
+    pub const ALL: Self = Self { least: DVec3::NEG_INFINITY, most: DVec3::INFINITY };
+
     /// A box with this half size about a centre, enlarged by more than rounding can have lost: by 2⁻²⁴ of the largest
     /// extent, which holds for shapes up to ten million times as long as they are thick, and by 2⁻⁵⁰ of the position.
     pub fn about(centre: DVec3, half_size: DVec3) -> Self {
@@ -25,6 +28,17 @@ impl Bounds {
     /// Whether two boxes have a point in common.
     pub fn overlaps(&self, other: &Self) -> bool {
         !(other.most.cmplt(self.least) | self.most.cmplt(other.least)).any()
+    }
+
+    /// Whether a point is in it or on its surface.
+    #[inline(always)]
+    pub fn contains(&self, point: DVec3) -> bool {
+        !(point.cmplt(self.least) | self.most.cmplt(point)).any()
+    }
+
+    /// The smallest box around both.
+    pub fn joined(&self, other: &Self) -> Self {
+        Self { least: self.least.min(other.least), most: self.most.max(other.most) }
     }
 
     /// The centre and radius of the sphere through its corners.

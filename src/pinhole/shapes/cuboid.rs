@@ -137,6 +137,10 @@ impl Shape for Slabs {
         (0..3).all(|axis| self.normal[axis].dot(point - self.centre).abs() < self.half[axis])
     }
 
+    fn thickness(&self) -> f64 {
+        2.0 * self.half.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
     fn emitter(&self, (): &()) -> Option<EmittingCuboid> {
         Some(EmittingCuboid::new(self.centre, self.half_edges()))
     }

@@ -107,6 +107,10 @@ impl Shape for Ellipsoid {
     fn contains(&self, point: DVec3) -> bool {
         (self.unit_from_world * (point - self.centre)).length() < 1.0
     }
+
+    fn thickness(&self) -> f64 {
+        2.0 / self.norm
+    }
 }
 
 /// The greatest factor by which a map lengthens a vector, or up to 1 % more where its columns are not perpendicular.

@@ -167,6 +167,11 @@ impl Frustum {
         let p = self.space.point(point);
         self.capped && p.y.abs() < 1.0 && p.x * p.x + p.z * p.z < self.radius(p.y) * self.radius(p.y)
     }
+
+    /// A length that its inside is nowhere thinner than, but for edges and tips: its height, or its wider end.
+    pub fn thickness(&self) -> f64 {
+        2.0 * self.radius(-1.0).max(self.radius(1.0)).min(1.0) / self.space.norm
+    }
 }
 
 /// over / under, or none where that is certainly not at a point of the shape; uncertain where nothing is known of it.

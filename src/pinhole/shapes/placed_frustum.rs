@@ -95,6 +95,10 @@ impl<C: FrustumShape> Shape for PlacedFrustum<C> {
         self.frustum.contains(point)
     }
 
+    fn thickness(&self) -> f64 {
+        self.frustum.thickness()
+    }
+
     fn is_sampled(component: &C) -> bool {
         component.is_capped()
     }

@@ -85,6 +85,11 @@ impl Shape for PlacedPlane {
         UvSlope::Planar([uv_from_world.row(0), uv_from_world.row(1)])
     }
 
+    /// The half-space behind it is its inside, where it has one: it is asked of planes of glass only.
+    fn windings(&self, point: DVec3) -> u32 {
+        u32::from(self.normal.dot(point) < self.offset)
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         None
     }

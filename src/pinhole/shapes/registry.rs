@@ -1,5 +1,6 @@
 //! What is made from the list of shapes: where a row may be of any kind, its kind is looked up here and nowhere else.
 
+use super::bounds::Bounds;
 use super::emitter::{Emitting, LightPoint};
 use super::kind::ShapeKind;
 use super::ray_block::{ClosestHit, ClosestHits, RayBlock, keep_closest_block, vector};
@@ -113,6 +114,21 @@ macro_rules! registry {
             /// The surface where a ray hits it.
             pub fn surface(&self, hit: &RayHit) -> SurfacePoint {
                 match self { $(Self::$kind(shape, beside) => shape.surface(beside, hit),)+ }
+            }
+
+            /// How many times it contains a point.
+            pub fn windings(&self, point: DVec3) -> u32 {
+                match self { $(Self::$kind(shape, _) => shape.windings(point),)+ }
+            }
+
+            /// A length that its inside is nowhere thinner than, but for edges and tips.
+            pub fn thickness(&self) -> f64 {
+                match self { $(Self::$kind(shape, _) => shape.thickness(),)+ }
+            }
+
+            /// A box around it; none where it is infinite.
+            pub fn bounds(&self) -> Option<Bounds> {
+                match self { $(Self::$kind(shape, _) => shape.bounds(),)+ }
             }
         }
 

@@ -192,6 +192,16 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
         false
     }
 
+    /// How many times it contains a point; more than once only where its own surface overlaps itself.
+    fn windings(&self, point: DVec3) -> u32 {
+        u32::from(self.contains(point))
+    }
+
+    /// A length that its inside is nowhere thinner than, but for edges and tips; infinite where it has no inside.
+    fn thickness(&self) -> f64 {
+        f64::INFINITY
+    }
+
     /// Whether it is sampled where it emits; the emission of others is found by BSDF sampling only.
     fn is_sampled(_component: &Self::Component) -> bool {
         TypeId::of::<Self::Emitter>() != TypeId::of::<NeverSampled>()

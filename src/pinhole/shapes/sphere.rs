@@ -96,6 +96,10 @@ impl Shape for PlacedSphere {
         (point - self.centre).length() < self.radius
     }
 
+    fn thickness(&self) -> f64 {
+        2.0 * self.radius
+    }
+
     fn emitter(&self, (): &()) -> Option<Self> {
         Some(*self)
     }

@@ -128,6 +128,10 @@ impl Shape for PlacedTorus {
     fn contains(&self, point: DVec3) -> bool {
         self.off_circle(self.space.point(point)).length() < self.minor
     }
+
+    fn thickness(&self) -> f64 {
+        2.0 * self.minor / self.space.norm
+    }
 }
 
 impl PlacedTorus {

@@ -24,7 +24,7 @@ const OWN_UVS: [DVec2; 3] = [DVec2::ZERO, DVec2::X, DVec2::Y];
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TriangleFace {
     /// The unit normal, on the side of the author's vertex normals, or else on the side from which the author's corners
-    /// appear anticlockwise in world space.
+    /// appear anticlockwise before the entity is placed.
     pub normal: DVec3,
     /// Whether it is opposite to (B − A) × (C − A) of the sorted corners.
     pub turned: bool,
@@ -78,8 +78,10 @@ impl Shape for TriangleRow {
     fn place(triangle: &Triangle, placed: &Placed<'_>) -> Result<(Self, TriangleFace), SceneError> {
         let (corners, normals) = placed_corners(triangle, placed)?;
         let (row, mut face) = TriangleFace::of(corners, checked_uvs(placed.who, triangle)?);
-        // A mirroring placement reverses the order of corners, but not the normals.
-        if normals.is_some_and(|normals| normals[0].dot(face.normal) < 0.0) {
+        // A mirroring placement reverses the order of corners, but no side.
+        let is_mirrored = placed.pose.world_from_entity.matrix3.determinant() < 0.0;
+        let turns = normals.map_or(is_mirrored, |normals| normals[0].dot(face.normal) < 0.0);
+        if turns {
             face.normal = -face.normal;
             face.turned = !face.turned;
         }

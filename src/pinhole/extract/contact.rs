@@ -1,0 +1,247 @@
+//! Which surfaces single precision may not keep apart from those of glass: they touch, or a body is that thin.
+
+use super::shape_kind::{listed_kind, one_shape, shape_entities};
+use super::{MaterialTable, NO_ROW, ShapeTable, eye, followed_evidence, glass_evidence};
+use crate::plan::{Census, Evidence, Table};
+use crate::scene::{SceneError, called};
+use crate::shapes::{Body, Bounds, l1_norm, offset_bound};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// How many times the error bound of a hit point two surfaces must be apart to be certainly kept apart: a ray that is
+/// spawned from one of them starts up to 1.5 bounds from it, and the search for others goes to two.
+const APART: f64 = 4.0;
+
+/// A shape that may touch glass, or is of glass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// The shape.
+    pub body: Body,
+    /// Its number.
+    pub shape: u32,
+    /// The row of its glass; [`NO_ROW`] where it is of something else.
+    pub glass: u32,
+}
+
+/// For each shape of glass, the shapes whose surfaces may coincide with its own within rounding, itself among them where
+/// its two sides may.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ContactTable {
+    /// The shapes of glass that have any, and those that they may touch.
+    pub contact: Vec<Contact>,
+    /// For each shape by its number its row in that list; [`NO_ROW`] for a shape that touches none.
+    pub row: Vec<u32>,
+    /// For each row of that list, where its others end in `other`; they begin where the previous row's end.
+    pub end: Vec<u32>,
+    /// Rows of that list.
+    pub other: Vec<u32>,
+}
+
+impl ContactTable {
+    /// The contacts of a row.
+    #[inline(always)]
+    pub fn others(&self, row: usize) -> &[u32] {
+        let start = if row == 0 { 0 } else { self.end[row - 1] };
+        &self.other[start as usize..self.end[row] as usize]
+    }
+}
+
+impl Table for ContactTable {
+    const NAME: &'static str = "contacts";
+
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let (shapes, pairs) = (glass_of_shapes(scene)?, contact_pairs(scene)?);
+        let mut others: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for &[glass, other] in &pairs.touching {
+            others.entry(glass).or_default().push(other);
+            others.entry(other).or_default();
+        }
+        let mut table = Self { row: vec![NO_ROW; shapes.len()], ..Self::default() };
+        for (number, &shape) in others.keys().enumerate() {
+            table.row[shape] = number as u32;
+            let body = body_of(scene, shape)?;
+            table.contact.push(Contact { body, shape: shape as u32, glass: shapes[shape] });
+        }
+        for touched in others.values() {
+            table.other.extend(touched.iter().map(|&shape| table.row[shape]));
+            table.end.push(table.other.len() as u32);
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(&self.contact[..]) + (self.row.len() + self.end.len() + self.other.len()) * size_of::<u32>()
+    }
+}
+
+/// Evidence that a surface may coincide with one of glass within rounding.
+pub fn contact_evidence(scene: &Census<'_>) -> Evidence {
+    evidence_of(scene, "nothing touches glass, and none is thin", |_| true)
+}
+
+/// Evidence that two surfaces of glass may.
+pub fn glass_contact_evidence(scene: &Census<'_>) -> Evidence {
+    evidence_of(scene, "no two surfaces of glass touch", |other| other != NO_ROW)
+}
+
+fn evidence_of(scene: &Census<'_>, none: &str, such: impl Fn(u32) -> bool) -> Evidence {
+    let glass = glass_evidence(scene).and(|| followed_evidence(scene));
+    if !glass.needed {
+        return glass;
+    }
+    // A scene that cannot be extracted is reported before anything is rendered.
+    let (Ok(shapes), Ok(pairs)) = (glass_of_shapes(scene), contact_pairs(scene)) else { return Evidence::default() };
+    let mut found = pairs.touching.iter().filter(|[_, other]| such(shapes[*other]));
+    let Some(&[one, other]) = found.next() else {
+        return Evidence { needed: false, reason: none.into(), count: 0 };
+    };
+    let entities = shape_entities(scene);
+    let [of, with] = [one, other].map(|shape| entities.get(shape).map_or_else(String::new, |&e| called(scene, e)));
+    let reason = if one == other { format!("thin glass: {of}") } else { format!("{of} may touch {with}") };
+    Evidence { needed: true, reason, count: 1 + found.count() }
+}
+
+/// Pairs of shapes, the first of them of glass, whose surfaces may coincide within rounding.
+#[derive(Debug, Default)]
+struct ContactPairs {
+    touching: Vec<[usize; 2]>,
+}
+
+/// The row of each shape's glass; [`NO_ROW`] for other shapes.
+fn glass_of_shapes(scene: &Census<'_>) -> Result<Vec<u32>, SceneError> {
+    let (shapes, materials) = (scene.table::<ShapeTable>()?, scene.table::<MaterialTable>()?);
+    let interior = |&material: &u32| if material == NO_ROW { NO_ROW } else { materials.interior[material as usize] };
+    Ok(shapes.material.iter().map(interior).collect())
+}
+
+/// A shape at the moment when the shutter opens.
+fn body_of(scene: &Census<'_>, shape: usize) -> Result<Body, SceneError> {
+    let entity = shape_entities(scene)[shape];
+    (one_shape(scene, entity)?.body)(scene, entity, eye(scene)?)
+}
+
+/// A shape that keeps still, with the box around it; none for an infinite one.
+struct Boxed {
+    shape: usize,
+    bounds: Option<Bounds>,
+}
+
+fn contact_pairs(scene: &Census<'_>) -> Result<Arc<ContactPairs>, SceneError> {
+    scene.once(|scene| find_pairs(scene).map(Arc::new))
+}
+
+fn find_pairs(scene: &Census<'_>) -> Result<ContactPairs, SceneError> {
+    let (table, glass) = (scene.table::<ShapeTable>()?, glass_of_shapes(scene)?);
+    let is_glass = |shape: usize| glass[shape] != NO_ROW;
+    let mut pairs = ContactPairs::default();
+    if !(0..glass.len()).any(is_glass) {
+        return Ok(pairs);
+    }
+    let mut boxed = Vec::new();
+    for shape in 0..glass.len() {
+        // What moves is kept apart by its motion, and is none of the listed kinds.
+        if let Some(listed) = listed_kind(table.kind[shape]) {
+            boxed.push(Boxed { shape, bounds: (listed.bounds)(scene, table.row[shape] as usize)? });
+        }
+    }
+    let (mut bounded, infinite): (Vec<Boxed>, Vec<Boxed>) = boxed.into_iter().partition(|own| own.bounds.is_some());
+    let grown = |own: &Boxed| own.bounds.map(|bounds| grow(&bounds)).unwrap_or(Bounds::ALL);
+    bounded.sort_by(|a, b| {
+        let [a_least, b_least] = [a, b].map(|own| grown(own).least.x);
+        a_least.partial_cmp(&b_least).unwrap_or(Ordering::Equal).then(a.shape.cmp(&b.shape))
+    });
+    let mut candidates = Vec::new();
+    // The boxes that a sweep along x is in; none of two opaque shapes concern glass.
+    let mut open: Vec<&Boxed> = Vec::new();
+    for own in &bounded {
+        let bounds = grown(own);
+        open.retain(|other| grown(other).most.x >= bounds.least.x);
+        let near = open.iter().filter(|other| is_glass(own.shape) || is_glass(other.shape));
+        candidates.extend(near.filter(|other| grown(other).overlaps(&bounds)).map(|other| [own.shape, other.shape]));
+        open.push(own);
+    }
+    for plane in &infinite {
+        let others = bounded.iter().chain(infinite.iter().filter(|other| other.shape < plane.shape));
+        candidates.extend(others.map(|other| [plane.shape, other.shape]));
+    }
+    let mut bodies: BTreeMap<usize, Body> = BTreeMap::new();
+    for pair in candidates.into_iter().filter(|pair| pair.iter().any(|&shape| is_glass(shape))) {
+        for shape in pair {
+            if let std::collections::btree_map::Entry::Vacant(place) = bodies.entry(shape) {
+                place.insert(body_of(scene, shape)?);
+            }
+        }
+        if may_touch(pair.map(|shape| &bodies[&shape]), pair.map(|shape| glass[shape])) {
+            let glassy = [pair, [pair[1], pair[0]]].into_iter().filter(|&[first, _]| is_glass(first));
+            pairs.touching.extend(glassy);
+        }
+    }
+    for own in bounded.iter().filter(|own| is_glass(own.shape)) {
+        let body = body_of(scene, own.shape)?;
+        if body.thickness() <= own.bounds.map_or(0.0, |bounds| reach(&bounds)) {
+            pairs.touching.push([own.shape, own.shape]);
+        }
+    }
+    pairs.touching.sort_unstable();
+    pairs.touching.dedup();
+    Ok(pairs)
+}
+
+/// How far from a surface in this box another must be to be certainly kept apart from it.
+fn reach(bounds: &Bounds) -> f64 {
+    let farthest = bounds.least.abs().max(bounds.most.abs());
+    APART * f64::from(offset_bound(farthest, DVec3::ZERO, l1_norm(farthest)))
+}
+
+fn grow(bounds: &Bounds) -> Bounds {
+    let by = DVec3::splat(reach(bounds));
+    Bounds { least: bounds.least - by, most: bounds.most + by }
+}
+
+/// Whether the surfaces of two shapes whose boxes overlap may coincide over an area: true where nothing better is known.
+///
+/// Surfaces that only cross each other do not: the rays that come as near as rounding to such a line are too few to be
+/// seen.
+fn may_touch([one, other]: [&Body; 2], glass: [u32; 2]) -> bool {
+    let reach = [one, other].iter().filter_map(|body| body.bounds()).map(|own| reach(&own)).fold(0.0, f64::max);
+    match (one, other) {
+        (Body::Sphere(a, ()), Body::Sphere(b, ())) => {
+            let apart = (a.centre - b.centre).length();
+            let gaps = [apart - (a.radius + b.radius), apart - (a.radius - b.radius).abs()];
+            gaps.iter().any(|gap| gap.abs() <= reach)
+        }
+        (Body::Sphere(ball, ()), Body::Plane(plane, _)) | (Body::Plane(plane, _), Body::Sphere(ball, ())) => {
+            let height = plane.normal.dot(ball.centre) - plane.offset;
+            (height.abs() - ball.radius).abs() <= reach
+        }
+        (Body::Plane(a, _), Body::Plane(b, _)) => {
+            let side = a.normal.dot(b.normal).signum();
+            let (turned, apart) = (a.normal - side * b.normal, a.offset - side * b.offset);
+            let bound = f64::from(offset_bound(a.normal * a.offset, DVec3::ZERO, a.offset.abs()));
+            turned.length() < 1e-6 && apart.abs() <= APART * bound
+        }
+        (Body::Plane(plane, _), Body::Mesh(mesh, ())) | (Body::Mesh(mesh, ()), Body::Plane(plane, _)) => {
+            let is_in = |corner: &DVec3| (plane.normal.dot(*corner) - plane.offset).abs() <= reach;
+            mesh.placed_triangles().any(|corners| corners.iter().all(is_in))
+        }
+        (Body::Plane(plane, _), body) | (body, Body::Plane(plane, _)) => {
+            let Some(bounds) = body.bounds() else { return true };
+            let (centre, half) = (0.5 * (bounds.least + bounds.most), 0.5 * (bounds.most - bounds.least));
+            let (height, extent) = (plane.normal.dot(centre) - plane.offset, plane.normal.abs().dot(half));
+            height.abs() <= extent + reach
+        }
+        // Neighbours in one surface share corners.
+        (Body::Triangle(a, _), Body::Triangle(b, _)) => {
+            glass[0] != glass[1] || !a.corners.iter().any(|corner| b.corners.contains(corner))
+        }
+        (Body::Mesh(mesh, ()), body) | (body, Body::Mesh(mesh, ())) => {
+            let Some(near) = body.bounds().map(|bounds| grow(&bounds)) else { return true };
+            let around = |[a, b, c]: [DVec3; 3]| Bounds { least: a.min(b).min(c), most: a.max(b).max(c) };
+            mesh.placed_triangles().any(|corners| around(corners).overlaps(&near))
+        }
+        _ => true,
+    }
+}

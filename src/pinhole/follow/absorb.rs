@@ -1,0 +1,94 @@
+//! Light that glass absorbs along the segments of paths: along each ray, and along each shadow ray.
+
+use super::deeper_media::deeper_media_evidence;
+use super::interface::{Interface, InterfaceView};
+use super::media::media_evidence;
+use super::{DeeperMedia, Media, transmittance};
+use crate::extract::{
+    GlassTable, MaterialTable, NO_ROW, followed_evidence, glass_contact_evidence, glass_that, lit_from_behind_evidence,
+};
+use crate::intersect::{Contacts, Hits, NO_SHAPE, SurfaceSides, Surfaces};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems};
+use crate::rays::Paths;
+use crate::shade::{LightRays, MetallicRoughness, ShadowHits, light_distance, shadow_evidence};
+use bevy_ecs::prelude::*;
+
+/// The transmittance of a glass along a way of this length, colour by colour.
+#[inline(always)]
+fn transmittances(glass: &GlassTable, row: u32, length: f64) -> [f64; 3] {
+    glass.absorption[row as usize].map(|absorption| transmittance(absorption, length))
+}
+
+/// Multiplies each path's throughput by the transmittance of the glass along its ray, which is 0 for an infinite ray.
+pub fn absorb_in_glass(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Hits, &Media, &mut Paths)>) {
+    for (hits, media, mut paths) in &mut tiles {
+        let paths = &mut *paths;
+        for row in 0..hits.rows() {
+            let there = media.get(row).top();
+            if there == NO_ROW {
+                continue;
+            }
+            let [r, g, b] = transmittances(&glass, there, hits.t[row]);
+            paths.r[row] *= r;
+            paths.g[row] *= g;
+            paths.b[row] *= b;
+        }
+    }
+}
+
+// ANCHOR: absorb_shadow_rays
+/// Multiplies the light of each unblocked shadow ray by the transmittance of the glass that it runs through: nothing is
+/// between its ends, so that is the medium in front of the surface, or beyond it where the light is behind.
+///
+/// A light that casts no shadow shines as if nothing were there, glass as little as anything else.
+pub fn absorb_shadow_rays(
+    (glass, materials): (Res<Shared<GlassTable>>, Res<Shared<MaterialTable>>),
+    mut tiles: Query<(&Surfaces, InterfaceView, Option<&ShadowHits>, &mut LightRays)>,
+) {
+    for (surfaces, interface, hits, mut rays) in &mut tiles {
+        let interface = Interface::new(interface, Some(&glass));
+        for ray in 0..rays.rows() {
+            if hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) || rays.t_max[ray] == 0.0 {
+                continue;
+            }
+            let row = rays.path[ray] as usize;
+            let surface = surfaces.get(row);
+            let [near, far] = interface.media(materials.interior[surface.material as usize], row);
+            let is_behind = rays.direction_of(ray).dot(surface.normal.as_dvec3()) < 0.0;
+            let there = if is_behind { far } else { near };
+            if there != NO_ROW {
+                let [r, g, b] = transmittances(&glass, there, light_distance(rays.t_max[ray]));
+                rays.r[ray] = (f64::from(rays.r[ray]) * r) as f32;
+                rays.g[ray] = (f64::from(rays.g[ray]) * g) as f32;
+                rays.b[ray] = (f64::from(rays.b[ray]) * b) as f32;
+            }
+        }
+    }
+}
+// ANCHOR_END: absorb_shadow_rays
+
+/// The stage that absorbs along rays.
+pub fn absorb_stage() -> Stage {
+    Stage::new("Absorb light in glass", TileSystems::Absorb, absorb_in_glass)
+        .when(|scene| absorption_evidence(scene).and(|| followed_evidence(scene)))
+}
+
+/// The stage that absorbs along shadow rays.
+pub fn absorb_shadow_stage() -> Stage {
+    let never = |_: &Census<'_>| Evidence::default();
+    Stage::new("Absorb light along shadow rays", TileSystems::AbsorbShadowRays, absorb_shadow_rays)
+        .reads_where::<SurfaceSides>(lit_from_behind_evidence)
+        .reads_where::<Media>(media_evidence)
+        .reads_where::<DeeperMedia>(deeper_media_evidence)
+        .reads_where::<Contacts>(|scene| lit_from_behind_evidence(scene).and(|| glass_contact_evidence(scene)))
+        .reads_where::<MetallicRoughness>(never)
+        .when(|scene| {
+            let absorbs = absorption_evidence(scene).and(|| followed_evidence(scene));
+            absorbs.and(|| shadow_evidence(scene))
+        })
+}
+
+/// Evidence that a shape is made of absorbing glass.
+pub(super) fn absorption_evidence(scene: &Census<'_>) -> Evidence {
+    glass_that(scene, "absorbing glass surface", |glass| glass.absorption != [0.0; 3])
+}

@@ -1,0 +1,574 @@
+//! Light inside glass and between glass: cameras and lights of every kind among bodies that nest, overlap, touch, are
+//! hollow or very thin, against closed forms, and the ways to find light against each other.
+
+use super::*;
+use glam::{DQuat, DVec3};
+use pinhole::scene::*;
+use pinhole_lab::measure::ray_aim::Draws;
+use std::f64::consts::PI;
+
+/// A body of glass, and how to tell without the renderer whether a point is in it.
+#[derive(Clone, Copy, Debug)]
+struct Body {
+    kind: &'static str,
+    centre: DVec3,
+    /// Half extents; the radius of a ball is the first.
+    half: DVec3,
+    glass: Glass,
+}
+
+impl Body {
+    fn contains(&self, point: DVec3) -> bool {
+        let p = (point - self.centre) / self.half;
+        let across = (p.x * p.x + p.z * p.z).sqrt();
+        match self.kind {
+            "ball" | "ellipsoid" => p.length() < 1.0,
+            "box" | "mirrored box" => p.abs().max_element() < 1.0,
+            "cylinder" => p.y.abs() < 1.0 && across < 1.0,
+            "cone" => p.y.abs() < 1.0 && across < 0.5 * (1.0 - p.y),
+            "torus" => (across - 0.7).powi(2) + p.y * p.y < 0.09,
+            "mesh" | "triangles" | "mirrored triangles" => p.abs().element_sum() < 1.0,
+            "sea" => point.y < self.centre.y,
+            other => panic!("{other}"),
+        }
+    }
+
+    fn spawn(&self, world: &mut World) {
+        let mirror = if self.kind.starts_with("mirrored") { DVec3::new(-1.0, 1.0, 1.0) } else { DVec3::ONE };
+        let scaled = Placement { position: self.centre, scale: self.half * mirror, ..Placement::default() };
+        let at = Placement { position: self.centre, ..Placement::default() };
+        match self.kind {
+            "ball" => world.spawn((Sphere { radius: self.half.x }, at, self.glass)),
+            "ellipsoid" => world.spawn((Sphere { radius: 1.0 }, scaled, self.glass)),
+            "box" | "mirrored box" => world.spawn((Cuboid { size: DVec3::splat(2.0) }, scaled, self.glass)),
+            "cylinder" => world.spawn((Cylinder { radius: 1.0, height: 2.0, capped: true }, scaled, self.glass)),
+            "cone" => world.spawn((Cone { radius: 1.0, height: 2.0, capped: true }, scaled, self.glass)),
+            "torus" => world.spawn((Torus { radius: 0.7, tube: 0.3 }, scaled, self.glass)),
+            "mesh" => world.spawn((MeshInstance::default(), scaled, self.glass)),
+            "sea" => world.spawn((Plane { normal: DVec3::Y }, at, self.glass)),
+            "triangles" | "mirrored triangles" => {
+                let glass = world.spawn(self.glass).id();
+                let body = world.spawn(scaled).id();
+                for octant in 0..8_u32 {
+                    let side = |bit: u32| if octant >> bit & 1 == 0 { 1.0 } else { -1.0 };
+                    let [a, b, c] = [DVec3::X * side(0), DVec3::Y * side(1), DVec3::Z * side(2)];
+                    let vertices = if octant.count_ones() % 2 == 0 { [a, b, c] } else { [a, c, b] };
+                    world.spawn((Triangle { vertices, ..Triangle::default() }, ChildOf(body), UsesMaterial(glass)));
+                }
+                return;
+            }
+            other => panic!("{other}"),
+        };
+    }
+}
+
+const KINDS: [&str; 11] = [
+    "ball",
+    "ellipsoid",
+    "box",
+    "mirrored box",
+    "cylinder",
+    "cone",
+    "torus",
+    "mesh",
+    "triangles",
+    "mirrored triangles",
+    "sea",
+];
+
+/// Ink: glass that bends nothing, so that light goes straight through all of it.
+fn ink(absorption: [f64; 3], priority: u32) -> Glass {
+    Glass { ior: 1.0, absorption: Rgb { r: absorption[0], g: absorption[1], b: absorption[2] }, priority }
+}
+
+/// The absorption at a point: of the body of the highest priority, and among equals the first.
+fn absorption_at(bodies: &[Body], point: DVec3) -> [f64; 3] {
+    let around = bodies.iter().enumerate().filter(|(_, body)| body.contains(point));
+    let there = around.min_by_key(|(number, body)| (std::cmp::Reverse(body.glass.priority), *number));
+    there.map_or([0.0; 3], |(_, body)| body.glass.absorption.to_array())
+}
+
+/// The transmittance from one point to another, and whether any surface lies between, by small steps.
+fn between(bodies: &[Body], from: DVec3, to: DVec3) -> ([f64; 3], bool) {
+    const STEPS: u32 = 2000;
+    let step = (to - from).length() / f64::from(STEPS);
+    let (mut depth, mut crosses) = ([0.0; 3], false);
+    let inside = |point: DVec3| bodies.iter().map(|body| body.contains(point)).collect::<Vec<_>>();
+    let first = inside(from);
+    for number in 0..STEPS {
+        let point = from.lerp(to, (f64::from(number) + 0.5) / f64::from(STEPS));
+        let there = absorption_at(bodies, point);
+        (0..3).for_each(|part| depth[part] += there[part] * step);
+        crosses |= inside(point) != first;
+    }
+    (depth.map(|depth: f64| (-depth).exp()), crosses || inside(to) != first)
+}
+
+/// Ways in which up to four bodies stand about a floor at the origin and a light at [`LIGHT`].
+fn arrangements() -> Vec<(String, Vec<Body>)> {
+    let body = |kind, centre: [f64; 3], half: [f64; 3], absorption: [f64; 3], priority| Body {
+        kind,
+        centre: centre.into(),
+        half: half.into(),
+        glass: ink(absorption, priority),
+    };
+    let mut all = vec![("nothing".to_string(), vec![])];
+    // A body of each kind around everything, or around the light alone, or around the floor alone.
+    for kind in KINDS {
+        let around = match kind {
+            "sea" => body(kind, [0.0, 5.0, 0.0], [1.0; 3], [0.4, 0.2, 0.0], 0),
+            // A torus around its hole only; its tube passes between floor and light.
+            "torus" => body(kind, [0.7, 0.1, 0.0], [1.0, 2.0, 1.0], [0.4, 0.9, 1.3], 0),
+            "ball" => body(kind, [0.2, 0.3, 0.0], [4.0; 3], [0.4, 0.2, 0.1], 0),
+            _ => body(kind, [0.2, -1.0, 0.0], [6.0, 7.0, 6.0], [0.4, 0.2, 0.1], 0),
+        };
+        all.push((format!("within a {kind}"), vec![around]));
+        if kind != "sea" && kind != "torus" {
+            let half = if kind == "ball" { [0.3; 3] } else { [0.4, 0.35, 0.4] };
+            let of_light = body(kind, LIGHT.to_array(), half, [1.0, 2.0, 0.5], 1);
+            all.push((format!("a light in a {kind}"), vec![of_light]));
+            let both = vec![around, of_light];
+            all.push((format!("a light in a {kind} within another"), both.clone()));
+            all.push((format!("the same the other way about"), both.into_iter().rev().collect()));
+        }
+    }
+    let large = body("ball", [0.0, 0.3, 0.0], [3.0; 3], [0.5, 0.3, 0.1], 0);
+    let bubble = body("ball", LIGHT.to_array(), [0.3; 3], [0.0; 3], 1);
+    all.push(("a light in a bubble".into(), vec![large, bubble]));
+    let air = body("box", [0.0, 0.0, 0.0], [0.6, 0.45, 0.6], [0.0; 3], 2);
+    all.push(("a floor in a box of air".into(), vec![large, air]));
+    all.push(("both".into(), vec![large, air, bubble]));
+    for priority in [0, 2] {
+        let floor = body("ball", [0.0, 0.0, 0.0], [0.7; 3], [0.9, 0.1, 0.4], 1);
+        let light = body("box", [0.4, 0.9, 0.2], [0.5, 0.5, 0.5], [0.2, 1.1, 0.3], priority);
+        all.push((format!("overlapping, {priority} over 1"), vec![floor, light]));
+        all.push((
+            format!("within a third, {priority} over 1"),
+            vec![floor, light, Body { glass: ink([0.1, 0.2, 0.3], 0), ..large }],
+        ));
+    }
+    // Faces that coincide: floor and light in the same box, or in two that touch.
+    let below = body("box", [0.0, -0.25, 0.0], [2.0, 0.75, 2.0], [0.6, 0.3, 0.2], 0);
+    let above = body("box", [0.0, 1.25, 0.0], [2.0, 0.75, 2.0], [0.1, 0.5, 0.9], 0);
+    all.push(("two boxes that touch".into(), vec![below, above]));
+    all.push(("the same in the other order".into(), vec![above, below]));
+    let standing = body("box", [0.0, 1.0, 0.0], [1.0, 1.0, 1.0], [0.3, 0.7, 0.2], 0);
+    all.push(("a box on the floor".into(), vec![standing]));
+    let within = body("cylinder", [0.1, 0.5, 0.0], [0.8, 0.5, 0.8], [0.9, 0.2, 0.1], 1);
+    all.push(("a cylinder on the floor in a box on the floor".into(), vec![standing, within]));
+    let four = (0..4).map(|number| {
+        let size = 2.0 - 0.45 * f64::from(number);
+        body("box", [0.05 * f64::from(number), 0.4, 0.0], [size; 3], [0.3, 0.1 * f64::from(number), 0.2], number)
+    });
+    all.push(("four in one another".into(), four.collect()));
+    all
+}
+
+const LIGHT: DVec3 = DVec3::new(0.3, 0.9, 0.2);
+const COLOUR: f64 = 0.5;
+/// The side of the floor that the camera sees.
+const SEEN: f64 = 0.16;
+
+/// Where the camera stands above the floor: its pixels see even squares of it, straight from above or from a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Seen {
+    Parallel,
+    Perspective,
+    Lens,
+    Fisheye,
+}
+
+fn stage(bodies: &[Body], seen: Seen, height: f64, floor_first: bool) -> World {
+    let mut world = World::new();
+    let look = LookAt { eye: DVec3::Y * height, target: DVec3::ZERO, up: DVec3::Z };
+    let size = Resolution { width: 4, height: 4 };
+    let camera = world.spawn((Name::new("camera"), look, size)).id();
+    let fov = Degrees(2.0 * (0.5 * SEEN / height).atan().to_degrees());
+    let perspective = PerspectiveCamera { fov, ..PerspectiveCamera::default() };
+    let mut camera = world.entity_mut(camera);
+    match seen {
+        Seen::Parallel => drop(camera.insert(OrthographicCamera { view_height: SEEN })),
+        Seen::Perspective => drop(camera.insert(perspective)),
+        Seen::Lens => {
+            let aperture = Aperture::Radius { radius: 0.002 };
+            drop(camera.insert((perspective, Lens { aperture, focus_distance: height, ..Lens::default() })));
+        }
+        Seen::Fisheye => drop(camera.insert(FisheyeCamera { fov, axis: FovAxis::Diagonal })),
+    }
+    let floor = |world: &mut World| {
+        world.spawn((Name::new("floor"), Rectangle { width: 1.0, depth: 1.0 }, Matte { colour: Rgb::grey(COLOUR) }));
+    };
+    if floor_first {
+        floor(&mut world);
+    }
+    bodies.iter().for_each(|body| body.spawn(&mut world));
+    if !floor_first {
+        floor(&mut world);
+    }
+    world
+}
+
+/// A light without an area, and the irradiance that it sends to a point of the floor, through what lies between.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Delta {
+    Point,
+    Spot,
+    Sun,
+}
+
+const SUN: DVec3 = DVec3::new(-0.2, -0.9, -0.3);
+
+impl Delta {
+    fn spawn(self, world: &mut World) {
+        let look = LookAt { eye: LIGHT, target: DVec3::ZERO, up: DVec3::Z };
+        let white = Rgb::grey(1.0);
+        match self {
+            Self::Point => world.spawn((
+                PointLight { intensity: white, ..PointLight::default() },
+                Placement::at(LIGHT.x, LIGHT.y, LIGHT.z),
+            )),
+            Self::Spot => {
+                let angles =
+                    SpotLight { inner_angle: Degrees(60.0), outer_angle: Degrees(70.0), ..SpotLight::default() };
+                world.spawn((SpotLight { intensity: white, ..angles }, look))
+            }
+            Self::Sun => {
+                let look = LookAt { eye: -SUN, target: DVec3::ZERO, up: DVec3::Z };
+                world.spawn((DirectionalLight { irradiance: white, ..DirectionalLight::default() }, look))
+            }
+        };
+    }
+
+    /// The irradiance at a point without anything between, and where the light comes from.
+    fn irradiance(self, floor: DVec3) -> (f64, DVec3) {
+        let to_light = LIGHT - floor;
+        match self {
+            Self::Sun => (-SUN.normalize().y, floor - 40.0 * SUN.normalize()),
+            _ => (to_light.y / to_light.length().powi(3), LIGHT),
+        }
+    }
+}
+
+/// The radiance that the camera sees in its pixels on the mean, and whether paths from the camera, or those from the
+/// lights beside them, can find all of it.
+fn closed_form(bodies: &[Body], light: Delta, seen: Seen, height: f64) -> ([f64; 3], bool, bool) {
+    const SIDE: u32 = 4;
+    let (mut sum, mut by_paths, mut by_both) = ([0.0; 3], true, true);
+    for cell in 0..SIDE * SIDE {
+        let along = |number: u32| SEEN * ((f64::from(number) + 0.5) / f64::from(SIDE) - 0.5);
+        let floor = DVec3::new(along(cell % SIDE), 1e-9, along(cell / SIDE));
+        let eye = if seen == Seen::Parallel { DVec3::new(floor.x, height, floor.z) } else { DVec3::Y * height };
+        let (irradiance, from) = light.irradiance(floor);
+        let ((to_light, hidden), (to_eye, behind)) = (between(bodies, floor, from), between(bodies, floor, eye));
+        (by_paths, by_both) = (by_paths && !hidden, by_both && (!hidden || !behind));
+        for part in 0..3 {
+            sum[part] += COLOUR / PI * irradiance * to_light[part] * to_eye[part] / f64::from(SIDE * SIDE);
+        }
+    }
+    (sum, by_paths, by_both)
+}
+
+/// The mean of an image, and its standard error from several seeds.
+fn mean_of(world: &dyn Fn() -> World, integrator: Integrator, samples: u32, seeds: u64) -> ([f64; 3], [f64; 3]) {
+    let images = renders_by(world, integrator, samples, 0..seeds);
+    let means: Vec<[f64; 3]> = images
+        .iter()
+        .map(|image| {
+            [0, 1, 2].map(|part| image.pixels.iter().map(|pixel| pixel[part]).sum::<f64>() / image.pixels.len() as f64)
+        })
+        .collect();
+    let count = means.len() as f64;
+    let mean = [0, 1, 2].map(|part| means.iter().map(|own| own[part]).sum::<f64>() / count);
+    let squares = [0, 1, 2].map(|part| means.iter().map(|own| (own[part] - mean[part]).powi(2)).sum::<f64>());
+    (mean, squares.map(|sum| (sum / (count * (count - 1.0))).sqrt()))
+}
+
+/// Every light without an area, under every camera, in every arrangement: light goes straight through ink, and each part
+/// of its way, from the light to the floor and from there to the eye, is absorbed by what it passes through.
+#[test]
+fn light_is_absorbed_by_all_that_it_passes_through() {
+    let (mut tried, mut worst, mut not_found) = (0, 0.0_f64, 0);
+    let mut failures = Vec::new();
+    for (number, (name, bodies)) in arrangements().into_iter().enumerate() {
+        for light in [Delta::Point, Delta::Spot, Delta::Sun] {
+            for (seen, height) in
+                [(Seen::Parallel, 0.4), (Seen::Perspective, 0.4), (Seen::Lens, 1.7), (Seen::Fisheye, 1.2)]
+            {
+                let (expected, by_paths, by_both) = closed_form(&bodies, light, seen, height);
+                let make = |traced: bool| {
+                    let mut world = stage(&bodies, seen, height, number % 2 == 0);
+                    light.spawn(&mut world);
+                    let camera = named(&mut world, "camera");
+                    if traced {
+                        world.entity_mut(camera).insert(LightTracing { paths: 8.0 });
+                    }
+                    world
+                };
+                if !by_paths && !by_both {
+                    not_found += 1;
+                    continue;
+                }
+                let can_trace = seen != Seen::Fisheye && by_both;
+                let straight = |lights| Integrator::Path { max_depth: 64, lights, roulette: 0 };
+                let mut ways = vec![Integrator::WHITTED, Integrator::DISTRIBUTION];
+                ways.extend(ALL.iter().map(|&lights| straight(lights)));
+                if !by_paths {
+                    ways.clear();
+                } else if times_samples() == 1 {
+                    // One after another; with more samples asked for, each everywhere.
+                    ways = vec![ways[tried % ways.len()]];
+                }
+                let mut ways: Vec<_> = ways.into_iter().map(|integrator| (integrator, false)).collect();
+                // What paths from the camera do not find is for those from the lights.
+                if can_trace
+                    && !by_paths
+                    && (times_samples() > 1 || (number + light as usize + height as usize).is_multiple_of(3))
+                {
+                    ways.push((straight(LightStrategy::Mis), true));
+                }
+                for (integrator, traced) in ways {
+                    let (samples, seeds) = if traced { (128, 6) } else { (4, 4) };
+                    let (mean, error) = mean_of(&|| make(traced), integrator, samples, seeds);
+                    for part in 0..3 {
+                        // The closed form is a sum of squares of the floor, good to a thousandth.
+                        let allowed = 4.5 * error[part] + 2e-3 * expected[part];
+                        let off = (mean[part] - expected[part]) / (error[part] + 5e-4 * expected[part]);
+                        worst = worst.max(off.abs());
+                        if !((mean[part] - expected[part]).abs() <= allowed) {
+                            failures.push(format!("{name}, {light:?}, {seen:?}, {integrator:?}, traced {traced}: {mean:?} ± {error:?} for {expected:?}"));
+                            break;
+                        }
+                    }
+                    tried += 1;
+                }
+            }
+        }
+    }
+    eprintln!(
+        "light through ink: {tried} renders against closed forms, worst {worst:.1} standard errors; {not_found} that no method finds"
+    );
+    assert!(failures.is_empty(), "{} of {tried}:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// Shapes that emit, each of which is put where the light is.
+const EMITTERS: [(&str, fn(&mut World) -> Entity); 9] = [
+    ("ball", |world| world.spawn(Sphere { radius: 0.12 }).id()),
+    ("disk", |world| world.spawn(Disk { radius: 0.15 }).id()),
+    ("rectangle", |world| world.spawn(Rectangle { width: 0.3, depth: 0.2 }).id()),
+    ("cuboid", |world| world.spawn(Cuboid { size: DVec3::new(0.2, 0.15, 0.25) }).id()),
+    ("cylinder", |world| world.spawn(Cylinder { radius: 0.1, height: 0.2, capped: true }).id()),
+    ("cone", |world| world.spawn(Cone { radius: 0.15, height: 0.2, capped: true }).id()),
+    ("triangle", |world| {
+        let vertices = [DVec3::new(-0.15, 0.0, 0.1), DVec3::new(0.15, 0.0, 0.12), DVec3::new(0.0, 0.02, -0.15)];
+        world.spawn(Triangle { vertices, ..Triangle::default() }).id()
+    }),
+    ("mesh", |world| world.spawn(MeshInstance::default()).id()),
+    ("ellipsoid", |world| world.spawn(Sphere { radius: 0.1 }).id()),
+];
+
+/// Every light with an area in every arrangement: light sampling, BSDF sampling and both agree with each other, and light
+/// tracing with them, in ink and in glass that bends light.
+#[test]
+fn strategies_agree_inside_glass() {
+    let (mut tried, mut worst) = (0, 0.0_f64);
+    let mut failures = Vec::new();
+    let arrangements = arrangements();
+    for (number, (name, bodies)) in arrangements.iter().enumerate() {
+        // Each arrangement is tried with some of the lights, and each light with some arrangements.
+        for (kind, spawn) in (0..if times_samples() > 1 { EMITTERS.len() } else { 1 })
+            .map(|step| EMITTERS[(number + step) % EMITTERS.len()])
+        {
+            let bends = number % 2 == 1;
+            let bodies: Vec<Body> = bodies
+                .iter()
+                .enumerate()
+                .map(|(at, body)| {
+                    let ior = if bends { 1.2 + 0.15 * at as f64 } else { 1.0 };
+                    Body { glass: Glass { ior, ..body.glass }, ..*body }
+                })
+                .collect();
+            let make = |traced: bool| {
+                let mut world = stage(&bodies, Seen::Perspective, 0.4, number % 2 == 0);
+                let emissive = Emissive { radiance: Rgb { r: 6.0, g: 9.0, b: 12.0 }, ..Emissive::default() };
+                let scale = match kind {
+                    "mesh" => DVec3::new(0.15, 0.1, 0.12),
+                    "ellipsoid" => DVec3::new(1.0, 1.4, 0.8),
+                    _ => DVec3::ONE,
+                };
+                let placement = Placement { position: LIGHT, scale, orientation: DQuat::from_rotation_z(0.2) };
+                let lamp = spawn(&mut world);
+                world.entity_mut(lamp).insert((placement, emissive));
+                let camera = named(&mut world, "camera");
+                if traced {
+                    world.entity_mut(camera).insert(LightTracing { paths: 4.0 });
+                }
+                world
+            };
+            let path = |lights| Integrator::Path { max_depth: 48, lights, roulette: 0 };
+            let ways = [
+                (LightStrategy::Bsdf, false, 256),
+                (LightStrategy::Light, false, 48),
+                (LightStrategy::Mis, false, 48),
+                (LightStrategy::Mis, true, 48),
+            ];
+            // Light sampling alone has no part in what BSDF sampling finds behind glass.
+            let measured = ways.map(|(lights, traced, samples)| mean_of(&|| make(traced), path(lights), samples, 8));
+            for (at, (mean, error)) in measured.iter().enumerate().skip(1) {
+                let (first, spread) = &measured[0];
+                for part in 0..3 {
+                    let together = (error[part] * error[part] + spread[part] * spread[part]).sqrt();
+                    let off = (mean[part] - first[part]).abs() / together.max(1e-12);
+                    worst = worst.max(off);
+                    if off > 4.5 {
+                        failures.push(format!(
+                            "{name}, {kind}, bends {bends}: way {at} {mean:?} ± {error:?} for {first:?} ± {spread:?}"
+                        ));
+                        break;
+                    }
+                }
+                tried += 1;
+            }
+        }
+    }
+    eprintln!("inside glass: {tried} comparisons of strategies, worst {worst:.1} standard errors");
+    assert!(failures.is_empty(), "{} of {tried}:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// Clear glass in an even sky of radiance 1 on a white floor, whatever it consists of and wherever its surfaces coincide:
+/// the radiance at the eye is n² of the medium around it, along every path that ends (Liouville).
+#[test]
+fn clear_glass_that_touches_makes_and_loses_no_light() {
+    let (mut scenes, mut paths, mut caught) = (0, 0, 0);
+    let mut failures = Vec::new();
+    for number in 0..TOUCHING {
+        let mut draws = Draws::new(3401, number);
+        let (name, world, index) = touching(&mut draws);
+        let film = render(&world, &offer(), &Execution::default(), &()).expect("renders").film;
+        let expected = (index * index) as f32;
+        for part in (0..8).flat_map(|x| (0..8).map(move |y| (x, y))).flat_map(|(x, y)| film.mean(x, y)) {
+            paths += 1;
+            // What total reflection keeps in a corner for all of its segments is lost, and never more than is there.
+            if part == 0.0 {
+                caught += 1;
+            } else if !((part / expected - 1.0).abs() < 2e-5) {
+                failures.push(format!("{number} {name}: {part} for {expected}"));
+                break;
+            }
+        }
+        scenes += 1;
+    }
+    eprintln!("glass that touches: {scenes} scenes, {paths} paths, {caught} caught for good");
+    assert!(failures.is_empty(), "{} of {scenes}:\n{}", failures.len(), failures.join("\n"));
+    assert!(caught * 20 < paths, "{caught} of {paths} paths are caught");
+}
+
+const TOUCHING: u64 = 240;
+
+/// A random pile of glass on a white floor, its bodies in a random order in the file, and the index around the eye.
+fn touching(draws: &mut Draws) -> (String, World, f64) {
+    let mut pick = |most: usize| ((draws.unit() * most as f64) as usize).min(most - 1);
+    let mut bodies: Vec<(&str, DVec3, DVec3, f64, u32)> = Vec::new();
+    let kinds = ["box", "cylinder", "mesh box", "shell", "film", "sunk", "beside"];
+    let count = 1 + pick(4);
+    let mut top = 0.0;
+    let mut name = String::new();
+    let far = [0.0, 7.0, -310.0][pick(3)];
+    for _ in 0..count {
+        let kind = kinds[pick(kinds.len())];
+        let ior = [1.0, 1.33, 1.5, 1.9][pick(4)];
+        name += &format!("{kind} {ior}, ");
+        match kind {
+            "film" => {
+                let thin = [3e-7, 1e-6, 3e-5, 1e-3][pick(4)];
+                bodies.push(("box", DVec3::new(0.0, top + 0.5 * thin, 0.0), DVec3::new(1.0, 0.5 * thin, 1.0), ior, 0));
+                top += thin;
+            }
+            "shell" => {
+                let thin = [1e-6, 1e-4, 0.1][pick(3)];
+                bodies.push(("ball", DVec3::new(0.0, top + 0.5, 0.0), DVec3::splat(0.5), ior, 0));
+                bodies.push(("ball", DVec3::new(0.0, top + 0.5, 0.0), DVec3::splat(0.5 - thin), 1.0, 1));
+                top += 1.0;
+            }
+            "sunk" => {
+                bodies.push(("box", DVec3::new(0.1, top + 0.1, 0.0), DVec3::new(0.7, 0.3, 0.8), ior, 2));
+                top += 0.4;
+            }
+            "beside" => {
+                for (side, ior) in [(-0.5, ior), (0.5, 1.4)] {
+                    bodies.push(("box", DVec3::new(side, top + 0.4, 0.0), DVec3::new(0.5, 0.4, 0.7), ior, 0));
+                }
+                top += 0.8;
+            }
+            _ => {
+                bodies.push((kind, DVec3::new(0.0, top + 0.3, 0.0), DVec3::new(0.8, 0.3, 0.6), ior, 0));
+                top += 0.6;
+            }
+        }
+    }
+    let inside = pick(3) == 0;
+    let eye = match bodies.first() {
+        Some(&(_, centre, half, ..)) if inside => centre + half * DVec3::new(0.21, 0.13, -0.17),
+        _ => DVec3::new(0.7, top + 1.5, 2.5),
+    };
+    let target = if inside { eye + DVec3::new(0.3, 0.2, -1.0) } else { DVec3::new(0.1, 0.5 * top, 0.0) };
+    let shift = DVec3::new(far, 0.0, 0.3 * far);
+    let mut world = World::new();
+    let look = LookAt { eye: eye + shift, target: target + shift, ..LookAt::default() };
+    let integrator = Integrator::Path { max_depth: 4096, lights: LightStrategy::Bsdf, roulette: 0 };
+    let camera = (PerspectiveCamera { fov: Degrees(40.0), ..PerspectiveCamera::default() }, integrator);
+    world.spawn((Name::new("camera"), camera, look, Resolution { width: 8, height: 8 }));
+    world.spawn(Background { colour: Rgb::grey(1.0) });
+    // The medium around the eye: of the highest priority, and among equals the first in the file.
+    let floor_at = pick(bodies.len() + 1);
+    let turned = pick(2) == 0;
+    if turned {
+        bodies.reverse();
+    }
+    let mut around: Option<(u32, f64)> = None;
+    for (number, &(kind, centre, half, ior, priority)) in bodies.iter().enumerate() {
+        if number == floor_at {
+            spawn_floor(&mut world);
+        }
+        let placement = Placement { position: centre + shift, scale: half, ..Placement::default() };
+        let glass = Glass { ior, priority, ..Glass::default() };
+        let p = (eye - centre) / half;
+        let is_in = match kind {
+            "ball" => p.length() < 1.0,
+            "cylinder" => p.y.abs() < 1.0 && p.x * p.x + p.z * p.z < 1.0,
+            _ => p.abs().max_element() < 1.0,
+        };
+        if is_in && around.is_none_or(|(other, _)| priority > other) {
+            around = Some((priority, ior));
+        }
+        match kind {
+            "ball" => world.spawn((Sphere { radius: 1.0 }, placement, glass)),
+            "cylinder" => world.spawn((Cylinder { radius: 1.0, height: 2.0, capped: true }, placement, glass)),
+            "mesh box" => world.spawn((MeshInstance::new(box_mesh()), placement, glass)),
+            _ => world.spawn((Cuboid { size: DVec3::splat(2.0) }, placement, glass)),
+        };
+    }
+    if floor_at >= bodies.len() {
+        spawn_floor(&mut world);
+    }
+    (format!("{name}inside {inside}, at {far}, turned {turned}"), world, around.map_or(1.0, |(_, ior)| ior))
+}
+
+/// A white floor, with black beneath it for rays that get through.
+fn spawn_floor(world: &mut World) {
+    world.spawn((Name::new("floor"), Plane { normal: DVec3::Y }, Matte { colour: Rgb::grey(1.0) }));
+    world.spawn((Plane { normal: DVec3::Y }, Placement::at(0.0, -1.0, 0.0), Matte { colour: Rgb::grey(0.0) }));
+}
+
+/// A box of half extent 1 as a mesh.
+fn box_mesh() -> pinhole::models::TriangleMesh {
+    let corner = |at: u32| [0, 1, 2].map(|axis| if at >> axis & 1 == 0 { -1.0 } else { 1.0 });
+    let mut triangles = Vec::new();
+    for axis in 0..3_u32 {
+        let (u, v) = (1 << ((axis + 1) % 3), 1 << ((axis + 2) % 3));
+        for (side, order) in [(0, [0, v, u + v, u]), (1_u32 << axis, [0, u, u + v, v])] {
+            let [a, b, c, d] = order.map(|offset| side + offset);
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    pinhole::models::TriangleMesh { positions: (0..8).map(corner).collect(), triangles, ..Default::default() }
+}
