@@ -1,7 +1,10 @@
-//! Hands the renderer a hash of its own sources: a checkpoint written by another build must not be continued, because
-//! its samples were taken by other code.
+//! Hands the renderer a hash of its own code: a checkpoint written by another program must not be continued, because its
+//! samples were taken by other code.
+//!
+//! The code counts, and not its text: comments, documentation, unit tests and line breaks make no other
+//! program. The hash is FNV-1a, so that it does not depend on the compiler either.
 
-use std::hash::{DefaultHasher, Hasher};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
@@ -16,27 +19,69 @@ fn main() -> io::Result<()> {
     io::Write::write_all(&mut out, format!("cargo::rustc-env=PINHOLE_SOURCES={hash}\n").as_bytes())
 }
 
-/// A hash of all sources below a folder, and of the versions that the lock file names, if there is one.
+/// A hash of the code of all sources below a folder, and of the versions that the lock file names, if there is one.
 ///
-/// The same sources make the same program wherever they are checked out, so neither the folder nor the line endings
-/// count.
+/// The same sources make the same program wherever they are checked out, so the folder does not count.
 pub fn hash_of(package: &Path, lock: &Path) -> io::Result<String> {
-    let mut hasher = DefaultHasher::new();
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    let mut add = |text: &str| {
+        text.bytes().for_each(|byte| hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3));
+    };
     if lock.exists() {
-        hasher.write(text_of(lock)?.as_bytes());
+        add(&fs::read_to_string(lock)?.replace("\r\n", "\n"));
     }
     let mut files = Vec::new();
     list(package, &mut files)?;
     for file in files {
-        let name = file.strip_prefix(package).unwrap_or(&file).to_string_lossy().replace('\\', "/");
-        hasher.write(name.as_bytes());
-        hasher.write(text_of(&file)?.as_bytes());
+        add(&file.strip_prefix(package).unwrap_or(&file).to_string_lossy().replace('\\', "/"));
+        let text = fs::read_to_string(&file)?;
+        match text.parse::<TokenStream>() {
+            Ok(tokens) => add_code(tokens, &mut add),
+            // The compiler says better what is wrong with it.
+            Err(_) => add(&text),
+        }
     }
-    Ok(format!("{:016x}", hasher.finish()))
+    Ok(format!("{hash:016x}"))
 }
 
-fn text_of(file: &Path) -> io::Result<String> {
-    Ok(fs::read_to_string(file)?.replace("\r\n", "\n"))
+/// The tokens of a source but its documentation and what is compiled for tests alone.
+fn add_code(tokens: TokenStream, add: &mut dyn FnMut(&str)) {
+    let mut tokens = tokens.into_iter().peekable();
+    while let Some(token) = tokens.next() {
+        let is_hash = matches!(&token, TokenTree::Punct(punct) if punct.as_char() == '#');
+        // The exclamation mark of an attribute that stands within what it is about.
+        let inner =
+            is_hash && tokens.next_if(|next| matches!(next, TokenTree::Punct(mark) if mark.as_char() == '!')).is_some();
+        let attribute = match tokens.peek() {
+            Some(TokenTree::Group(group)) if is_hash && group.delimiter() == Delimiter::Bracket => {
+                group.stream().to_string().replace(' ', "")
+            }
+            _ => String::new(),
+        };
+        if attribute.starts_with("doc=") {
+            tokens.next();
+        } else if attribute == "cfg(test)" && !inner {
+            // An item ends with its braces or with a semicolon.
+            let ends = |token: &TokenTree| match token {
+                TokenTree::Group(group) => group.delimiter() == Delimiter::Brace,
+                TokenTree::Punct(punct) => punct.as_char() == ';',
+                _ => false,
+            };
+            tokens.by_ref().find(ends);
+        } else if let TokenTree::Group(group) = token {
+            add(match group.delimiter() {
+                Delimiter::Parenthesis => "(",
+                Delimiter::Brace => "{",
+                Delimiter::Bracket => "[",
+                Delimiter::None => "",
+            });
+            add_code(group.stream(), add);
+            add(")");
+        } else {
+            add(&token.to_string());
+            add(" ");
+        }
+    }
 }
 
 /// Collects the sources of a folder and of its subfolders, sorted by name.

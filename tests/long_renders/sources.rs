@@ -12,18 +12,44 @@ use pinhole::scene::{FNV_BASIS, Sampling, fingerprint, fnv};
 use std::fs;
 use std::path::Path;
 
+fn hash_of_one(text: &str) -> String {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fs::create_dir_all(folder.path().join("src/pinhole/rays")).expect("made");
+    fs::write(folder.path().join("Cargo.lock"), "[[package]]\n").expect("written");
+    fs::write(folder.path().join("src/pinhole/rays/ndc.rs"), text).expect("written");
+    hash_of(&folder.path().join("src"), &folder.path().join("Cargo.lock")).expect("read")
+}
+
 #[test]
 fn an_edited_source_is_another_program() {
-    let folders = [(); 2].map(|()| tempfile::tempdir().expect("a temporary folder"));
-    let write = |at: usize, text: &str| {
-        fs::create_dir_all(folders[at].path().join("src/pinhole/rays")).expect("made");
-        fs::write(folders[at].path().join("Cargo.lock"), "[[package]]\n").expect("written");
-        fs::write(folders[at].path().join("src/pinhole/rays/ndc.rs"), text).expect("written");
-        hash_of(&folders[at].path().join("src"), &folders[at].path().join("Cargo.lock")).expect("read")
-    };
-    let before = write(0, "fn ndc() {\n    0.5\n}\n");
-    assert_eq!(before, write(1, "fn ndc() {\r\n    0.5\r\n}\r\n"), "neither the folder nor the ends of lines count");
-    assert_ne!(before, write(0, "fn ndc() {\n    0.6\n}\n"));
+    let code = "fn ndc() -> f64 {\n    0.5\n}\n#[inline]\nfn two() -> [f64; 2] {\n    [1.0, -2.0]\n}\n";
+    let edits = [("0.5", "0.6"), ("f64 {", "f32 {"), ("-2.0", "2.0"), ("#[inline]", ""), ("fn two", "pub fn two")];
+    for (old, new) in edits {
+        assert!(code.contains(old));
+        assert_ne!(hash_of_one(code), hash_of_one(&code.replace(old, new)), "{old} became {new}");
+    }
+    assert_ne!(hash_of_one("fn a() { (b, c) }"), hash_of_one("fn a() { b, c }"));
+    assert_ne!(hash_of_one("fn a() { [b] }"), hash_of_one("fn a() { (b) }"));
+}
+
+#[test]
+fn what_is_not_code_makes_no_other_program() {
+    let code = "/// Half.\nfn ndc() -> f64 {\n    0.5\n}\n";
+    let same = [
+        ("another folder", code.to_string()),
+        ("other ends of lines", code.replace('\n', "\r\n")),
+        ("a comment", code.replace("0.5", "// The middle.\n /* /* of */ one */ 0.5")),
+        ("other documentation", code.replace("Half.", "One half, \"#{[ and so on.")),
+        ("documentation of the file", format!("//! Points.\n\n{code}")),
+        ("other line breaks", code.replace("{\n    0.5\n}", "{ 0.5 }")),
+        ("a unit test", format!("{code}\n#[cfg(test)]\n#[allow(unused)]\nmod tests {{\n    fn a() {{}}\n}}\n")),
+        ("what a unit test uses", format!("#[cfg(test)]\nuse a::b;\n{code}")),
+    ];
+    for (what, text) in same {
+        assert_eq!(hash_of_one(&text), hash_of_one(code), "{what}");
+    }
+    let comment_in_text = hash_of_one("const A: &str = \"// one\";");
+    assert_ne!(comment_in_text, hash_of_one("const A: &str = \"// two\";"), "within a string it is no comment");
 }
 
 #[test]
