@@ -1,7 +1,9 @@
-//! What is kept of the curves of chapters 31 and 34 was measured with the present sources, and has the forms that the pages
-//! describe.
+//! What is kept of the curves of chapters 31 and 34 says when it was measured, and has the forms that the pages describe.
 
-use pinhole_lab::measure::cost::made_from_these;
+use pinhole::scene::MeshGeometry;
+use pinhole::shapes::{MeshHierarchy, PlacedSphere, hierarchy_of};
+use pinhole_lab::measure::specimen::shapes_in_a_cube;
+use pinhole_lab::measure::torus_knot::{steps_for, torus_knot};
 use std::path::Path;
 
 fn kept(chapter: &str) -> String {
@@ -9,29 +11,51 @@ fn kept(chapter: &str) -> String {
     std::fs::read_to_string(file).expect("the curves are kept beside the chapter")
 }
 
-#[track_caller]
-fn is_of_the_present_sources(chapter: &str, beside: &[&str], bench: &str) {
-    let expected = format!("made from {}", made_from_these(chapter, beside).expect("sources"));
-    let anew = format!("to measure anew, on a quiet machine: cargo bench --bench {bench} --write");
-    assert_eq!(kept(chapter).lines().last(), Some(expected.as_str()), "{anew}");
+/// Times belong to their day and machine, but the sizes of hierarchies are the same everywhere: those of the first rows are
+/// built again.
+#[test]
+fn the_hierarchies_of_the_curves_are_of_the_sizes_that_are_kept() {
+    let [along, sphere_rows] = [4..=7, 4..=8];
+    let knots = along.map(|power| {
+        let [along, around] = steps_for(power);
+        let mesh = MeshGeometry::new(torus_knot(along, around));
+        (mesh.triangles.len(), MeshHierarchy::of(&mesh).bytes())
+    });
+    let spheres = sphere_rows.map(|power| {
+        let count = libm::round(libm::exp10(f64::from(power) / 2.0)) as usize;
+        let bvh = hierarchy_of(&shapes_in_a_cube::<PlacedSphere>(count)).expect("bounded shapes");
+        (count, bvh.bytes())
+    });
+    let mut looked = 0;
+    for (title, columns, size, built) in
+        [("triangles", 8, 6, knots.collect::<Vec<_>>()), ("spheres", 7, 5, spheres.collect())]
+    {
+        for ((count, row), (now, bytes)) in table("31_wide_tree", title, columns).iter().zip(built) {
+            let kib = format!("{:.1}", bytes as f64 / 1024.0);
+            let anew = "to measure anew, on a quiet machine: cargo run --release -- measure 31";
+            assert!(
+                *count == now as f64 && row[size].to_string() == kib.trim_end_matches(".0"),
+                "{title}: {now} of them take {kib} KiB; {anew}"
+            );
+            looked += 1;
+        }
+    }
+    eprintln!("curves: {looked} hierarchies of the sizes that are kept");
 }
 
+/// Each file says when and where its times were measured.
 #[test]
-fn curves_are_of_the_present_sources() {
-    let beside = ["src/lab/naive/tree.rs", "src/lab/measure/torus_knot.rs", "tests/bench/curves.rs"];
-    is_of_the_present_sources("31_wide_tree", &beside, "curves --");
-}
-
-#[test]
-fn curves_of_both_classes_are_of_the_present_sources() {
-    let beside =
-        ["src/lab/measure/torus_knot.rs", "tests/bench/rasterisation.rs", "tests/bench/rasterisation/curves.rs"];
-    is_of_the_present_sources("34_both", &beside, "rasterisation -- curves");
+fn curves_say_when_they_were_measured() {
+    for chapter in ["31_wide_tree", "34_both"] {
+        let kept = kept(chapter);
+        assert!(kept.lines().any(|line| line.starts_with("machine: ")), "{chapter}");
+        assert!(kept.lines().last().is_some_and(|line| line.starts_with("measured on ")), "{chapter}");
+    }
 }
 
 /// The rows below the line that starts with this word: a count, and a number for each of so many columns.
-fn table(title: &str, columns: usize) -> Vec<(f64, Vec<f64>)> {
-    let text = kept("34_both");
+fn table(chapter: &str, title: &str, columns: usize) -> Vec<(f64, Vec<f64>)> {
+    let text = kept(chapter);
     let row = |line: &str| {
         let number = |cell: &str| if cell == "-" { Some(f64::NAN) } else { cell.parse().ok() };
         let cells: Option<Vec<f64>> = line.split_whitespace().map(number).collect();
@@ -51,7 +75,7 @@ fn growth(rows: &[(f64, Vec<f64>)], column: usize, [from, to]: [usize; 2]) -> f6
 /// "The lines of rays rise slowly. Those of projection are level … and rise when triangles are."
 #[test]
 fn against_triangles_projection_begins_below_and_the_curves_come_together() {
-    let rows = table("triangles", 7);
+    let rows = table("34_both", "triangles", 7);
     let last = rows.len() - 1;
     let ratio = |row: usize, size: usize| rows[row].1[2 * size] / rows[row].1[2 * size + 1];
     for size in 0..3 {
@@ -71,7 +95,7 @@ fn against_triangles_projection_begins_below_and_the_curves_come_together() {
 /// "Twice the pixels are twice the rays, and nearly twice the time"; projection begins with the cost of its triangles.
 #[test]
 fn against_pixels_rays_grow_in_proportion_and_projection_less() {
-    let rows = table("pixels", 2);
+    let rows = table("34_both", "pixels", 2);
     let ends = [0, rows.len() - 1];
     let [rays, projection] = [0, 1].map(|column| growth(&rows, column, ends));
     assert!(rays > 0.6 && rays < 1.05 && projection < rays, "{rays} and {projection}");
@@ -80,7 +104,7 @@ fn against_pixels_rays_grow_in_proportion_and_projection_less() {
 /// "Here the two unbroken lines become one"; lights without shadows cost far less; one light of many costs what one does.
 #[test]
 fn against_lights_shadow_rays_decide() {
-    let rows = table("lights", 6);
+    let rows = table("34_both", "lights", 6);
     let summed: Vec<_> = rows.iter().filter(|(_, row)| row[0].is_finite()).cloned().collect();
     let chosen: Vec<_> = rows.iter().filter(|(_, row)| row[3].is_finite()).cloned().collect();
     assert!(summed.len() + chosen.len() == rows.len() && summed.len() > 3 && chosen.len() > 2);

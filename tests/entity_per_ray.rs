@@ -1,10 +1,9 @@
-//! The renderer of one entity a ray makes pinhole's image, and what was measured of it is of the present sources.
+//! The renderer of one entity a ray makes pinhole's image, and the pages say what was measured of it.
 
 use bevy_ecs::prelude::*;
 use pinhole::render::{Execution, render};
 use pinhole::scene::{PointLight, Resolution};
 use pinhole::{Chapter, Overrides};
-use pinhole_lab::measure::cost::made_from_these;
 use pinhole_lab::naive::entity_per_ray::EntityPerRay;
 use std::path::Path;
 
@@ -42,17 +41,6 @@ fn its_image_is_pinhole_s_to_the_last_bit() {
 fn kept() -> String {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("chapters/12_how_it_is_built/entity_per_ray.txt");
     std::fs::read_to_string(file).expect("the measurement is kept beside the chapter")
-}
-
-#[test]
-fn it_was_measured_with_the_present_sources() {
-    let beside = ["src/lab/naive/entity_per_ray.rs", "tests/bench/entity_per_ray.rs"];
-    let expected = format!("made from {}", made_from_these("12_how_it_is_built", &beside).expect("sources"));
-    assert_eq!(
-        kept().lines().last(),
-        Some(expected.as_str()),
-        "to measure anew, on a quiet machine: cargo bench --bench entity_per_ray -- --write"
-    );
 }
 
 /// The pages say the kept numbers, rounded to ten.

@@ -5,11 +5,10 @@ use pinhole::render::Watch;
 use pinhole::scene::{Filter, Resolution, Sampler, Sampling};
 use pinhole::{Chapter, Error, Overrides};
 use pinhole_cli::command::run;
-use pinhole_lab::measure::cost::fingerprint;
 use pinhole_lab::report::deviation::RELATIVE_MSE;
 use pinhole_lab::report::interval::LEVEL;
 use pinhole_lab::report::ladder::Ladder;
-use pinhole_lab::report::run::Shelf;
+use pinhole_lab::report::run::{Shelf, hash};
 use pinhole_lab::report::runner::{Progress, Runs, Variant, run_all};
 use pinhole_lab::report::sum_up::measure;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -57,7 +56,7 @@ fn a_stopped_report_goes_on_and_gives_the_same_images() {
     let chapter = chapter("18_error_and_time");
     let variants = [variant(&chapter, chapter.stages(), Sampler::Independent)];
     let (ladder, folder) = (little_ladder(), tempfile::tempdir().expect("a temporary folder"));
-    let shelf = |name: &str| Shelf::new(folder.path().join(name), fingerprint(b"the same"));
+    let shelf = |name: &str| Shelf::new(folder.path().join(name), hash(b"the same"));
     let whole = run_all(&variants, &ladder, 1, &shelf("whole"), &()).expect("runs");
     let mut stops = 0;
     let in_batches = loop {
@@ -131,6 +130,15 @@ fn what_cannot_be_compared_is_refused_in_a_sentence() {
         let refused = asked(line).expect_err(line);
         assert!(refused.starts_with(sentence) && !refused.contains('\n'), "{line}: {refused}");
     }
+}
+
+/// What is kept is of today's films; the line is what a contributor sees before a release.
+#[test]
+fn measure_finds_nothing_to_measure_anew_or_says_what_it_would() {
+    assert_eq!(asked("measure --dry-run").expect("looked"), "nothing asks to be measured anew\n");
+    let told = asked("measure 5 --dry-run").expect("looked");
+    assert_eq!(told, "05_pinhole: as asked\n1 of 36 chapters would be measured\n");
+    assert!(asked("measure 99").expect_err("refused").starts_with("there is no chapter 99"));
 }
 
 /// In `out/`, as a reader finds it; the size is small, so that it is done in a moment.

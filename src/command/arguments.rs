@@ -1,7 +1,7 @@
 use super::called::called;
 use super::format::Format;
 use super::options::{RenderOptions, STYLES, SamplingOptions, SceneOptions, pixel, size};
-use super::report_arguments::ReportErrors;
+use super::report_arguments::{MeasureAnew, ReportErrors};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use pinhole::Size;
@@ -77,6 +77,8 @@ pub enum Command {
     Cost(CostOfChapter),
     /// Measure error against run time: many samples, many seeds, a reference, intervals
     Report(ReportErrors),
+    /// Measure anew what is kept beside the chapters: costs, reports, curves, where stages or film have changed
+    Measure(MeasureAnew),
     /// Check the function that a chapter asks you to write; without a chapter, list them and how far you are
     Check(CheckExercise),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures

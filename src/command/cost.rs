@@ -1,20 +1,24 @@
 use super::arguments::CostOfChapter;
+use super::called::called;
 use super::error::Result;
 use super::find;
 use super::format::{Format, print_json, shown};
 use super::interrupt::Waiting;
+use bevy_ecs::prelude::World;
 use pinhole::extract::SamplingTable;
 use pinhole::film::write_whole;
 use pinhole::plan::{Census, Table};
 use pinhole::render::Execution;
 use pinhole::scene::{Resolution, printable_path};
 use pinhole::{Chapter, Overrides};
-use pinhole_lab::measure::cost::{Cost, PROBES, RENDERS, StageCost, made_from, measure};
-use pinhole_lab::report::provenance::{compiler, load, processor};
+use pinhole_lab::measure::cost::{Cost, FILM, PROBES, RENDERS, StageCost, measure, place, stage_names};
+use pinhole_lab::measure::film_bits::film_digest;
+use pinhole_lab::report::provenance::Provenance;
+use pinhole_lab::review::SNAPSHOT_SIZE;
 use serde_json::{Value, json};
 use std::fmt;
 use std::io::Write;
-use std::path::Path;
+use std::path::PathBuf;
 
 /// The image that every chapter is measured with, as many times smaller as it takes several samples a pixel.
 const SIZE: Resolution = Resolution { width: 960, height: 540 };
@@ -48,13 +52,54 @@ fn measure_one(
     if !asked.write {
         return Ok((measured, Vec::new()));
     }
-    let short = Path::new("chapters").join(chapter.name).join("costs.txt");
-    let file = pinhole_lab::repository().join(&short);
-    write_whole(&file, |file| file.write_all(report.as_bytes()))?;
+    let short = keep(chapter, &report)?;
     if !format.is_json() {
         writeln!(out, "wrote {}", printable_path(&short))?;
     }
     Ok((measured, vec![shown(&short)]))
+}
+
+/// Measures a chapter's costs and keeps them.
+pub(super) fn measure_and_keep(chapter: &Chapter) -> Result<PathBuf> {
+    keep(chapter, &Measured::of(chapter)?.to_string())
+}
+
+fn keep(chapter: &Chapter, costs: &str) -> Result<PathBuf> {
+    let short = place(chapter.name);
+    write_whole(&pinhole_lab::repository().join(&short), |file| file.write_all(costs.as_bytes()))?;
+    Ok(short)
+}
+
+/// What is measured: the chapter's scene with timers, in a size at which its samples take as long as those of others.
+struct Measurable {
+    scene: World,
+    size: Resolution,
+    samples: u32,
+}
+
+impl Measurable {
+    fn of(chapter: &Chapter) -> Result<Self> {
+        let samples = SamplingTable::extract(&Census::of(&chapter.world(&Overrides::default())))?.samples;
+        let smaller = samples.isqrt().max(1);
+        let size = Resolution { width: SIZE.width / smaller, height: SIZE.height / smaller };
+        let asked = Overrides { resolution: Some(size), statistics: true, ..Overrides::default() };
+        Ok(Self { scene: chapter.world(&asked), size, samples })
+    }
+}
+
+/// The stages that a chapter's costs are of, in order.
+///
+/// Errors: the scene has no plan.
+pub(super) fn stages_of(chapter: &Chapter) -> Result<Vec<&'static str>> {
+    Ok(stage_names(&Measurable::of(chapter)?.scene, &chapter.stages())?)
+}
+
+/// The digest of the chapter's film in the size of its snapshots: with another, its stages may have other errors.
+///
+/// Errors: what a render would be refused for.
+pub(super) fn film_of(chapter: &Chapter) -> Result<String> {
+    let asked = Overrides { resolution: Some(SNAPSHOT_SIZE), ..Overrides::default() };
+    Ok(film_digest(&chapter.world(&asked), &chapter.stages())?)
 }
 
 /// What a chapter's stages cost, and where that was measured.
@@ -63,35 +108,25 @@ struct Measured {
     size: Resolution,
     samples: u32,
     cost: Cost,
-    processor: String,
-    threads: usize,
-    compiler: String,
-    load: Option<f64>,
-    made_from: String,
+    film: String,
+    provenance: Provenance,
 }
 
 impl Measured {
     fn of(chapter: &Chapter) -> Result<Self> {
-        let made_from = made_from(chapter.name)?;
-        let samples = SamplingTable::extract(&Census::of(&chapter.world(&Overrides::default())))?.samples;
-        let smaller = samples.isqrt().max(1);
-        let size = Resolution { width: SIZE.width / smaller, height: SIZE.height / smaller };
-        let asked = Overrides { resolution: Some(size), statistics: true, ..Overrides::default() };
+        let Measurable { scene, size, samples } = Measurable::of(chapter)?;
         let side = Execution::default().tile_side;
         let tiles = u64::from(size.width.div_ceil(side) * size.height.div_ceil(side) * samples.max(1));
         let waiting = Waiting::new(tiles * RENDERS as u64, false);
-        let cost = measure(&chapter.world(&asked), &chapter.stages(), &waiting);
+        let cost = measure(&scene, &chapter.stages(), &waiting);
         waiting.done();
         Ok(Self {
             chapter: chapter.name,
             size,
             samples,
             cost: cost?,
-            processor: processor(),
-            threads: std::thread::available_parallelism().map_or(1, usize::from),
-            compiler: compiler(),
-            load: load(),
-            made_from,
+            film: film_of(chapter)?,
+            provenance: Provenance::now(called(&format!("cost {}", chapter.name))),
         })
     }
 
@@ -106,10 +141,7 @@ impl Measured {
             "samples_per_pixel": self.samples, "threads": 1, "renders": RENDERS - 1,
             "pixels_probed_for_errors": PROBES[0] * PROBES[1],
             "stages": self.cost.stages.iter().map(stage).collect::<Vec<Value>>(),
-            "machine": {
-                "processor": self.processor, "threads": self.threads, "compiler": self.compiler, "load": self.load,
-            },
-            "built_for_release": !cfg!(debug_assertions), "made_from": self.made_from, "files": written,
+            "provenance": self.provenance, "film": self.film, "files": written,
         })
     }
 }
@@ -119,20 +151,21 @@ impl fmt::Display for Measured {
         write!(
             f,
             "cost of {}: {} x {} pixels of {} samples on one thread, {} renders after one to warm up\n\
-             errors: the worst of {} pixels, against exact arithmetic; u = 2^-24\n{}",
+             errors: the worst of {} pixels, against exact arithmetic; u = 2^-24{FILM}{}\n{}",
             self.chapter,
             self.size.width,
             self.size.height,
             self.samples,
             RENDERS - 1,
             PROBES[0] * PROBES[1],
+            self.film,
             self.cost
         )?;
-        let load = self.load.map_or_else(|| "unknown".into(), |load| format!("{load:.2}"));
-        writeln!(f, "machine: {}, {} threads; {}; load {load}", self.processor, self.threads, self.compiler)?;
+        let Provenance { processor, cores, rustc, .. } = &self.provenance;
+        writeln!(f, "machine: {processor}, {cores} threads; {rustc}")?;
         if cfg!(debug_assertions) {
             writeln!(f, "built without --release: these times say nothing about pinhole")?;
         }
-        writeln!(f, "made from {}", self.made_from)
+        writeln!(f, "{}", self.provenance.measured())
     }
 }

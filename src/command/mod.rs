@@ -27,6 +27,7 @@ mod interrupt;
 mod list;
 mod live;
 mod long_render;
+mod measure;
 mod mutation;
 mod options;
 mod parse;
@@ -49,6 +50,7 @@ mod watch;
 
 pub use error::{Error, Result};
 pub use interrupt::{Waiting, stop_on_interrupt};
+pub use measure::{outdated_costs, outdated_report};
 pub use progress::Progress;
 pub use report::has_report;
 
@@ -146,6 +148,7 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
         Some(Command::Sweep(asked)) => sweep::print_sweep(&Subject::find(chapters, &asked.chapter)?, format, out),
         Some(Command::Check(asked)) => check::check(chapters, &exercises(), asked.chapter.as_deref(), format, out),
         Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, format, out),
+        Some(Command::Measure(asked)) => measure::measure_anew(chapters, &asked, format, streams),
         Some(Command::Report(asked)) => report::report(chapters, &asked, format, out),
         Some(Command::Review(asked)) => review::review(chapters, &asked, format, out),
         Some(Command::Compare(asked)) => compare::compare(&asked, format, out),

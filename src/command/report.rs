@@ -2,6 +2,7 @@ use super::error::{Error, Result};
 use super::figure::svg_place;
 use super::format::{Format, print_json, print_written, shown};
 use super::interrupt::{EndsByItself, interrupted, stop_flag};
+use super::measure::again;
 use super::report_arguments::ReportErrors;
 use super::subject::Subject;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -11,17 +12,17 @@ use pinhole::plan::{Census, Table};
 use pinhole::render::Watch;
 use pinhole::scene::{Filter, Integrator, LightStrategy, Resolution, Sampler, Sampling, scene_text};
 use pinhole::{Chapter, Overrides};
-use pinhole_lab::report::kept::{keep, kept, made_from};
+use pinhole_lab::report::kept::{keep, kept};
 use pinhole_lab::report::ladder::Ladder;
 use pinhole_lab::report::page::page;
 use pinhole_lab::report::pictures::pictures;
 use pinhole_lab::report::pitfalls::{pitfalls, pitfalls_table};
 use pinhole_lab::report::plot::{Against, plot};
 use pinhole_lab::report::provenance::{Provenance, load};
-use pinhole_lab::report::run::Shelf;
+use pinhole_lab::report::run::{Shelf, hash, this_program};
 use pinhole_lab::report::runner::{Progress, Variant, fingerprint, run_all};
 use pinhole_lab::report::sum_up::{measure, sum_up};
-use pinhole_lab::report::summary::Report;
+use pinhole_lab::report::summary::{Report, SceneSummary};
 use serde::Serialize;
 use serde_json::json;
 use std::io::Write;
@@ -55,20 +56,17 @@ pub fn report(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &
     }
     let mut all = Vec::new();
     for chapter in chapters.iter().filter(|chapter| has_report(chapter)) {
-        // What a chapter is compared with is what it was compared with last.
-        let against = kept(chapter.name).map_or_else(|_| asked.against.clone(), |report| report.against);
-        let asked = ReportErrors { subject: chapter.name.into(), against, ..asked.clone() };
-        all.push(measure_one(chapters, &asked, format, out)?);
+        all.push(measure_one(chapters, &again(chapter, asked), format, out)?);
     }
     if format.is_json() { print_json(&all, out) } else { Ok(()) }
 }
 
 /// A report, and the files that it was written to.
 #[derive(Serialize)]
-struct Measured {
+pub(super) struct Measured {
     #[serde(flatten)]
     report: Report,
-    files: Vec<String>,
+    pub files: Vec<String>,
 }
 
 /// Whether a chapter's report is kept beside it: from the first of many samples on.
@@ -93,7 +91,12 @@ fn show_kept(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &m
 }
 
 /// Measures one subject, writes its report, and as text prints it too.
-fn measure_one(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &mut dyn Write) -> Result<Measured> {
+pub(super) fn measure_one(
+    chapters: &[Chapter],
+    asked: &ReportErrors,
+    format: Format,
+    out: &mut dyn Write,
+) -> Result<Measured> {
     let subject = Subject::find(chapters, &asked.subject)?;
     let name = file_stem(&subject, &asked.against);
     let files = ["html", "json", "csv"].map(|ending| Path::new("out/report").join(format!("{name}.{ending}")));
@@ -102,11 +105,10 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: 
     let size = size(&subject, asked.size)?;
     let variants = variants(&subject, &rivals, size)?;
     let ladder = Ladder::new(asked.quick);
-    let sources = made_from(if let Subject::Chapter(chapter) = &subject { chapter.name } else { "cover" })?;
     let threads = asked.threads.map_or(1, usize::from);
-    let shelf_made_from = fingerprint(&variants, &ladder, &format!("{sources} {threads}"))?;
+    let shelf_made_from = fingerprint(&variants, &ladder, &format!("{} {threads}", this_program()))?;
     let shelf = Shelf::new(Path::new("out/report").join(format!("{name}.runs")), shelf_made_from);
-    let mut provenance = Provenance::now(command_line(asked));
+    let mut provenance = Provenance::now(asked.command_line());
     let waiting = Bar::new(&ladder, &variants);
     let ends_by_itself = EndsByItself::begin();
     let runs = run_all(&variants, &ladder, threads, &shelf, &waiting);
@@ -122,11 +124,9 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: 
     let measured = measure(&variants, &ladder, &runs)?;
     let scenes = variants.iter().map(|variant| {
         let world = (variant.scene)();
-        let text = scene_text(&world)?;
-        Ok((
-            pinhole_lab::measure::cost::fingerprint(text.as_bytes()),
-            pinhole::extract::shape_entities(&Census::of(&world)).len(),
-        ))
+        let fingerprint = hash(scene_text(&world)?.as_bytes());
+        let shapes = pinhole::extract::shape_entities(&Census::of(&world)).len();
+        Ok(SceneSummary { fingerprint, film: variant.film()?, shapes })
     });
     let empty = Report {
         name: subject.stem(),
@@ -142,7 +142,6 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: 
         timers: None,
         flags: Vec::new(),
         provenance,
-        made_from: sources,
     };
     let report = sum_up(empty, &variants, &runs, &measured);
     let html = page(&report, &pictures(&report, &variants, &runs, &measured))?;
@@ -171,14 +170,14 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: 
 }
 
 /// What the first variant is compared with.
-enum Rival<'c> {
+pub(super) enum Rival<'c> {
     Subject(Subject<'c>),
     Sampler(&'static str, Sampler),
     Filter(&'static str, Filter),
     Lights(&'static str, LightStrategy),
 }
 
-fn rivals<'c>(chapters: &'c [Chapter], against: &[String]) -> Result<Vec<Rival<'c>>> {
+pub(super) fn rivals<'c>(chapters: &'c [Chapter], against: &[String]) -> Result<Vec<Rival<'c>>> {
     let rival = |word: &String| match word.split_once('=') {
         Some(("sampler", name)) => {
             let found = Sampler::ALL.into_iter().find(|(word, _)| *word == name);
@@ -211,7 +210,11 @@ fn no_such<T>(kind: &str, name: &str, all: &[(&'static str, T)]) -> Error {
 }
 
 /// The subject itself, then each rival: the subject with another sampler or filter, or another scene.
-fn variants<'c>(subject: &'c Subject<'c>, rivals: &'c [Rival<'c>], size: Resolution) -> Result<Vec<Variant<'c>>> {
+pub(super) fn variants<'c>(
+    subject: &'c Subject<'c>,
+    rivals: &'c [Rival<'c>],
+    size: Resolution,
+) -> Result<Vec<Variant<'c>>> {
     let asked = move || Overrides { resolution: Some(size), view: None, ..Overrides::default() };
     let of =
         |subject: &'c Subject<'c>, name: String, change: &dyn Fn(&mut Sampling), reference| -> Result<Variant<'c>> {
@@ -301,18 +304,6 @@ fn file_stem(subject: &Subject<'_>, against: &[String]) -> String {
     let letter = |letter: char| if letter.is_ascii_alphanumeric() || "_-".contains(letter) { letter } else { '-' };
     let words: Vec<String> = against.iter().map(|word| word.chars().map(letter).collect()).collect();
     if words.is_empty() { subject.stem() } else { format!("{}-against-{}", subject.stem(), words.join("-")) }
-}
-
-fn command_line(asked: &ReportErrors) -> String {
-    let mut words = format!("cargo run --release -- report {}", asked.subject);
-    asked.against.iter().for_each(|against| words += &format!(" --against {against}"));
-    if let Some(Resolution { width, height }) = asked.size {
-        words += &format!(" --size {width}x{height}");
-    }
-    if asked.quick {
-        words += " --quick";
-    }
-    words
 }
 
 /// A bar that counts samples.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 /// What says how to measure, or what else.
 const MEASURING: [&str; 6] = ["against", "quick", "size", "threads", "write", "naive"];
 
-#[derive(Args, Clone)]
+#[derive(Args, Clone, Default)]
 pub struct ReportErrors {
     /// A chapter: its stem, its number or its name (17_sampling, 17, sampling); a scene file, ending in .ron; or all
     #[arg(value_name = "CHAPTER")]
@@ -39,4 +39,28 @@ pub struct ReportErrors {
     /// With --kept: against samples instead of time
     #[arg(long, requires = "kept", conflicts_with_all = MEASURING)]
     pub samples_axis: bool,
+}
+
+impl ReportErrors {
+    /// The command line, as it can be typed again.
+    pub fn command_line(&self) -> String {
+        let mut words = format!("cargo run --release -- report {}", self.subject);
+        self.against.iter().for_each(|against| words += &format!(" --against {against}"));
+        if let Some(Resolution { width, height }) = self.size {
+            words += &format!(" --size {width}x{height}");
+        }
+        if self.quick {
+            words += " --quick";
+        }
+        words
+    }
+}
+
+#[derive(Args)]
+pub struct MeasureAnew {
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole), or all, whether they ask for it or not
+    pub chapter: Option<String>,
+    /// Say what would be measured and why, and measure nothing
+    #[arg(long)]
+    pub dry_run: bool,
 }

@@ -19,12 +19,12 @@ use pinhole::scene::{MeshGeometry, MeshInstance, Placement};
 use pinhole::shapes::{ClosestHits, Ellipsoid, MeshHierarchy, PlacedCylinder, PlacedDisk, PlacedMesh, PlacedRectangle};
 use pinhole::shapes::{PlacedSphere, PlacedTorus, RaySlices, Shape, Slabs, TriangleRow};
 use pinhole::shapes::{hierarchy_of, keep_closest_of, triangle_t};
-use pinhole_lab::measure::cost::made_from_these;
 use pinhole_lab::measure::oracle::Oracle;
 use pinhole_lab::measure::ray_aim::Draws;
-use pinhole_lab::measure::specimen::Specimen;
-use pinhole_lab::measure::torus_knot::torus_knot;
+use pinhole_lab::measure::specimen::{Specimen, shapes_in_a_cube};
+use pinhole_lab::measure::torus_knot::{steps_for, torus_knot};
 use pinhole_lab::naive::tree::{Search, Tree, build as build_tree, by_cost, to_visit};
+use pinhole_lab::report::provenance::Provenance;
 
 /// The rays that a stage gets at once.
 const BATCH: usize = 1024;
@@ -38,7 +38,6 @@ const MOST_ALL: usize = 120_000;
 const MOST_BINARY: usize = 1_200_000;
 
 const CHAPTER: &str = "31_wide_tree";
-const BESIDE: [&str; 3] = ["src/lab/naive/tree.rs", "src/lab/measure/torus_knot.rs", "tests/bench/curves.rs"];
 
 /// Rays as the columns of a tile hold them.
 struct Rays([Vec<f32>; 6]);
@@ -145,27 +144,13 @@ impl Curve {
     }
 }
 
-/// So many shapes of a kind, in a cube of half side 1.
-fn shapes_of<S: Oracle>(count: usize) -> Vec<S> {
-    let mut draws = Draws::new(78, 0);
-    let mut shapes = Vec::with_capacity(count);
-    let size = 0.5 / (count as f64).cbrt();
-    while shapes.len() < count {
-        let position = DVec3::from([(); 3].map(|()| draws.between(-1.0, 1.0)));
-        let placement = Placement { position, scale: DVec3::splat(size), ..Placement::default() };
-        let specimen = Specimen::<S>::of(S::Component::default(), placement).expect("an example");
-        shapes.push(specimen.shape);
-    }
-    shapes
-}
-
 /// Where a hierarchy begins to pay for a kind of shape.
 fn shape_curve<S: Oracle>(plural: &str, counts: &[usize]) {
     let columns = ["tree, coherent", "all, coherent", "tree, random", "all, random"];
     let mut curve = Curve::new(plural, &columns);
     let sets = [Rays::coherent(1.0), Rays::random(1.0)];
     for &count in counts {
-        let shapes = shapes_of::<S>(count);
+        let shapes = shapes_in_a_cube::<S>(count);
         let numbers: Vec<u32> = (0..count as u32).collect();
         let bvh = hierarchy_of(&shapes).expect("bounded shapes");
         let row = sets.iter().flat_map(|rays| {
@@ -203,7 +188,7 @@ fn sphere_curve(counts: &[usize]) -> Curve {
     let [coherent, random] = [Rays::coherent(1.0), Rays::random(1.0)];
     let whole = SIDE * SIDE;
     for &count in counts {
-        let shapes = shapes_of::<PlacedSphere>(count);
+        let shapes = shapes_in_a_cube::<PlacedSphere>(count);
         let numbers: Vec<u32> = (0..count as u32).collect();
         let start = ProcessTime::now();
         let bvh = hierarchy_of(&shapes).expect("bounded shapes");
@@ -245,9 +230,7 @@ fn triangle_curve(most: usize) -> Curve {
     let [coherent, random] = [Rays::coherent(3.5), Rays::random(3.0)];
     let whole = SIDE * SIDE;
     for power in 4..=14 {
-        // 2 · 12.8 a · a triangles.
-        let around = libm::round(libm::sqrt(libm::exp10(f64::from(power) / 2.0) / 25.6)).max(3.0);
-        let [along, around] = [libm::round(12.8 * around), around].map(|part| part as u32);
+        let [along, around] = steps_for(power);
         let geometry = MeshGeometry::new(torus_knot(along, around));
         let count = geometry.triangles.len();
         if count > most + most / 4 {
@@ -309,13 +292,12 @@ fn machine() -> String {
 
 /// Keeps the curves beside their chapter.
 fn keep(curves: &[Curve]) {
-    let made_from = made_from_these(CHAPTER, &BESIDE).expect("the sources are here");
     let head = "nanoseconds a ray, processor time of one thread, the least of five; - is not measured";
     let mut text = format!("{head}\n");
     for curve in curves {
         text += &format!("\n{}\n{}\n", curve.title, curve.lines().join("\n"));
     }
-    text += &format!("\n{}\nmade from {made_from}\n", machine());
+    text += &format!("\n{}\n{}\n", machine(), Provenance::now(String::new()).measured());
     let file = format!("{}/chapters/{CHAPTER}/curves.txt", env!("CARGO_MANIFEST_DIR"));
     std::fs::write(file, text).expect("the curves can be written");
 }

@@ -13,13 +13,12 @@ use pinhole::Overrides;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, peak_memory, render};
 use pinhole::scene::Resolution;
-use pinhole_lab::measure::cost::made_from_these;
 use pinhole_lab::naive::entity_per_ray::EntityPerRay;
+use pinhole_lab::report::provenance::Provenance;
 use std::fmt::Write as _;
 use std::process::Command;
 
 const CHAPTER: &str = "12_how_it_is_built";
-const BESIDE: [&str; 2] = ["src/lab/naive/entity_per_ray.rs", "tests/bench/entity_per_ray.rs"];
 
 /// What a process is asked to hold, so that its peak can be told.
 const HELD: [(&str, &str); 4] = [
@@ -44,8 +43,8 @@ fn main() {
     let mut report = format!("{CHAPTER} without its view: {width} x {height} pixels, one thread\n");
     time(resolution, pairs, &mut report);
     memory(resolution, &mut report);
-    let made_from = made_from_these(CHAPTER, &BESIDE).expect("the sources are here");
-    let _ = writeln!(report, "made from {made_from}");
+    let provenance = Provenance::now(String::new());
+    let _ = writeln!(report, "machine: {}\n{}", provenance.processor, provenance.measured());
     print!("{report}");
     if words.iter().any(|word| word == "--write") {
         let file = format!("{}/chapters/{CHAPTER}/entity_per_ray.txt", env!("CARGO_MANIFEST_DIR"));

@@ -58,6 +58,7 @@ const ROWS: &[Row] = &[
     ("render 5 --resume", 2, &[], &["there is nothing to continue"]),
     ("render 5 --watch", 2, &[], &["cannot watch 5"]),
     ("render scene.ron --watch --format json", 2, &[], &["cannot watch scene.ron"]),
+    ("measure scene.ron", 2, &[], &["scene.ron is a scene file, but this command takes a chapter"]),
     ("cost scene.ron", 2, &[], &["scene.ron is a scene file, but this command takes a chapter"]),
     ("render gone.ron", 1, &[], &["pinhole: gone.ron: "]),
     ("render 5 --view list", 1, &[], &["the columns on offer are"]),

@@ -62,7 +62,6 @@ fn report_of(cpu: f64) -> Report {
         timers: None,
         flags: Vec::new(),
         provenance: Provenance::default(),
-        made_from: String::new(),
     };
     sum_up(empty, &variants, &runs, &measured)
 }

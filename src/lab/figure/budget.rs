@@ -4,11 +4,10 @@ use super::Figure;
 use super::label::Label;
 use super::pen::{Fill, INK, Pen, WIDTH};
 use super::svg::{Drawing, Svg};
+use crate::measure::cost::{kept_costs, kept_stages, place};
 use glam::DVec2;
-use pinhole::scene::{FileKind, read_file};
 use pinhole::{Chapter, Error, Result};
 
-const KEPT: FileKind = FileKind { name: "kept costs", most: 1 << 20 };
 /// The frame that the costs are told for: one sample of each of its pixels, on one thread.
 const FRAME: [f64; 2] = [640.0, 360.0];
 /// Frames of so many milliseconds are marked: 60 and 25 a second.
@@ -35,14 +34,8 @@ fn stages(text: &str) -> Option<Vec<(String, f64)>> {
     let (_, heading) = text.lines().next()?.split_once(": ")?;
     let mut numbers = heading.split_whitespace().filter_map(|word| word.parse::<f64>().ok());
     let samples: f64 = [numbers.next()?, numbers.next()?, numbers.next()?].iter().product();
-    // A name ends where the first whole number stands.
-    let stage = |line: &str| {
-        let words: Vec<&str> = line.split_whitespace().collect();
-        let at = words.iter().position(|word| word.parse::<u64>().is_ok())?;
-        let (rows, each) = (words[at].parse::<f64>().ok()?, words.get(at + 1)?.parse::<f64>().ok()?);
-        Some((words[..at].join(" "), rows * each / samples))
-    };
-    Some(text.lines().skip(1).filter_map(stage).collect())
+    let timed = kept_stages(text).into_iter();
+    Some(timed.filter_map(|own| Some((own.name, own.rows * own.nanoseconds? / samples))).collect())
 }
 
 /// Nanoseconds of each part, and of what is in none of them.
@@ -61,12 +54,13 @@ fn thousands(number: f64) -> String {
 
 /// Each part's milliseconds, and the whole beside the time that a frame has.
 pub fn draw_budget(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let place = format!("chapters/{}/costs.txt", chapter.name);
-    let text = read_file(&crate::repository().join(&place), KEPT).unwrap_or_default();
-    let text = String::from_utf8_lossy(&text);
+    let text = kept_costs(chapter.name).unwrap_or_default();
     let measured = stages(&text).filter(|stages| !stages.is_empty());
-    let missing =
-        || Error::Usage(format!("{place} holds no costs; `cargo run --release -- cost 35 --write` measures them"));
+    let missing = || {
+        let place = place(chapter.name);
+        let place = place.display();
+        Error::Usage(format!("{place} holds no costs; `cargo run --release -- measure {}` measures them", chapter.name))
+    };
     let mut bars = parts(&measured.ok_or_else(missing)?);
     bars.push(("altogether", bars.iter().map(|(_, each)| each).sum()));
     let milliseconds = |each: f64| each * FRAME[0] * FRAME[1] * 1e-6;

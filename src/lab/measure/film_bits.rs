@@ -1,6 +1,10 @@
 //! A film as bits, so that equal means equal.
 
+use bevy_ecs::prelude::*;
+use pinhole::Result;
 use pinhole::film::{Film, FilmTile};
+use pinhole::plan::Stage;
+use pinhole::render::{Execution, render};
 use pinhole::scene::{FNV_BASIS, fnv};
 
 /// A film pixel by pixel: the bits of three weighted sums, and the counts.
@@ -84,6 +88,14 @@ impl FilmBits {
         let difference = self.difference(expected);
         assert!(difference.is_none(), "{what}: {}", difference.unwrap_or_default());
     }
+}
+
+/// The digest of a scene's film, in sixteen hexadecimal digits: errors that were measured and are kept belong to it.
+///
+/// Errors: what a render would be refused for.
+pub fn film_digest(scene: &World, offer: &[Stage]) -> Result<String> {
+    let film = render(scene, offer, &Execution::default(), &())?.film;
+    Ok(format!("{:016x}", FilmBits::of(&film).digest()))
 }
 
 /// FNV-1a over the bytes of some words.

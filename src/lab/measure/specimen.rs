@@ -9,6 +9,21 @@ use pinhole::scene::Placement;
 use pinhole::shapes::{ClosestHits, Listed, Placed, Pose, RayHit, RaySlices, SceneShape, Shape};
 use std::slice::from_ref;
 
+/// So many shapes of a kind at random in a cube of half side 1, which together fill the same part of it at any number.
+///
+/// # Panics
+/// When the kind's default is not accepted.
+pub fn shapes_in_a_cube<S: Oracle>(count: usize) -> Vec<S> {
+    let mut draws = Draws::new(78, 0);
+    let size = 0.5 / libm::cbrt(count as f64);
+    let shape = |_| {
+        let position = DVec3::from([(); 3].map(|()| draws.between(-1.0, 1.0)));
+        let placement = Placement { position, scale: DVec3::splat(size), ..Placement::default() };
+        Specimen::<S>::of(S::Component::default(), placement).expect("a default").shape
+    };
+    (0..count).map(shape).collect()
+}
+
 /// A shape in render space, with the component and the placement that it is made from; the eye is the world's origin.
 pub struct Specimen<S: Shape> {
     /// The shape, as the intersection kernels read it.

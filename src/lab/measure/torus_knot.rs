@@ -21,6 +21,13 @@ fn derivative(u: f64) -> DVec3 {
     DVec3::new(changing * cos - 2.0 * across * sin, 3.0 * libm::cos(3.0 * u), changing * sin + 2.0 * across * cos)
 }
 
+/// Steps along the knot and around its tube for some 10^(power/2) triangles, 2 · 12.8 a · a of them.
+#[must_use]
+pub fn steps_for(power: i32) -> [u32; 2] {
+    let around = libm::round(libm::sqrt(libm::exp10(f64::from(power) / 2.0) / 25.6)).max(3.0);
+    [libm::round(12.8 * around), around].map(|steps| steps as u32)
+}
+
 /// The (2, 3) torus knot of 2 · along · around triangles, its tube displaced by waves; scene (e) of the public
 /// comparison scenes, where 800 × 64 and 2560 × 200 have 102,400 and 1,024,000 triangles.
 #[must_use]

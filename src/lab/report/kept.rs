@@ -1,7 +1,6 @@
 //! A chapter's report as it is kept beside the chapter: the curve with its intervals, in `report.json`.
 
 use super::summary::Report;
-use crate::measure::cost::made_from_these;
 use pinhole::film::write_whole;
 use pinhole::scene::{FileKind, read_file};
 use pinhole::{Error, Result};
@@ -13,25 +12,6 @@ const REPORT: FileKind = FileKind { name: "a report", most: 64 << 20 };
 
 /// The most bytes that a kept report may have.
 pub const LARGEST: usize = 20 * 1024;
-
-/// What beside the stages decides the numbers of a report.
-const STATISTICS: [&str; 8] = [
-    "src/lab/measure/image_error.rs",
-    "src/lab/report/curve.rs",
-    "src/lab/report/deviation.rs",
-    "src/lab/report/distribution.rs",
-    "src/lab/report/ensemble.rs",
-    "src/lab/report/interval.rs",
-    "src/lab/report/runner.rs",
-    "src/lab/report/sum_up.rs",
-];
-
-/// A fingerprint of the sources that decide a chapter's report: the stages, the loop, the chapter and the statistics.
-///
-/// Errors: the sources are not there to be read.
-pub fn made_from(chapter: &str) -> Result<String> {
-    made_from_these(chapter, &STATISTICS)
-}
 
 /// Where a chapter's report is kept, from the repository's root.
 pub fn place(chapter: &str) -> PathBuf {
@@ -76,7 +56,7 @@ fn round(value: &mut Value) {
 pub fn kept(chapter: &str) -> Result<Report> {
     let short = place(chapter);
     let text = read_file(&crate::repository().join(&short), REPORT);
-    let make = format!("report {chapter} --write");
+    let make = format!("measure {chapter}");
     let text = text.map_err(|_| Error::Usage(format!("no report of {chapter} is kept; `{make}` measures one")))?;
     let wrong = |_| Error::Usage(format!("{} is no report of this version; `{make}` measures one", short.display()));
     serde_json::from_slice(&text).map_err(wrong)

@@ -211,9 +211,11 @@ fn reference(body: &mut String, report: &Report) {
         RELATIVE_MSE
     );
     let rows: Vec<Vec<String>> = (report.variants.iter())
-        .map(|variant| vec![variant.name.clone(), short(variant.reference_variance), variant.scene.clone()])
+        .map(|variant| {
+            vec![variant.name.clone(), short(variant.reference_variance), variant.scene.clone(), variant.film.clone()]
+        })
         .collect();
-    table(body, "words", &["variant", "V_ref", "hash of the scene"], &rows);
+    table(body, "words", &["variant", "V_ref", "hash of the scene", "of the film"], &rows);
 }
 
 fn provenance(body: &mut String, report: &Report) {
@@ -222,6 +224,7 @@ fn provenance(body: &mut String, report: &Report) {
     let timers = report.timers.map_or_else(|| "not measured".into(), |timers| with_ends(&Statistic::Value(timers)));
     let rows = [
         ("command", provenance.command.clone()),
+        ("day", provenance.date.clone()),
         ("commit", provenance.commit.clone()),
         ("compiler", format!("{}, {}, {}", provenance.rustc, provenance.profile, provenance.target)),
         (
@@ -234,7 +237,6 @@ fn provenance(body: &mut String, report: &Report) {
         ("threads of a run", report.threads.to_string()),
         ("time with timers over time without", timers),
         ("precision", "points, sums and statistics in f64, rays in f32".into()),
-        ("hash of the sources", report.made_from.clone()),
     ];
     body.push_str("<h2>Where this was measured</h2>\n");
     let rows: Vec<Vec<String>> = rows.map(|(what, value)| vec![what.into(), value]).to_vec();

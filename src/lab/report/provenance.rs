@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::process::Command;
+use std::time::SystemTime;
 
 /// Where and by what a report was made.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -21,6 +22,8 @@ pub struct Provenance {
     pub processor: String,
     /// Threads that the machine has.
     pub cores: usize,
+    /// The day, by universal time.
+    pub date: String,
     /// Load average over the last minute, before and after, where the system says.
     pub load: [Option<f64>; 2],
 }
@@ -38,9 +41,23 @@ impl Provenance {
             profile: if cfg!(debug_assertions) { "dev" } else { "release" }.into(),
             processor: processor(),
             cores: std::thread::available_parallelism().map_or(1, usize::from),
+            date: today(),
             load: [load(), None],
         }
     }
+
+    /// The line that a kept record ends with: when it was measured, and what of.
+    pub fn measured(&self) -> String {
+        let loads: Vec<String> = self.load.iter().flatten().map(|load| format!("{load:.2}")).collect();
+        let load = if loads.is_empty() { String::new() } else { format!(", load {}", loads.join(" to ")) };
+        format!("measured on {} at commit {}{load}", self.date, self.commit)
+    }
+}
+
+/// The day, by universal time, such as 25 Nov 2026.
+fn today() -> String {
+    // "Wed, 25 Nov 2026 19:00:00 GMT"
+    httpdate::fmt_http_date(SystemTime::now()).get(5..16).unwrap_or_default().into()
 }
 
 /// The processor, as far as the system says.
@@ -63,8 +80,10 @@ pub fn load() -> Option<f64> {
 }
 
 fn commit() -> String {
-    let changed =
-        answer("git", &["status", "--porcelain", "--untracked-files=no"]).is_some_and(|text| !text.is_empty());
+    // What is kept changes while it is measured; the sources count.
+    let status =
+        ["status", "--porcelain", "--untracked-files=no", "--", "src", "chapters/*.rs", "tests/bench", "Cargo.lock"];
+    let changed = answer("git", &status).is_some_and(|text| !text.is_empty());
     let commit = answer("git", &["rev-parse", "--short=12", "HEAD"]);
     commit.map_or("unknown".into(), |commit| if changed { format!("{commit}, with changes") } else { commit })
 }

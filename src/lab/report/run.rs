@@ -2,7 +2,7 @@
 
 use crate::measure::image_error::Numbers;
 use pinhole::film::{Film, write_whole};
-use pinhole::scene::{FileKind, read_file};
+use pinhole::scene::{FNV_BASIS, FileKind, fnv, read_file};
 use pinhole::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -47,6 +47,19 @@ struct Heading {
     size: [u32; 2],
     times: Times,
     rejected: u64,
+}
+
+/// A hash (FNV-1a, 64 bits) of any bytes, in sixteen hexadecimal digits.
+pub fn hash(bytes: &[u8]) -> String {
+    format!("{:016x}", fnv(FNV_BASIS, bytes))
+}
+
+/// What tells this program from one built of other sources: the length of its file, and when it was written.
+///
+/// Times of two programs make no curve together, so a stopped report goes on only with the program that began it.
+pub fn this_program() -> String {
+    let file = std::env::current_exe().and_then(fs::metadata);
+    file.map(|file| format!("{} {:?}", file.len(), file.modified().ok())).unwrap_or_default()
 }
 
 /// A film as numbers to be compared.

@@ -2,7 +2,8 @@
 
 use super::interval::{Interval, LEVEL, mean_of};
 use super::ladder::Ladder;
-use super::run::{Run, Shelf, Times, numbers};
+use super::run::{Run, Shelf, Times, hash, numbers};
+use crate::measure::film_bits::film_digest;
 use crate::measure::image_error::Numbers;
 use bevy_ecs::prelude::*;
 use cpu_time::ProcessTime;
@@ -17,6 +18,8 @@ use std::time::Instant;
 
 /// Pairs of runs with and without timers.
 const TIMER_PAIRS: usize = 9;
+/// Samples a pixel of the film that a variant is known by.
+const FILM_SAMPLES: u32 = 4;
 
 /// One way to make the picture.
 pub struct Variant<'a> {
@@ -60,6 +63,13 @@ impl Variant<'_> {
         let camera = camera_entity(&world)?;
         world.entity_mut(camera).insert(sampling);
         Ok(world)
+    }
+
+    /// The digest of its film of a few samples a pixel: another digest, other errors.
+    ///
+    /// Errors: what a render would be refused for.
+    pub fn film(&self) -> Result<String> {
+        film_digest(&self.world(Sampling { samples: FILM_SAMPLES, ..self.sampling })?, &self.stages)
     }
 
     fn run(&self, sampling: Sampling, execution: &Execution, watch: &dyn Progress) -> Result<Run> {
@@ -229,13 +239,13 @@ pub fn timers(variant: &Variant<'_>, execution: &Execution, watch: &dyn Progress
 /// The fingerprint of all that decides the images of these variants: their scenes, stages, sampling and ladder.
 ///
 /// Errors: a scene that cannot be written as text.
-pub fn fingerprint(variants: &[Variant<'_>], ladder: &Ladder, sources: &str) -> Result<String> {
-    let mut text = format!("{sources}\n{ladder:?}\n");
+pub fn fingerprint(variants: &[Variant<'_>], ladder: &Ladder, program: &str) -> Result<String> {
+    let mut text = format!("{program}\n{ladder:?}\n");
     for variant in variants {
         let stages: Vec<&str> = variant.stages.iter().map(|stage| stage.name).collect();
         let world = variant.world(variant.sampling)?;
         let scene = pinhole::scene::scene_text(&world).map_err(Error::from)?;
         text += &format!("{}\n{scene}\n{}\n{stages:?}\n", variant.name, pinhole::scene::fingerprint(&world));
     }
-    Ok(crate::measure::cost::fingerprint(text.as_bytes()))
+    Ok(hash(text.as_bytes()))
 }

@@ -9,7 +9,9 @@ use super::ladder::Ladder;
 use super::refused::{Refused, disjoint};
 use super::run::{Run, Times};
 use super::runner::{Runs, Variant};
-use super::summary::{At, Comparison, LevelSummary, Report, Spread, StageSummary, Statistic, VariantSummary};
+use super::summary::{
+    At, Comparison, LevelSummary, Report, SceneSummary, Spread, StageSummary, Statistic, VariantSummary,
+};
 use crate::measure::image_error::Numbers;
 use pinhole::plan::{Stage, TileSystems};
 use pinhole::rays::{place_samples_stage, world_stage};
@@ -62,7 +64,8 @@ pub fn measure(variants: &[Variant<'_>], ladder: &Ladder, runs: &Runs) -> Result
 /// What each variant's numbers are, and how the others compare with the first.
 pub fn sum_up(mut report: Report, variants: &[Variant<'_>], runs: &Runs, measured: &[Measured]) -> Report {
     for (own, (variant, measured)) in variants.iter().zip(measured).enumerate() {
-        report.variants.push(summary(variant, own, runs, measured, report.scenes_of(own)));
+        let scene = report.scenes.get(own).cloned().unwrap_or_default();
+        report.variants.push(summary(variant, own, runs, measured, scene));
     }
     let comparisons = (variants.len() - 1) * (report.ladder.samples.len() * 2 + TIMES);
     report.family_level = sidak(LEVEL, comparisons);
@@ -74,19 +77,7 @@ pub fn sum_up(mut report: Report, variants: &[Variant<'_>], runs: &Runs, measure
     report
 }
 
-impl Report {
-    fn scenes_of(&self, own: usize) -> (String, usize) {
-        self.scenes.get(own).cloned().unwrap_or_default()
-    }
-}
-
-fn summary(
-    variant: &Variant<'_>,
-    own: usize,
-    runs: &Runs,
-    measured: &Measured,
-    scene: (String, usize),
-) -> VariantSummary {
+fn summary(variant: &Variant<'_>, own: usize, runs: &Runs, measured: &Measured, scene: SceneSummary) -> VariantSummary {
     let Measured { curve, deviations, reference } = measured;
     let levels = curve.levels.iter().zip(deviations).zip(&runs.levels[own]).enumerate();
     let stages = &runs.stages[own];
@@ -104,9 +95,10 @@ fn summary(
             .collect(),
         slope: Statistic::of(curve.slope(LEVEL).map(|slope| slope.interval(LEVEL))),
         reference_variance: curve.levels.first().and_then(|level| level.ensemble.reference_variance()).unwrap_or(0.0),
-        scene: scene.0,
+        scene: scene.fingerprint,
+        film: scene.film,
         rays: rays.map(|rays| rays / samples),
-        tests_a_ray: scene.1,
+        tests_a_ray: scene.shapes,
         stages: stages
             .iter()
             .map(|(stage, lap)| StageSummary {

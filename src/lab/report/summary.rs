@@ -108,6 +108,8 @@ pub struct VariantSummary {
     pub reference_variance: f64,
     /// Fingerprint of its scene.
     pub scene: String,
+    /// Digest of its film of a few samples a pixel, which its errors belong to.
+    pub film: String,
     /// Camera and shadow rays a sample; a camera ray's path has one segment.
     pub rays: [f64; 2],
     /// Shapes that each ray is tested against: all, for there is no hierarchy.
@@ -149,9 +151,9 @@ pub struct Report {
     pub title: String,
     /// What it was compared with, as typed.
     pub against: Vec<String>,
-    /// Of each variant's scene: its fingerprint, and how many shapes it holds.
+    /// What is known of each variant's scene before its runs.
     #[serde(skip)]
-    pub scenes: Vec<(String, usize)>,
+    pub scenes: Vec<SceneSummary>,
     /// Pixels from left to right and from top to bottom.
     pub size: [u32; 2],
     /// Which runs were made.
@@ -170,6 +172,15 @@ pub struct Report {
     pub flags: Vec<String>,
     /// Where and when.
     pub provenance: Provenance,
-    /// Fingerprint of the sources that made it.
-    pub made_from: String,
+}
+
+/// A variant's scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneSummary {
+    /// Its fingerprint.
+    pub fingerprint: String,
+    /// Digest of its film of a few samples a pixel.
+    pub film: String,
+    /// How many shapes it holds.
+    pub shapes: usize,
 }

@@ -112,6 +112,7 @@ impl fmt::Display for Report {
             }
         }
         writeln!(f, "\n± is half the interval at 95 %; V_ref subtracted; {RELATIVE_MSE}")?;
+        writeln!(f, "{}", self.provenance.measured())?;
         self.flags.iter().try_for_each(|flag| writeln!(f, "flag: {flag}"))
     }
 }

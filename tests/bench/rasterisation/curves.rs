@@ -8,15 +8,12 @@ use super::{KNOTS, SIZES, after, rendered, scene};
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
 use pinhole::shapes::MeshHierarchy;
-use pinhole_lab::measure::cost::made_from_these;
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::measure::torus_knot::torus_knot;
+use pinhole_lab::report::provenance::Provenance;
 use std::fmt::Write;
 
 const CHAPTER: &str = "34_both";
-/// What the curves are made from beside the renderer; the test of what is kept has the same list.
-const BESIDE: [&str; 3] =
-    ["src/lab/measure/torus_knot.rs", "tests/bench/rasterisation.rs", "tests/bench/rasterisation/curves.rs"];
 
 /// The mesh of the curves against pixels and lights: some 10⁵ triangles.
 const KNOT: [u32; 2] = KNOTS[3];
@@ -191,8 +188,8 @@ pub fn measure() {
     _ = writeln!(text, "\n{}", machine());
     println!("{text}");
     if std::env::args().any(|word| word == "--write") {
-        let made_from = made_from_these(CHAPTER, &BESIDE).expect("the sources are here");
+        let measured = Provenance::now(String::new()).measured();
         let file = format!("{}/chapters/{CHAPTER}/curves.txt", env!("CARGO_MANIFEST_DIR"));
-        std::fs::write(file, format!("{text}made from {made_from}\n")).expect("the curves can be written");
+        std::fs::write(file, format!("{text}{measured}\n")).expect("the curves can be written");
     }
 }

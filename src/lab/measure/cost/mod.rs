@@ -4,15 +4,15 @@
 //! columns of that very frame.
 
 mod exact_frame;
+mod kept;
 mod probe;
-mod sources;
 
+pub use kept::{FILM, KeptStage, kept_costs, kept_film, kept_stages, place};
 pub use probe::{PROBES, stage_errors};
-pub use sources::{fingerprint, made_from, made_from_these};
 
 use bevy_ecs::prelude::*;
 use pinhole::Result;
-use pinhole::plan::Stage;
+use pinhole::plan::{Census, Stage, plan};
 use pinhole::render::{Execution, Lap, Watch, render};
 use std::fmt;
 
@@ -37,6 +37,13 @@ pub struct StageCost {
 pub struct Cost {
     /// One a kept stage.
     pub stages: Vec<StageCost>,
+}
+
+/// The names of the stages that a scene keeps, in the plan's order: what [`measure`] would tell the cost of.
+///
+/// Errors: there is no plan.
+pub fn stage_names(scene: &World, offer: &[Stage]) -> Result<Vec<&'static str>> {
+    Ok(plan(&Census::of(scene), offer)?.stages.iter().map(|stage| stage.name).collect())
 }
 
 /// Renders the scene on one thread again and again, then probes one frame; the scene must ask for statistics.
