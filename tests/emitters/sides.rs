@@ -48,8 +48,8 @@ fn every_kind_of_shape_knows_its_sides_also_mirrored() {
         let placement = Placement { position, orientation: turn, scale };
         // A normal goes out by the inverse of the scale.
         let normal = |own: DVec3| (turn * (own / scale)).normalize();
-        let placed = corners.map(|corner| turn * (corner * scale));
-        let around = (placed[1] - placed[0]).cross(placed[2] - placed[0]).normalize();
+        // A mirror turns the order of corners, but no side.
+        let around = normal((corners[1] - corners[0]).cross(corners[2] - corners[0]));
         let mut check = |name: &str, shape: &dyn Fn(DVec3, DVec3) -> World, front: DVec3, distance: f64| {
             for (sign, expected) in [(1.0, (1, 3.0)), (-1.0, (0, 0.0))] {
                 // From inside a closed shape, towards its wall.

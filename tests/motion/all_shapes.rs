@@ -130,7 +130,8 @@ fn rendered(world: &World) -> Film {
 
 fn stages(world: &World) -> Vec<&'static str> {
     let (plan, _) = prepare(&Census::of(world), &offer()).expect("prepares");
-    plan.rows.iter().filter(|row| row.kept).map(|row| row.stage).collect()
+    // What a mover touches depends on where it is.
+    plan.rows.iter().filter(|row| row.kept && !row.stage.ends_with("that touch")).map(|row| row.stage).collect()
 }
 
 /// Whether every triangle is given normals that lean.

@@ -195,6 +195,30 @@ fn rasterised(mut world: World) -> World {
 }
 
 /// An octahedron whose vertices have normals, and its shadow.
+/// Films of glass on a floor and above it, too thin for single precision to keep their sides apart.
+fn films() -> World {
+    let mut world = toggled(&[Toggle::Light, Toggle::Shadow, Toggle::Plane, Toggle::Background]);
+    let camera = named(&mut world, "camera");
+    world.entity_mut(camera).insert(Integrator::PATH);
+    for (number, height) in [0.0, 0.7].into_iter().enumerate() {
+        let thin = 6e-7;
+        let film = Cuboid { size: DVec3::new(1.6, thin, 1.2) };
+        let at = Placement::at(number as f64 - 0.5, height + 0.5 * thin, 0.4);
+        world.spawn((film, at, Glass { priority: number as u32, ..Glass::default() }));
+    }
+    world
+}
+
+/// A lamp, a floor and the camera within ink.
+fn in_ink() -> World {
+    let mut world = toggled(&[Toggle::Light, Toggle::Shadow, Toggle::Plane]);
+    let camera = named(&mut world, "camera");
+    world.entity_mut(camera).insert(Integrator::PATH);
+    let ink = Glass { ior: 1.0, absorption: Rgb::grey(0.1), ..Glass::default() };
+    world.spawn((Cuboid { size: DVec3::splat(40.0) }, ink));
+    world
+}
+
 fn a_mesh() -> World {
     let mut world = World::new();
     let look = LookAt { eye: DVec3::new(0.0, 3.0, 6.0), target: DVec3::ZERO, ..LookAt::default() };
@@ -252,6 +276,8 @@ fn forcing_a_needed_stage_off_shows() {
         ("rasterised ellipsoids", rasterised(stretched(Setup { size, ..Setup::default() }))),
         ("rasterised spheres", rasterised(shining(Setup { size, ..Setup::default() }))),
         ("many lights", scenes::many::many_lights(Setup { size, ..Setup::default() })),
+        ("films", films()),
+        ("a lamp in ink", in_ink()),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();

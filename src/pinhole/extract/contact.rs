@@ -1,7 +1,8 @@
 //! Which surfaces single precision may not keep apart from those of glass: they touch, or a body is that thin.
 
 use super::shape_kind::{listed_kind, one_shape, shape_entities};
-use super::{MaterialTable, NO_ROW, ShapeTable, eye, followed_evidence, glass_evidence};
+use super::velocity::{moves_while_open, velocity_of};
+use super::{MaterialTable, NO_ROW, ShapeTable, ShutterTable, eye, followed_evidence, glass_evidence};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{SceneError, called};
 use crate::shapes::{Body, Bounds, l1_norm, offset_bound};
@@ -24,6 +25,27 @@ pub struct Contact {
     pub shape: u32,
     /// The row of its glass; [`NO_ROW`] where it is of something else.
     pub glass: u32,
+    /// Its velocity while the shutter is open, in scene units per unit of time.
+    pub velocity: DVec3,
+    /// A box around all points from which rounding may not keep its surface apart; all of space for an infinite shape.
+    near: Bounds,
+    /// How far from its surface such points are at most.
+    margin: f64,
+}
+
+impl Contact {
+    /// Whether rounding may not keep its surface apart from a point: quick, and true where nothing better is known.
+    #[inline(always)]
+    pub fn is_near(&self, point: DVec3) -> bool {
+        match &self.body {
+            Body::Sphere(ball, ()) => ((point - ball.centre).length() - ball.radius).abs() <= self.margin,
+            Body::Plane(plane, _) => {
+                let margin = 2.0 * APART * f64::from(offset_bound(point, DVec3::ZERO, plane.offset.abs()));
+                (plane.normal.dot(point) - plane.offset).abs() <= margin
+            }
+            _ => self.near.contains(point),
+        }
+    }
 }
 
 /// For each shape of glass, the shapes whose surfaces may coincide with its own within rounding, itself among them where
@@ -47,6 +69,15 @@ impl ContactTable {
         let start = if row == 0 { 0 } else { self.end[row - 1] };
         &self.other[start as usize..self.end[row] as usize]
     }
+
+    /// Whether any of a row's contacts may be near a point of its surface at a time, itself where its two sides may.
+    #[inline(always)]
+    pub fn is_near_any(&self, row: usize, point: DVec3, time: f64) -> bool {
+        self.others(row).iter().any(|&other| {
+            let contact = &self.contact[other as usize];
+            other as usize == row || contact.is_near(point - contact.velocity * time)
+        })
+    }
 }
 
 impl Table for ContactTable {
@@ -63,7 +94,9 @@ impl Table for ContactTable {
         for (number, &shape) in others.keys().enumerate() {
             table.row[shape] = number as u32;
             let body = body_of(scene, shape)?;
-            table.contact.push(Contact { body, shape: shape as u32, glass: shapes[shape] });
+            let velocity = velocity_while_open(scene, shape);
+            let (near, margin) = body.bounds().map_or((Bounds::ALL, 0.0), |bounds| (grow(&bounds), margin(&bounds)));
+            table.contact.push(Contact { body, shape: shape as u32, glass: shapes[shape], velocity, near, margin });
         }
         for touched in others.values() {
             table.other.extend(touched.iter().map(|&shape| table.row[shape]));
@@ -123,7 +156,13 @@ fn body_of(scene: &Census<'_>, shape: usize) -> Result<Body, SceneError> {
     (one_shape(scene, entity)?.body)(scene, entity, eye(scene)?)
 }
 
-/// A shape that keeps still, with the box around it; none for an infinite one.
+/// The velocity of a shape that moves while the shutter is open; 0 for others.
+fn velocity_while_open(scene: &Census<'_>, shape: usize) -> DVec3 {
+    let entity = shape_entities(scene)[shape];
+    if moves_while_open(scene)(entity) { velocity_of(scene, entity) } else { DVec3::ZERO }
+}
+
+/// A shape, with the box around all its positions while the shutter is open; none for an infinite one.
 struct Boxed {
     shape: usize,
     bounds: Option<Bounds>,
@@ -142,10 +181,14 @@ fn find_pairs(scene: &Census<'_>) -> Result<ContactPairs, SceneError> {
     }
     let mut boxed = Vec::new();
     for shape in 0..glass.len() {
-        // What moves is kept apart by its motion, and is none of the listed kinds.
-        if let Some(listed) = listed_kind(table.kind[shape]) {
-            boxed.push(Boxed { shape, bounds: (listed.bounds)(scene, table.row[shape] as usize)? });
-        }
+        // What moves is none of the listed kinds.
+        let bounds = match listed_kind(table.kind[shape]) {
+            Some(listed) => (listed.bounds)(scene, table.row[shape] as usize)?,
+            None => body_of(scene, shape)?.bounds(),
+        };
+        let moved = velocity_while_open(scene, shape) * scene.table::<ShutterTable>()?.length;
+        let swept = |at: Bounds| at.joined(&Bounds { least: at.least + moved, most: at.most + moved });
+        boxed.push(Boxed { shape, bounds: bounds.map(swept) });
     }
     let (mut bounded, infinite): (Vec<Boxed>, Vec<Boxed>) = boxed.into_iter().partition(|own| own.bounds.is_some());
     let grown = |own: &Boxed| own.bounds.map(|bounds| grow(&bounds)).unwrap_or(Bounds::ALL);
@@ -174,14 +217,15 @@ fn find_pairs(scene: &Census<'_>) -> Result<ContactPairs, SceneError> {
                 place.insert(body_of(scene, shape)?);
             }
         }
-        if may_touch(pair.map(|shape| &bodies[&shape]), pair.map(|shape| glass[shape])) {
+        let [one, other] = pair.map(|shape| velocity_while_open(scene, shape));
+        if one != other || may_touch(pair.map(|shape| &bodies[&shape]), pair.map(|shape| glass[shape])) {
             let glassy = [pair, [pair[1], pair[0]]].into_iter().filter(|&[first, _]| is_glass(first));
             pairs.touching.extend(glassy);
         }
     }
     for own in bounded.iter().filter(|own| is_glass(own.shape)) {
         let body = body_of(scene, own.shape)?;
-        if body.thickness() <= own.bounds.map_or(0.0, |bounds| reach(&bounds)) {
+        if body.thickness() <= own.bounds.map_or(0.0, |bounds| margin(&bounds)) {
             pairs.touching.push([own.shape, own.shape]);
         }
     }
@@ -191,13 +235,13 @@ fn find_pairs(scene: &Census<'_>) -> Result<ContactPairs, SceneError> {
 }
 
 /// How far from a surface in this box another must be to be certainly kept apart from it.
-fn reach(bounds: &Bounds) -> f64 {
+fn margin(bounds: &Bounds) -> f64 {
     let farthest = bounds.least.abs().max(bounds.most.abs());
     APART * f64::from(offset_bound(farthest, DVec3::ZERO, l1_norm(farthest)))
 }
 
 fn grow(bounds: &Bounds) -> Bounds {
-    let by = DVec3::splat(reach(bounds));
+    let by = DVec3::splat(margin(bounds));
     Bounds { least: bounds.least - by, most: bounds.most + by }
 }
 
@@ -206,16 +250,16 @@ fn grow(bounds: &Bounds) -> Bounds {
 /// Surfaces that only cross each other do not: the rays that come as near as rounding to such a line are too few to be
 /// seen.
 fn may_touch([one, other]: [&Body; 2], glass: [u32; 2]) -> bool {
-    let reach = [one, other].iter().filter_map(|body| body.bounds()).map(|own| reach(&own)).fold(0.0, f64::max);
+    let margin = [one, other].iter().filter_map(|body| body.bounds()).map(|own| margin(&own)).fold(0.0, f64::max);
     match (one, other) {
         (Body::Sphere(a, ()), Body::Sphere(b, ())) => {
             let apart = (a.centre - b.centre).length();
             let gaps = [apart - (a.radius + b.radius), apart - (a.radius - b.radius).abs()];
-            gaps.iter().any(|gap| gap.abs() <= reach)
+            gaps.iter().any(|gap| gap.abs() <= margin)
         }
         (Body::Sphere(ball, ()), Body::Plane(plane, _)) | (Body::Plane(plane, _), Body::Sphere(ball, ())) => {
             let height = plane.normal.dot(ball.centre) - plane.offset;
-            (height.abs() - ball.radius).abs() <= reach
+            (height.abs() - ball.radius).abs() <= margin
         }
         (Body::Plane(a, _), Body::Plane(b, _)) => {
             let side = a.normal.dot(b.normal).signum();
@@ -224,16 +268,16 @@ fn may_touch([one, other]: [&Body; 2], glass: [u32; 2]) -> bool {
             turned.length() < 1e-6 && apart.abs() <= APART * bound
         }
         (Body::Plane(plane, _), Body::Mesh(mesh, ())) | (Body::Mesh(mesh, ()), Body::Plane(plane, _)) => {
-            let is_in = |corner: &DVec3| (plane.normal.dot(*corner) - plane.offset).abs() <= reach;
+            let is_in = |corner: &DVec3| (plane.normal.dot(*corner) - plane.offset).abs() <= margin;
             mesh.placed_triangles().any(|corners| corners.iter().all(is_in))
         }
         (Body::Plane(plane, _), body) | (body, Body::Plane(plane, _)) => {
             let Some(bounds) = body.bounds() else { return true };
             let (centre, half) = (0.5 * (bounds.least + bounds.most), 0.5 * (bounds.most - bounds.least));
             let (height, extent) = (plane.normal.dot(centre) - plane.offset, plane.normal.abs().dot(half));
-            height.abs() <= extent + reach
+            height.abs() <= extent + margin
         }
-        // Neighbours in one surface share corners.
+        // Neighbours in one surface have common corners.
         (Body::Triangle(a, _), Body::Triangle(b, _)) => {
             glass[0] != glass[1] || !a.corners.iter().any(|corner| b.corners.contains(corner))
         }

@@ -105,8 +105,8 @@ impl Table for GlassBodyTable {
     }
 }
 
-/// A box around a shape on its way; all of space for an infinite shape.
-fn swept(bounds: Option<Bounds>, way: DVec3) -> Bounds {
+/// A box around a shape at rest and moved by so much; all of space for an infinite shape.
+fn swept(bounds: Option<Bounds>, moved: DVec3) -> Bounds {
     let Some(Bounds { least, most }) = bounds else { return Bounds::ALL };
-    Bounds { least, most }.joined(&Bounds { least: least + way, most: most + way })
+    Bounds { least, most }.joined(&Bounds { least: least + moved, most: most + moved })
 }

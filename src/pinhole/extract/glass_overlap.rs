@@ -23,11 +23,16 @@ struct BoundedGlass {
 }
 
 /// Evidence of a shape filled with what passes a test.
-pub fn glass_that(scene: &Census<'_>, noun: &str, such: impl Fn(&Interior) -> bool) -> Evidence {
+fn glass_that(scene: &Census<'_>, noun: &str, such: impl Fn(&Interior) -> bool) -> Evidence {
     let such = |&entity: &Entity| interior_of(scene, entity).ok().flatten().is_some_and(|own| such(&own));
     let of = |entities: Arc<[Entity]>| entities.iter().copied().filter(such).collect::<Vec<_>>();
     let (in_use, found) = (in_use(scene), of(material_entities(scene)));
     Evidence::among_entities(scene, noun, |entity| in_use.contains(&entity), &found, &found)
+}
+
+/// Evidence that a shape is made of absorbing glass.
+pub fn absorption_evidence(scene: &Census<'_>) -> Evidence {
+    glass_that(scene, "absorbing glass surface", |glass| glass.absorption != [0.0; 3])
 }
 
 /// Evidence that two glass shapes may overlap, according to their bounding boxes.

@@ -92,7 +92,7 @@ pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
 pub use filter::FilterTable;
 pub use glass::GlassTable;
 pub use glass_body::{GlassBody, GlassBodyTable};
-pub use glass_overlap::{deep_glass, glass_overlaps, glass_that};
+pub use glass_overlap::{absorption_evidence, deep_glass, glass_overlaps};
 pub use gradient::GradientTable;
 pub use hierarchy::{HierarchyOf, hierarchy_evidence};
 pub use image_file::{Texels, read_exr};

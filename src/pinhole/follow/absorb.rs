@@ -1,16 +1,12 @@
 //! Light that glass absorbs along the segments of paths: along each ray, and along each shadow ray.
 
-use super::deeper_media::deeper_media_evidence;
 use super::interface::{Interface, InterfaceView};
-use super::media::media_evidence;
-use super::{DeeperMedia, Media, transmittance};
-use crate::extract::{
-    GlassTable, MaterialTable, NO_ROW, followed_evidence, glass_contact_evidence, glass_that, lit_from_behind_evidence,
-};
-use crate::intersect::{Contacts, Hits, NO_SHAPE, SurfaceSides, Surfaces};
-use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems};
+use super::{Media, transmittance};
+use crate::extract::{GlassTable, MaterialTable, NO_ROW, absorption_evidence, followed_evidence};
+use crate::intersect::{Hits, NO_SHAPE, Surfaces};
+use crate::plan::{Column, Shared, Stage, TileSystems};
 use crate::rays::Paths;
-use crate::shade::{LightRays, MetallicRoughness, ShadowHits, light_distance, shadow_evidence};
+use crate::shade::{LightRays, ShadowHits, light_distance, shadow_evidence};
 use bevy_ecs::prelude::*;
 
 /// The transmittance of a glass along a way of this length, colour by colour.
@@ -75,20 +71,8 @@ pub fn absorb_stage() -> Stage {
 
 /// The stage that absorbs along shadow rays.
 pub fn absorb_shadow_stage() -> Stage {
-    let never = |_: &Census<'_>| Evidence::default();
-    Stage::new("Absorb light along shadow rays", TileSystems::AbsorbShadowRays, absorb_shadow_rays)
-        .reads_where::<SurfaceSides>(lit_from_behind_evidence)
-        .reads_where::<Media>(media_evidence)
-        .reads_where::<DeeperMedia>(deeper_media_evidence)
-        .reads_where::<Contacts>(|scene| lit_from_behind_evidence(scene).and(|| glass_contact_evidence(scene)))
-        .reads_where::<MetallicRoughness>(never)
-        .when(|scene| {
-            let absorbs = absorption_evidence(scene).and(|| followed_evidence(scene));
-            absorbs.and(|| shadow_evidence(scene))
-        })
-}
-
-/// Evidence that a shape is made of absorbing glass.
-pub(super) fn absorption_evidence(scene: &Census<'_>) -> Evidence {
-    glass_that(scene, "absorbing glass surface", |glass| glass.absorption != [0.0; 3])
+    Stage::new("Absorb light along shadow rays", TileSystems::AbsorbShadowRays, absorb_shadow_rays).when(|scene| {
+        let absorbs = absorption_evidence(scene).and(|| followed_evidence(scene));
+        absorbs.and(|| shadow_evidence(scene))
+    })
 }

@@ -223,7 +223,6 @@ pub(super) fn at_interfaces<B: Bsdf>(stage: Stage) -> Stage {
             .reads_where::<SurfaceSides>(never)
             .reads_where::<Media>(never)
             .reads_where::<DeeperMedia>(never)
-            .reads_where::<Contacts>(never)
     }
 }
 

@@ -1,9 +1,8 @@
-use super::absorb::absorption_evidence;
 use super::deeper_media::{Carrier, deeper_media_evidence};
 use super::{DeeperMedia, MediumStack, Scattered};
 use crate::extract::{
-    GlassBodyTable, GlassTable, MaterialTable, NO_ROW, followed_evidence, glass_contact_evidence, glass_evidence,
-    glass_overlaps, moving_evidence,
+    GlassBodyTable, GlassTable, MaterialTable, NO_ROW, absorption_evidence, followed_evidence, glass_contact_evidence,
+    glass_evidence, glass_overlaps,
 };
 use crate::intersect::{Contacts, GlassCrossing, SurfaceSides, Surfaces};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
@@ -178,7 +177,6 @@ pub fn carry_media(
 pub fn start_media_stage() -> Stage {
     Stage::new("Find the media that rays start in", TileSystems::Media, start_media)
         .on_first_bounce()
-        .reads_where::<RayTimes>(moving_evidence)
         .when(media_evidence)
 }
 
@@ -210,7 +208,6 @@ pub fn leave_contacts_stage() -> Stage {
 pub fn carry_media_stage() -> Stage {
     Stage::new("Carry media to the next bounce", TileSystems::Step, carry_media)
         .reads_where::<DeeperMedia>(deeper_media_evidence)
-        .reads_where::<Contacts>(glass_contact_evidence)
         .when(media_evidence)
 }
 

@@ -1,12 +1,12 @@
 //! Surfaces that coincide with a hit within rounding: they are crossed, or hit, in one event.
 
 use super::{HitPrimitives, Hits, NO_SHAPE, Surfaces};
-use crate::extract::{Contact, ContactTable, NO_ROW, contact_evidence, primitive_evidence};
+use crate::extract::{Contact, ContactTable, NO_ROW, contact_evidence};
 use crate::plan::{Column, ColumnComponent, ComponentValues, Lifetime, Shared, Stage, TileSystems, column_component};
-use crate::rays::WorldRays;
+use crate::rays::{RayTimes, WorldRays};
 use crate::shapes::{RayHit, SurfacePoint};
 use bevy_ecs::prelude::*;
-use glam::DVec3;
+use bevy_ecs::query::QueryData;
 
 /// A surface of glass that is crossed together with others.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,10 +26,11 @@ pub struct GlassCrossing {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Contacts {
     /// The end of each row's range in the list; it begins where the previous row's ends.
-    end: Vec<u32>,
-    list: Vec<GlassCrossing>,
+    pub end: Vec<u32>,
+    /// The surfaces.
+    pub list: Vec<GlassCrossing>,
     /// The rows that hit something else than glass behind glass that is in contact with it, and how far behind.
-    behind: Vec<(u32, f32)>,
+    pub behind: Vec<(u32, f32)>,
 }
 
 impl Contacts {
@@ -75,7 +76,7 @@ const IN_FRONT: f64 = 1.0 / 8.0;
 const BEYOND: f64 = 2.0;
 /// The step from one surface to the search for the next, as a fraction of the bound.
 const STEP: f64 = 1.0 / (1_u64 << 16) as f64;
-/// No more surfaces than this are looked for in one shape.
+/// No more surfaces than this are looked for at one hit.
 const MOST: usize = 16;
 
 /// A surface found near a hit, and which of the shapes near it has it.
@@ -93,24 +94,30 @@ pub struct Found {
 ///
 /// The segment runs along the normal, as the offset of a spawned ray does, and grows with each surface found, so that
 /// nothing within the error bound of the last one is left out.
-fn find(table: &ContactTable, row: usize, surface: &SurfacePoint, found: &mut Vec<Found>) {
+fn find(table: &ContactTable, row: usize, (surface, time): (&SurfacePoint, f64), found: &mut Vec<Found>) {
     found.clear();
     let bound = f64::from(surface.bound);
     let (start, inward) = (surface.point + IN_FRONT * bound * surface.normal, -surface.normal);
     let mut end = BEYOND * bound;
     loop {
         found.clear();
-        for &contact in std::iter::once(&(row as u32)).chain(table.others(row).iter().filter(|&&own| own != row as u32))
-        {
-            crossings(
-                &table.contact[contact as usize],
-                (start, inward),
-                end + IN_FRONT * bound,
-                |t, from_outside, primitive| {
-                    found.push(Found { depth: t - IN_FRONT * bound, contact, from_outside, primitive });
-                    STEP * bound
-                },
-            );
+        // Its own surface is there, and may come again.
+        let others = table.others(row).iter().copied().filter(|&other| other != row as u32);
+        for contact in std::iter::once(row as u32).chain(others) {
+            let (Contact { body, velocity, .. }, mut from) = (&table.contact[contact as usize], 0.0);
+            let start = start - *velocity * time;
+            while found.len() < MOST {
+                let origin = start + from * inward;
+                let t = body.t(origin, inward);
+                let depth = from + t - IN_FRONT * bound;
+                if !(depth <= end) {
+                    break;
+                }
+                let primitive = body.primitive_at(origin, inward, t);
+                let hit = RayHit { primitive, ..RayHit::at_rest(origin, inward, t) };
+                found.push(Found { depth, contact, from_outside: body.surface(&hit).outside, primitive });
+                from += t + STEP * bound;
+            }
         }
         let deepest = found.iter().fold(0.0, |most, own| f64::max(most, own.depth));
         if found.len() >= MOST || deepest + BEYOND * bound <= end {
@@ -122,25 +129,15 @@ fn find(table: &ContactTable, row: usize, surface: &SurfacePoint, found: &mut Ve
 }
 // ANCHOR_END: find_contacts
 
-/// Calls `keep` for every surface of one shape along a segment, with its t, whether it is crossed from outside, and its
-/// primitive; `keep` says how far beyond it the next one is looked for.
-fn crossings(
-    contact: &Contact,
-    (start, direction): (DVec3, DVec3),
-    length: f64,
-    mut keep: impl FnMut(f64, bool, u32) -> f64,
-) {
-    let (mut from, body) = (0.0, &contact.body);
-    for _ in 0..MOST {
-        let origin = start + from * direction;
-        let t = body.t(origin, direction);
-        if !(from + t <= length) {
-            break;
-        }
-        let primitive = body.primitive_at(origin, direction, t);
-        let hit = RayHit { primitive, ..RayHit::at_rest(origin, direction, t) };
-        from += t + keep(from + t, body.surface(&hit).outside, primitive);
-    }
+/// The hits of a tile, and the lists of surfaces that coincide with them.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct ContactView {
+    rays: &'static WorldRays,
+    times: Option<&'static RayTimes>,
+    hits: &'static mut Hits,
+    primitives: Option<&'static mut HitPrimitives>,
+    contacts: Option<&'static mut Contacts>,
 }
 
 /// Merges the surfaces that coincide with the hits of a tile on glass.
@@ -148,12 +145,8 @@ fn crossings(
 /// Where one of them is of something else than glass, it is what the ray hits, whichever was found first, for nothing
 /// goes through it; the glass in front of it and the glass that the ray is in are then in contact with it.
 /// Where all are of glass, they are crossed together.
-pub fn merge_contacts(
-    table: Res<Shared<ContactTable>>,
-    mut near: Local<Vec<Found>>,
-    mut tiles: Query<(&WorldRays, &mut Hits, Option<&mut HitPrimitives>, Option<&mut Contacts>)>,
-) {
-    for (rays, mut hits, mut primitives, mut contacts) in &mut tiles {
+pub fn merge_contacts(table: Res<Shared<ContactTable>>, mut near: Local<Vec<Found>>, mut tiles: Query<ContactView>) {
+    for ContactViewItem { rays, times, mut hits, mut primitives, mut contacts } in &mut tiles {
         if let Some(contacts) = &mut contacts {
             contacts.end.clear();
             contacts.list.clear();
@@ -162,19 +155,23 @@ pub fn merge_contacts(
         for row in 0..hits.rows() {
             let shape = hits.shape[row];
             let own = if shape == NO_SHAPE { NO_ROW } else { table.row[shape as usize] };
-            if own != NO_ROW && !table.others(own as usize).is_empty() {
+            let time = times.map_or(0.0, |times| times.time[row]);
+            if own != NO_ROW && table.is_near_any(own as usize, rays.point_at(row, hits.t[row]), time) {
                 let own = own as usize;
                 let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
                 let primitive = primitives.as_ref().map_or(0, |primitives| primitives.primitive[row]);
-                let hit = RayHit { primitive, ..RayHit::at_rest(origin, direction, hits.t[row]) };
-                let surface = table.contact[own].body.surface(&hit);
-                find(&table, own, &surface, &mut near);
+                let displacement = table.contact[own].velocity * time;
+                let origin_at_rest = origin - displacement;
+                let hit = RayHit { origin: origin_at_rest, direction, t: hits.t[row], primitive, displacement };
+                let mut surface = table.contact[own].body.surface(&hit);
+                surface.point += displacement;
+                find(&table, own, (&surface, time), &mut near);
                 let opaque = near.iter().find(|found| table.contact[found.contact as usize].glass == NO_ROW);
                 if let Some(found) = opaque {
                     let body = &table.contact[found.contact as usize];
                     hits.shape[row] = body.shape;
                     // Beyond the glass by what rounding hides; from the side, no farther than the ray goes in that.
-                    let t = body.body.t(origin, direction);
+                    let t = body.body.t(origin - body.velocity * time, direction);
                     let along = (t - hits.t[row]).abs() * surface.normal.dot(direction).abs();
                     if along <= found.depth.abs() + BEYOND * f64::from(surface.bound) {
                         hits.t[row] = t;
@@ -218,7 +215,5 @@ pub fn contact_bound_stage() -> Stage {
 
 /// The stage that runs [`merge_contacts`].
 pub fn contact_stage() -> Stage {
-    Stage::new("Merge surfaces that touch", TileSystems::Contact, merge_contacts)
-        .reads_where::<HitPrimitives>(primitive_evidence)
-        .when(contact_evidence)
+    Stage::new("Merge surfaces that touch", TileSystems::Contact, merge_contacts).when(contact_evidence)
 }

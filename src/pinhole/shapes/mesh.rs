@@ -47,9 +47,6 @@ pub struct PlacedMesh {
 /// there f64 still resolves 2⁻⁴² of the radius.
 const FAR_AWAY: f64 = 1024.0;
 
-/// How far past a triangle a ray that counts triangles goes on, as a fraction of the numbers from which it was computed.
-const NEXT_TRIANGLE: f64 = 1.0 / (1_u64 << 46) as f64;
-
 impl PlacedMesh {
     // ANCHOR: near_ray
     /// A ray in object space, and whether it starts close enough to the mesh.
@@ -114,7 +111,7 @@ impl PlacedMesh {
     /// The unit normal of a triangle in render space, on the side from which its vertices run anticlockwise in object
     /// space.
     #[inline(always)]
-    fn normal_of(&self, triangle: &TriangleRow) -> DVec3 {
+    pub(super) fn normal_of(&self, triangle: &TriangleRow) -> DVec3 {
         let along = normal_world_from_object(self.object_from_world, unnormalised_normal(triangle));
         (along / along.abs().max_element()).normalize()
     }
@@ -248,39 +245,12 @@ impl Shape for PlacedMesh {
         self.windings(point) > 0
     }
 
-    /// Counted along a ray: every surface that it leaves through is around the point, unless it was entered on the way.
     fn windings(&self, point: DVec3) -> u32 {
-        // Any direction will do; this one is along no axis.
-        let direction = DVec3::new(0.6, 0.48, 0.64);
-        if !self.bounds.contains(point) || !self.hierarchy.is_closed(&self.geometry) {
-            return 0;
-        }
-        let (mut around, mut origin) = (0, point);
-        // Each step crosses a triangle, so that the count ends by itself; a step that rounding loses ends it too.
-        for _ in 0..2 * self.geometry.triangles.len() {
-            let closest = self.closest(origin, direction);
-            if closest.t == f64::INFINITY {
-                break;
-            }
-            let hit = RayHit { primitive: closest.primitive, ..RayHit::at_rest(origin, direction, closest.t) };
-            around += if self.surface(&(), &hit).outside { -1 } else { 1 };
-            let past = NEXT_TRIANGLE * (self.size + l1_norm(origin) + closest.t);
-            origin += (closest.t + past) * direction;
-        }
-        u32::try_from(around).unwrap_or(0)
+        self.windings_around(point)
     }
 
-    /// What lies behind the middle of each triangle: where two of its sides are near each other over an area, some
-    /// triangle's middle is there.
     fn thickness(&self) -> f64 {
-        let behind = |(triangle, corners): (usize, [DVec3; 3])| {
-            let inward = -self.normal_of(&self.triangle(triangle as u32));
-            let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-            let past = NEXT_TRIANGLE * (self.size + l1_norm(middle));
-            let t = if inward.is_finite() { self.closest(middle + past * inward, inward).t } else { f64::INFINITY };
-            t + past
-        };
-        self.placed_triangles().enumerate().map(behind).fold(f64::INFINITY, f64::min)
+        self.least_thickness()
     }
 
     fn bounds(&self) -> Option<Bounds> {

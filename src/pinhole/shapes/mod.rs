@@ -55,6 +55,7 @@ mod interval;
 mod kind;
 mod mesh;
 mod mesh_hierarchy;
+mod mesh_inside;
 mod mesh_instance;
 mod mesh_normal;
 mod mesh_packet;
