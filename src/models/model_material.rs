@@ -74,7 +74,7 @@ pub enum AlphaMode {
 }
 
 /// An image as a material uses it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModelTexture {
     /// The index of the image.
     pub image: usize,
@@ -82,6 +82,19 @@ pub struct ModelTexture {
     pub wrap: [TextureWrap; 2],
     /// Whether it is to be looked up without interpolation.
     pub nearest: bool,
+    /// Added to u and v last, in units of the image, v down.
+    pub offset: [f64; 2],
+    /// The rotation of u and v about (0, 0) after they are scaled, in radians, anticlockwise as one sees the image.
+    pub rotation: f64,
+    /// The factors of u and v.
+    pub scale: [f64; 2],
+}
+
+impl Default for ModelTexture {
+    /// The first image, repeated, as the mesh's texture coordinates place it.
+    fn default() -> Self {
+        Self { image: 0, wrap: Default::default(), nearest: false, offset: [0.0; 2], rotation: 0.0, scale: [1.0; 2] }
+    }
 }
 
 /// What lies beyond an image's edges.

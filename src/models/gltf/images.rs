@@ -70,7 +70,7 @@ impl<'a> Images<'a> {
             }
             nearest = sampler.whole("magFilter")? == Some(9728);
         }
-        Ok(Some((ModelTexture { image, wrap, nearest }, uv_set)))
+        Ok(Some((ModelTexture { image, wrap, nearest, ..ModelTexture::default() }, uv_set)))
     }
 
     fn image(&mut self, index: usize, is_srgb: bool, memory: &mut Memory) -> Result<usize, ModelError> {

@@ -162,7 +162,7 @@ impl Map {
             return None;
         }
         let image = images.index(rest, is_srgb);
-        Some(Self { texture: ModelTexture { image, wrap: [wrap; 2], nearest: false }, factor })
+        Some(Self { texture: ModelTexture { image, wrap: [wrap; 2], ..ModelTexture::default() }, factor })
     }
 }
 

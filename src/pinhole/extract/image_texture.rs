@@ -3,8 +3,9 @@ use super::check::kind_and_name;
 use super::image_file::{check_memory_of_textures, shown_name, texture_image};
 use super::texture::{Texture, check_beside_colour, rows_of_kind};
 use crate::plan::{Census, Table, counted};
-use crate::scene::{ImageTexture, Rgb, SceneError, TextureBy, Wrap};
+use crate::scene::{ImageTexture, Rgb, SceneError, TextureBy, WrapMode};
 use bevy_ecs::prelude::*;
+use glam::{DMat2, DVec2};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -17,8 +18,10 @@ pub struct ImageTable {
     pub pyramid: Vec<Arc<Pyramid>>,
     /// The image's width in units of its texture: its aspect ratio for object-space mapping, 1 for uv mapping.
     pub aspect: Vec<f64>,
-    /// How each continues beyond its edges.
-    pub wrap: Vec<Wrap>,
+    /// How each continues beyond its edges, along u and along v.
+    pub wrap: Vec<[WrapMode; 2]>,
+    /// What is done to the image's own coordinates before it is looked up, if anything.
+    pub transform: Vec<Option<(DMat2, DVec2)>>,
     /// Whether each is filtered over a pixel's footprint.
     pub filter: Vec<bool>,
 }
@@ -55,7 +58,8 @@ impl Table for ImageTable {
             let aspect = image.levels[0].width as f64 / image.levels[0].height as f64;
             table.aspect.push(if texture.by == TextureBy::Uv { 1.0 } else { aspect });
             table.pyramid.push(image);
-            table.wrap.push(texture.wrap);
+            table.wrap.push(texture.wrap.axes());
+            table.transform.push(texture.transform.affine(&kind_and_name(scene, ImageTexture::WORD, material))?);
             table.filter.push(texture.filter);
         }
         Ok(table)

@@ -7,8 +7,11 @@ use super::image_file::{emission_image, factor_image};
 use super::texture::{NO_TEXTURE, Texture, filtered_texture_evidence, rows_of_kind, texture_of_kind};
 use crate::material::{MaterialKind, is_material, one_material};
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{EmissionMap, Emissive, MetallicRoughnessMap, Principled, SceneError, TextureBy, Wrap};
+use crate::scene::{
+    EmissionMap, Emissive, MetallicRoughnessMap, Principled, SceneError, TextureBy, UvTransform, Wrap, WrapMode,
+};
 use bevy_ecs::prelude::*;
+use glam::{DMat2, DVec2};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -17,6 +20,7 @@ trait UvMap: Texture {
     fn file(&self) -> &str;
     fn size(&self) -> f64;
     fn wrap(&self) -> Wrap;
+    fn transform(&self) -> UvTransform;
     /// Reads the image that a file holds.
     fn image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError>;
 }
@@ -44,6 +48,9 @@ macro_rules! uv_map {
             fn wrap(&self) -> Wrap {
                 self.wrap
             }
+            fn transform(&self) -> UvTransform {
+                self.transform
+            }
             fn image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError> {
                 $image(scene, who, file)
             }
@@ -61,8 +68,10 @@ pub struct UvImages {
     pub pyramid: Vec<Arc<Pyramid>>,
     /// The side of the image in units of uv.
     pub size: Vec<f64>,
-    /// How each continues beyond its edges.
-    pub wrap: Vec<Wrap>,
+    /// How each continues beyond its edges, along u and along v.
+    pub wrap: Vec<[WrapMode; 2]>,
+    /// What is done to the coordinates before each is looked up, if anything.
+    pub transform: Vec<Option<(DMat2, DVec2)>>,
     /// Whether each is filtered over a pixel's footprint.
     pub filter: Vec<bool>,
 }
@@ -71,7 +80,8 @@ impl UvImages {
     fn push<M: UvMap>(&mut self, scene: &Census<'_>, owner: Entity, map: &M) -> Result<(), SceneError> {
         let who = kind_and_name(scene, M::WORD, owner);
         self.size.push(positive_length(&who, "size", map.size())?);
-        self.wrap.push(map.wrap());
+        self.wrap.push(map.wrap().axes());
+        self.transform.push(map.transform().affine(&who)?);
         self.filter.push(map.filter());
         self.pyramid.push(M::image(scene, &who, map.file())?);
         Ok(())

@@ -4,8 +4,9 @@ use super::material::material_kind_evidence;
 use super::texture::rows_of_kind;
 use crate::material::material_entities;
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{NormalMap, SceneError, Wrap};
+use crate::scene::{NormalMap, SceneError, WrapMode};
 use bevy_ecs::prelude::*;
+use glam::{DMat2, DVec2};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -22,8 +23,10 @@ pub struct NormalMapTable {
     pub scale: Vec<f64>,
     /// The side of the image in units of uv.
     pub size: Vec<f64>,
-    /// How each continues beyond its edges.
-    pub wrap: Vec<Wrap>,
+    /// How each continues beyond its edges, along u and along v.
+    pub wrap: Vec<[WrapMode; 2]>,
+    /// What is done to the coordinates before the map is looked up, if anything.
+    pub transform: Vec<Option<(DMat2, DVec2)>>,
 }
 
 impl Table for NormalMapTable {
@@ -47,7 +50,8 @@ impl Table for NormalMapTable {
             }
             table.scale.push(map.scale);
             table.size.push(positive_length(&who, "size", map.size)?);
-            table.wrap.push(map.wrap);
+            table.wrap.push(map.wrap.axes());
+            table.transform.push(map.transform.affine(&who)?);
             table.image.push(normal_map_image(scene, &who, &map.file)?);
         }
         Ok(table)

@@ -1,4 +1,4 @@
-use super::Wrap;
+use super::{UvTransform, Wrap};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +15,8 @@ pub struct EmissionMap {
     pub size: f64,
     /// The wrap mode beyond its edges.
     pub wrap: Wrap,
+    /// How its coordinates are scaled, rotated and offset before it is looked up.
+    pub transform: UvTransform,
     /// Whether it is filtered: bilinearly between texels, and over the pixel's footprint by mipmapping; if not, the
     /// nearest texel is taken.
     pub filter: bool,
@@ -22,6 +24,6 @@ pub struct EmissionMap {
 
 impl Default for EmissionMap {
     fn default() -> Self {
-        Self { file: String::new(), size: 1.0, wrap: Wrap::default(), filter: true }
+        Self { file: String::new(), size: 1.0, wrap: Wrap::default(), transform: UvTransform::default(), filter: true }
     }
 }

@@ -1,4 +1,4 @@
-use super::{FileKind, TextureBy, Wrap};
+use super::{FileKind, TextureBy, UvTransform, Wrap};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +24,8 @@ pub struct ImageTexture {
     pub by: TextureBy,
     /// The wrap mode beyond its edges.
     pub wrap: Wrap,
+    /// How its coordinates are scaled, rotated and offset before it is looked up.
+    pub transform: UvTransform,
     /// Whether it is filtered: bilinearly between texels, and over the pixel's footprint by mipmapping; if not, the
     /// nearest texel is taken.
     pub filter: bool,
@@ -31,6 +33,13 @@ pub struct ImageTexture {
 
 impl Default for ImageTexture {
     fn default() -> Self {
-        Self { file: String::new(), size: 1.0, by: TextureBy::Uv, wrap: Wrap::default(), filter: true }
+        Self {
+            file: String::new(),
+            size: 1.0,
+            by: TextureBy::Uv,
+            wrap: Wrap::default(),
+            transform: UvTransform::default(),
+            filter: true,
+        }
     }
 }

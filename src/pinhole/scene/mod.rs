@@ -161,6 +161,6 @@ pub use sphere::Sphere;
 pub use spot_light::SpotLight;
 pub use stripes::Stripes;
 #[doc(hidden)]
-pub use texture::{TextureBy, Wrap};
+pub use texture::{TextureBy, UvTransform, Wrap, WrapMode};
 pub use torus::Torus;
 pub use triangle::Triangle;

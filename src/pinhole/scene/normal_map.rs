@@ -1,4 +1,4 @@
-use super::Wrap;
+use super::{UvTransform, Wrap};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -20,10 +20,12 @@ pub struct NormalMap {
     pub size: f64,
     /// The wrap mode beyond its edges.
     pub wrap: Wrap,
+    /// How its coordinates are scaled, rotated and offset before it is looked up.
+    pub transform: UvTransform,
 }
 
 impl Default for NormalMap {
     fn default() -> Self {
-        Self { file: String::new(), scale: 1.0, size: 1.0, wrap: Wrap::default() }
+        Self { file: String::new(), scale: 1.0, size: 1.0, wrap: Wrap::default(), transform: UvTransform::default() }
     }
 }

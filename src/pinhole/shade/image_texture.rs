@@ -1,4 +1,4 @@
-use super::lookup::{image_mean, nearest_texel};
+use super::lookup::{image_mean, nearest_texel, transformed};
 use super::{SurfaceColours, TexturePoint, TexturePoints};
 use crate::extract::{ImageTable, NO_TEXTURE, texture_of_kind};
 use crate::intersect::{MaterialRows, Surfaces};
@@ -25,6 +25,7 @@ pub fn evaluate_images(
             if images.aspect[texture] != 1.0 {
                 at = about_the_middle(at, images.aspect[texture]);
             }
+            at = transformed(at, images.transform[texture]);
             let colour = if images.filter[texture] {
                 image_mean(pyramid, &at, wrap)
             } else {

@@ -2,8 +2,8 @@
 
 use super::TexturePoint;
 use crate::extract::{Pyramid, Texels};
-use crate::scene::Wrap;
-use glam::DVec2;
+use crate::scene::WrapMode;
+use glam::{DMat2, DVec2, DVec3};
 
 /// Linear interpolation from a to b; exactly a at t = 0, and exact where a and b are equal.
 #[inline(always)]
@@ -13,29 +13,45 @@ pub fn between(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
 
 /// The index of a texel, wrapped into the image.
 #[inline(always)]
-fn wrapped(at: f64, side: usize, wrap: Wrap) -> usize {
+fn wrapped(at: f64, side: usize, wrap: WrapMode) -> usize {
     match wrap {
-        Wrap::Repeat => at.rem_euclid(side as f64) as usize % side,
-        Wrap::Clamp => at.clamp(0.0, side as f64 - 1.0) as usize,
+        WrapMode::Repeat => at.rem_euclid(side as f64) as usize % side,
+        WrapMode::Clamp => at.clamp(0.0, side as f64 - 1.0) as usize,
+        WrapMode::Mirror => {
+            let within_two = at.rem_euclid(2.0 * side as f64) as usize % (2 * side);
+            within_two.min(2 * side - 1 - within_two)
+        }
     }
 }
 
 /// A point of the unit square in texel units.
 #[inline(always)]
-fn texel_point(image: &Texels, at: DVec2, wrap: Wrap) -> DVec2 {
+fn texel_point(image: &Texels, at: DVec2, wrap: [WrapMode; 2]) -> DVec2 {
     // Wrap first, then scale: far from the origin the product would lose the fraction.
-    let at = if wrap == Wrap::Repeat { at - at.floor() } else { at };
-    DVec2::new(at.x * image.width as f64, at.y * image.height as f64)
+    let near = |at: f64, wrap: WrapMode| match wrap {
+        WrapMode::Repeat => at - at.floor(),
+        WrapMode::Clamp => at,
+        WrapMode::Mirror => at - 2.0 * (0.5 * at).floor(),
+    };
+    DVec2::new(near(at.x, wrap[0]) * image.width as f64, near(at.y, wrap[1]) * image.height as f64)
+}
+
+/// A point of uv in the image's own coordinates, and its footprint.
+#[inline(always)]
+pub fn transformed(at: TexturePoint, transform: Option<(DMat2, DVec2)>) -> TexturePoint {
+    let Some((matrix, offset)) = transform else { return at };
+    let step = |step: DVec3| if step.is_finite() { (matrix * step.truncate()).extend(0.0) } else { DVec3::INFINITY };
+    TexturePoint { point: (matrix * at.point.truncate() + offset).extend(0.0), steps: at.steps.map(step) }
 }
 
 #[inline(always)]
-fn texel(image: &Texels, x: f64, y: f64, wrap: Wrap) -> [f64; 3] {
-    let (x, y) = (wrapped(x, image.width, wrap), wrapped(y, image.height, wrap));
+fn texel(image: &Texels, x: f64, y: f64, wrap: [WrapMode; 2]) -> [f64; 3] {
+    let (x, y) = (wrapped(x, image.width, wrap[0]), wrapped(y, image.height, wrap[1]));
     image.rgb[y * image.width + x].map(f64::from)
 }
 
 /// The texel that contains a point of the unit square; (0, 0) is the image's upper left corner.
-pub fn nearest_texel(image: &Texels, at: DVec2, wrap: Wrap) -> [f64; 3] {
+pub fn nearest_texel(image: &Texels, at: DVec2, wrap: [WrapMode; 2]) -> [f64; 3] {
     let point = texel_point(image, at, wrap);
     texel(image, point.x.floor(), point.y.floor(), wrap)
 }
@@ -44,7 +60,7 @@ pub fn nearest_texel(image: &Texels, at: DVec2, wrap: Wrap) -> [f64; 3] {
 /// The colour at a point of the unit square by bilinear interpolation of the four nearest texel centres.
 ///
 /// A texel's centre is half a texel from its edges, as a pixel's is; there, its colour is reproduced to the last bit.
-pub fn bilinear(image: &Texels, at: DVec2, wrap: Wrap) -> [f64; 3] {
+pub fn bilinear(image: &Texels, at: DVec2, wrap: [WrapMode; 2]) -> [f64; 3] {
     let point = texel_point(image, at, wrap) - 0.5;
     let (corner, t) = (point.floor(), point - point.floor());
     let row = |y: f64| between(texel(image, corner.x, y, wrap), texel(image, corner.x + 1.0, y, wrap), t.x);
@@ -54,7 +70,7 @@ pub fn bilinear(image: &Texels, at: DVec2, wrap: Wrap) -> [f64; 3] {
 
 /// The colour about a point of the unit square over a width of this many texels, interpolated between the two pyramid
 /// levels whose texels are nearest in size.
-pub fn trilinear(pyramid: &Pyramid, at: DVec2, width: f64, wrap: Wrap) -> [f64; 3] {
+pub fn trilinear(pyramid: &Pyramid, at: DVec2, width: f64, wrap: [WrapMode; 2]) -> [f64; 3] {
     let top = pyramid.levels.len() - 1;
     let level = if width > 1.0 { libm::log2(width).min(top as f64) } else { 0.0 };
     let lower = level.floor() as usize;
@@ -71,7 +87,7 @@ const MOST_LOOKUPS: f64 = 16.0;
 ///
 /// At grazing incidence the footprint is a long strip. A single lookup as wide as the strip is long would blur across
 /// it, so several lookups, each about as wide as the strip, are placed along it.
-pub fn image_mean(pyramid: &Pyramid, at: &TexturePoint, wrap: Wrap) -> [f64; 3] {
+pub fn image_mean(pyramid: &Pyramid, at: &TexturePoint, wrap: [WrapMode; 2]) -> [f64; 3] {
     let image = &pyramid.levels[0];
     let size = DVec2::new(image.width as f64, image.height as f64);
     let [right, down] = at.steps.map(|step| step.truncate() * size);
@@ -101,12 +117,21 @@ pub fn image_mean(pyramid: &Pyramid, at: &TexturePoint, wrap: Wrap) -> [f64; 3] 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DVec3;
 
     fn image(width: usize, height: usize) -> Texels {
         let texel = |at: usize| [1, 2, 3].map(|salt| ((at * 7919 + salt * 104_729) % 1009) as f32 / 1009.0);
         Texels { width, height, rgb: (0..width * height).map(texel).collect() }
     }
+
+    const REPEAT: [WrapMode; 2] = [WrapMode::Repeat; 2];
+    const CLAMP: [WrapMode; 2] = [WrapMode::Clamp; 2];
+    const WRAPS: [[WrapMode; 2]; 5] = [
+        REPEAT,
+        CLAMP,
+        [WrapMode::Mirror; 2],
+        [WrapMode::Clamp, WrapMode::Mirror],
+        [WrapMode::Mirror, WrapMode::Repeat],
+    ];
 
     const SIZES: [(usize, usize); 7] = [(1, 1), (1, 7), (2, 2), (3, 5), (64, 32), (101, 37), (256, 3)];
 
@@ -118,7 +143,7 @@ mod tests {
             for (at, &texel) in image.rgb.iter().enumerate() {
                 let (x, y) = ((at % width) as f64 + 0.5, (at / width) as f64 + 0.5);
                 let centre = DVec2::new(x / width as f64, y / height as f64);
-                for wrap in [Wrap::Repeat, Wrap::Clamp] {
+                for wrap in WRAPS {
                     let found = bilinear(&image, centre, wrap);
                     let there = centre * DVec2::new(width as f64, height as f64);
                     // A third has no finite binary fraction; then the point is beside the centre.
@@ -147,7 +172,7 @@ mod tests {
             let point = DVec3::new((f64::from(column) + 0.5) * texel.x, 0.5, 0.0);
             let mean = |right: f64, down: f64| {
                 let steps = [DVec3::X * right * texel.x, DVec3::Y * down * texel.y];
-                image_mean(&pyramid, &TexturePoint { point, steps }, Wrap::Repeat)[0]
+                image_mean(&pyramid, &TexturePoint { point, steps }, REPEAT)[0]
             };
             assert!((mean(1.0, 14.0) - f64::from(column % 2)).abs() < 1e-9, "{column}: {}", mean(1.0, 14.0));
             assert!((mean(14.0, 1.0) - 0.5).abs() < 1e-9, "{column}: {}", mean(14.0, 1.0));
@@ -165,7 +190,7 @@ mod tests {
                 let point = DVec3::new(40.0 * part(1) - 20.0, 40.0 * part(2) - 20.0, 0.0);
                 let long = libm::exp2(20.0 * part(3) - 14.0);
                 let steps = [DVec3::new(long, part(4), 0.0), DVec3::new(part(5) * 0.01, part(6) * long, 0.0)];
-                for wrap in [Wrap::Repeat, Wrap::Clamp] {
+                for wrap in WRAPS {
                     let at = TexturePoint { point, steps };
                     assert_eq!(image_mean(&pyramid, &at, wrap), constant.map(f64::from), "{width} × {height}, {at:?}");
                     tried += 1;
@@ -182,7 +207,7 @@ mod tests {
             let mean = pyramid.levels.last().expect("a level").rgb[0].map(f64::from);
             for step in [DVec3::INFINITY, DVec3::splat(1e9), DVec3::new(1e4, 0.0, 0.0), DVec3::NAN] {
                 let at = TexturePoint { point: DVec3::new(0.3, 0.8, 0.0), steps: [step, DVec3::INFINITY] };
-                assert_eq!(image_mean(&pyramid, &at, Wrap::Repeat), mean);
+                assert_eq!(image_mean(&pyramid, &at, REPEAT), mean);
             }
         }
     }
@@ -191,22 +216,22 @@ mod tests {
     fn seams_and_points_far_away_are_looked_up_like_any_other() {
         let image = image(8, 4);
         // On both sides of an edge the colour is the same, half of either texel.
-        let below = bilinear(&image, DVec2::new(-1e-12, 0.125), Wrap::Repeat);
-        let above = bilinear(&image, DVec2::new(1e-12, 0.125), Wrap::Repeat);
+        let below = bilinear(&image, DVec2::new(-1e-12, 0.125), REPEAT);
+        let above = bilinear(&image, DVec2::new(1e-12, 0.125), REPEAT);
         for part in 0..3 {
             assert!((below[part] - above[part]).abs() < 1e-10);
             let half = 0.5 * (f64::from(image.rgb[0][part]) + f64::from(image.rgb[7][part]));
             assert!((above[part] - half).abs() < 1e-10);
         }
         for turns in [1.0, -3.0, 1e6, -1e7] {
-            let near = bilinear(&image, DVec2::new(0.3125, 0.625), Wrap::Repeat);
-            assert_eq!(bilinear(&image, DVec2::new(0.3125 + turns, 0.625 - turns), Wrap::Repeat), near);
+            let near = bilinear(&image, DVec2::new(0.3125, 0.625), REPEAT);
+            assert_eq!(bilinear(&image, DVec2::new(0.3125 + turns, 0.625 - turns), REPEAT), near);
         }
         let corner = image.rgb[0].map(f64::from);
-        assert_eq!(bilinear(&image, DVec2::new(-1e300, -0.5), Wrap::Clamp), corner);
+        assert_eq!(bilinear(&image, DVec2::new(-1e300, -0.5), CLAMP), corner);
         let pyramid = Pyramid::on(image.clone());
         for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1e-300, 1e300] {
-            for wrap in [Wrap::Repeat, Wrap::Clamp] {
+            for wrap in WRAPS {
                 let nearest = nearest_texel(&image, DVec2::splat(odd), wrap);
                 assert!(image.rgb.iter().any(|texel| texel.map(f64::from) == nearest), "{odd}, {wrap:?}: {nearest:?}");
                 let at = TexturePoint { point: DVec3::splat(odd), steps: [DVec3::X * 0.1, DVec3::Y * 0.1] };
@@ -228,7 +253,7 @@ mod tests {
             for number in 0..50 {
                 let part = |salt: u32| f64::from((number * 7919 + salt * 104_729) % 1009) / 1009.0;
                 let at = DVec2::new(part(1), part(2));
-                for wrap in [Wrap::Repeat, Wrap::Clamp] {
+                for wrap in WRAPS {
                     for level in 0..pyramid.levels.len() {
                         let size = libm::exp2(level as f64);
                         assert_eq!(trilinear(&pyramid, at, size, wrap), bilinear_of(level, at, wrap), "level {level}");
@@ -264,17 +289,57 @@ mod tests {
         for (right, down) in [((0.1, 0.0), (0.0, 0.1)), ((0.02, 0.0), (0.0, 0.2)), ((0.1, 0.1), (0.01, -0.01))] {
             let steps = [DVec3::new(right.0, right.1, 0.0), DVec3::new(down.0, down.1, 0.0)];
             let point = DVec3::new(0.4, 0.9, 0.0);
-            let found = image_mean(&pyramid, &TexturePoint { point, steps }, Wrap::Repeat)[0];
+            let found = image_mean(&pyramid, &TexturePoint { point, steps }, REPEAT)[0];
             let side = 64;
             let within = |number: usize| (number as f64 + 0.5) / side as f64 - 0.5;
             let mut sum = 0.0;
             for number in 0..side * side {
                 let at = point + steps[0] * within(number % side) + steps[1] * within(number / side);
-                sum += bilinear(&pyramid.levels[0], at.truncate(), Wrap::Repeat)[0];
+                sum += bilinear(&pyramid.levels[0], at.truncate(), REPEAT)[0];
             }
             worst = worst.max((found - sum / (side * side) as f64).abs());
         }
         eprintln!("footprints on an image: worst {worst:.4}");
         assert!(worst < 0.02, "{worst}");
+    }
+
+    /// Beyond an edge, each axis continues in its own way: the texel is looked up by counting.
+    #[test]
+    fn each_axis_has_a_wrap_mode_of_its_own() {
+        let texel = |at: i64, side: i64, wrap: WrapMode| match wrap {
+            WrapMode::Repeat => (at + 1000 * side) % side,
+            WrapMode::Clamp => at.clamp(0, side - 1),
+            WrapMode::Mirror if (at + 1000 * side) / side % 2 == 0 => (at + 1000 * side) % side,
+            WrapMode::Mirror => side - 1 - (at + 1000 * side) % side,
+        };
+        let (width, height) = (4, 3);
+        let image = image(width as usize, height as usize);
+        for wrap in WRAPS {
+            for (x, y) in (-9..13).flat_map(|x| (-7..10).map(move |y| (x, y))) {
+                let at = DVec2::new((x as f64 + 0.5) / width as f64, (y as f64 + 0.5) / height as f64);
+                let expected = image.rgb[(texel(y, height, wrap[1]) * width + texel(x, width, wrap[0])) as usize];
+                assert_eq!(nearest_texel(&image, at, wrap), expected.map(f64::from), "{wrap:?} at ({x}, {y})");
+                let found = bilinear(&image, at, wrap);
+                assert!((0..3).all(|part| (found[part] - f64::from(expected[part])).abs() < 1e-12), "{wrap:?}, {at}");
+            }
+        }
+    }
+
+    #[test]
+    fn coordinates_are_scaled_then_rotated_then_offset() {
+        use crate::scene::{Degrees, UvTransform};
+        let transform =
+            UvTransform { offset: DVec2::new(0.25, 0.5), rotation: Degrees(90.0), scale: DVec2::new(2.0, 3.0) };
+        let affine = transform.affine("a texture").expect("finite");
+        let at = TexturePoint { point: DVec3::new(1.0, 0.0, 0.0), steps: [DVec3::Y, DVec3::INFINITY] };
+        let found = transformed(at, affine);
+        // Anticlockwise as the image is seen, with v down: u turns to -v.
+        assert!((found.point - DVec3::new(0.25, -1.5, 0.0)).length() < 1e-12, "{found:?}");
+        assert!((found.steps[0] - DVec3::new(3.0, 0.0, 0.0)).length() < 1e-12, "{found:?}");
+        assert_eq!(found.steps[1], DVec3::INFINITY);
+        assert_eq!(UvTransform::default().affine("a texture"), Ok(None));
+        let odd = UvTransform { scale: DVec2::NAN, ..UvTransform::default() };
+        let sentence = odd.affine("a texture").expect_err("refused").to_string();
+        assert_eq!(sentence, "a texture: scale is (NaN, NaN), but its numbers must be finite");
     }
 }

@@ -1,7 +1,7 @@
 //! Maps: metallic and roughness, and emission, from images over uv.
 
 use super::TexturePoint;
-use super::lookup::{image_mean, nearest_texel};
+use super::lookup::{image_mean, nearest_texel, transformed};
 use super::row_slopes::{RowSlopes, with_mesh_slopes};
 use super::texture_point::{UvPointView, UvPointViewItem};
 use crate::extract::{
@@ -64,6 +64,7 @@ impl EmissionFactors {
 fn looked_up(images: &UvImages, map: usize, uv: TexturePoint) -> [f64; 3] {
     let (size, wrap, pyramid) = (images.size[map], images.wrap[map], &images.pyramid[map]);
     let at = TexturePoint { point: uv.point / size, steps: uv.steps.map(|step| step / size) };
+    let at = transformed(at, images.transform[map]);
     if images.filter[map] {
         image_mean(pyramid, &at, wrap)
     } else {

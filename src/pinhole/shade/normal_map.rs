@@ -83,7 +83,10 @@ pub fn map_normals(
                 continue;
             }
             let (map, shape) = (map as usize, hits.shape[row] as usize);
-            let at = DVec2::new(uvs.u[row], uvs.v[row]) / maps.size[map];
+            let mut at = DVec2::new(uvs.u[row], uvs.v[row]) / maps.size[map];
+            if let Some((matrix, offset)) = maps.transform[map] {
+                at = matrix * at + offset;
+            }
             let [x, y, z] = bilinear(&maps.image[map], at, maps.wrap[map]).map(|part| 2.0 * part - 1.0);
             let local = DVec3::new(x * maps.scale[map], y * maps.scale[map], z);
             if local.x == 0.0 && local.y == 0.0 {

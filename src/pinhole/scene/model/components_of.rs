@@ -4,10 +4,10 @@ use super::open_model::OpenModel;
 use crate::scene::{
     Degrees, DirectionalLight, EmissionMap, Emissive, FovAxis, Glass, ImageTexture, MetallicRoughnessMap, Name,
     NormalMap, OrthographicCamera, PerspectiveCamera, Placement, PointLight, Principled, Rgb, RoughGlass, SpotLight,
-    TextureBy, Wrap,
+    TextureBy, UvTransform, Wrap, WrapMode,
 };
 use bevy_ecs::prelude::*;
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 use pinhole_models::{LightKind, ModelCamera, ModelLight, ModelMaterial, ModelTexture, Projection, TextureWrap};
 
 /// The factor of roughness squared below which glass is smooth.
@@ -50,32 +50,42 @@ pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize) -> 
     let named = |scene: &mut World, texture: Option<ModelTexture>| {
         let texture = texture?;
         let file = model.name_of_image(scene, texture.image)?;
-        Some((file, wrap_of(texture.wrap), !texture.nearest))
+        Some((file, wrap_of(texture.wrap), transform_of(&texture), !texture.nearest))
     };
     if own.emission != [0.0; 3] {
         let [r, g, b] = own.emission;
         scene.entity_mut(entity).insert(Emissive { radiance: Rgb::new(r, g, b), ..Emissive::default() });
-        if let Some((file, wrap, filter)) = named(scene, own.emission_texture) {
-            scene.entity_mut(entity).insert(EmissionMap { file, size: 1.0, wrap, filter });
+        if let Some((file, wrap, transform, filter)) = named(scene, own.emission_texture) {
+            scene.entity_mut(entity).insert(EmissionMap { file, size: 1.0, wrap, transform, filter });
         }
     }
-    if let Some((file, wrap, _)) = named(scene, own.normal_texture) {
-        scene.entity_mut(entity).insert(NormalMap { file, scale: own.normal_scale, size: 1.0, wrap });
+    if let Some((file, wrap, transform, _)) = named(scene, own.normal_texture) {
+        scene.entity_mut(entity).insert(NormalMap { file, scale: own.normal_scale, size: 1.0, wrap, transform });
     }
     if is_glass(&own) {
         return entity;
     }
-    if let Some((file, wrap, filter)) = named(scene, own.base_colour_texture) {
-        scene.entity_mut(entity).insert(ImageTexture { file, size: 1.0, by: TextureBy::Uv, wrap, filter });
+    if let Some((file, wrap, transform, filter)) = named(scene, own.base_colour_texture) {
+        scene.entity_mut(entity).insert(ImageTexture { file, size: 1.0, by: TextureBy::Uv, wrap, transform, filter });
     }
-    if let Some((file, wrap, filter)) = named(scene, own.metallic_roughness_texture) {
-        scene.entity_mut(entity).insert(MetallicRoughnessMap { file, size: 1.0, wrap, filter });
+    if let Some((file, wrap, transform, filter)) = named(scene, own.metallic_roughness_texture) {
+        scene.entity_mut(entity).insert(MetallicRoughnessMap { file, size: 1.0, wrap, transform, filter });
     }
     entity
 }
 
-fn wrap_of([u, v]: [TextureWrap; 2]) -> Wrap {
-    if u == TextureWrap::Clamp && v == TextureWrap::Clamp { Wrap::Clamp } else { Wrap::Repeat }
+fn wrap_of(axes: [TextureWrap; 2]) -> Wrap {
+    let mode = |wrap| match wrap {
+        TextureWrap::Repeat => WrapMode::Repeat,
+        TextureWrap::Clamp => WrapMode::Clamp,
+        TextureWrap::Mirror => WrapMode::Mirror,
+    };
+    axes.map(mode).into()
+}
+
+fn transform_of(texture: &ModelTexture) -> UvTransform {
+    let ModelTexture { offset, rotation, scale, .. } = *texture;
+    UvTransform { offset: offset.into(), rotation: Degrees(rotation.to_degrees()), scale: DVec2::from(scale) }
 }
 
 /// The placement that a matrix stands for; none where it shears.
