@@ -32,6 +32,10 @@ pub struct ModelMaterial {
     pub ior: f64,
     /// The fraction of the dielectric's light that passes through it instead of its diffuse base, from 0 to 1.
     pub transmission: f64,
+    /// Whether what it transmits goes through an infinitely thin sheet, which does not bend it, instead of into an interior.
+    pub thin: bool,
+    /// The absorption coefficient of the interior, per scene unit of the world; each part at least 0.
+    pub absorption: [f64; 3],
     /// Whether both sides are seen; if not, the back is meant to be left out.
     pub double_sided: bool,
 }
@@ -54,6 +58,8 @@ impl Default for ModelMaterial {
             emission_texture: None,
             ior: 1.5,
             transmission: 0.0,
+            thin: false,
+            absorption: [0.0; 3],
             double_sided: false,
         }
     }
@@ -121,7 +127,7 @@ pub struct ModelImage {
 }
 
 /// Where an image's bytes are.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum ImageSource {
     /// In a file of this name, as the model file names it.
     File(Arc<str>),

@@ -14,6 +14,10 @@ pub enum Meant {
     Pairs,
     /// Vectors.
     Vectors,
+    /// Rows of four: quaternions, or the joints of a vertex and their weights.
+    Fours,
+    /// Matrices, column by column.
+    Matrices,
 }
 
 impl Meant {
@@ -22,6 +26,8 @@ impl Meant {
             Self::Indices => "SCALAR",
             Self::Pairs => "VEC2",
             Self::Vectors => "VEC3",
+            Self::Fours => "VEC4",
+            Self::Matrices => "MAT4",
         }
     }
 
@@ -30,13 +36,16 @@ impl Meant {
             Self::Indices => 1,
             Self::Pairs => 2,
             Self::Vectors => 3,
+            Self::Fours => 4,
+            Self::Matrices => 16,
         }
     }
 
     fn accepts(self, component: Component) -> bool {
         match self {
             Self::Indices => matches!(component, Component::U8 | Component::U16 | Component::U32),
-            Self::Pairs | Self::Vectors => component != Component::U32,
+            Self::Pairs | Self::Vectors | Self::Fours => component != Component::U32,
+            Self::Matrices => component == Component::F32,
         }
     }
 }
@@ -91,6 +100,16 @@ impl<'a> Accessor<'a> {
             }
         };
         Ok(Self { object, count, dense, sparse })
+    }
+
+    /// Checks that there is a row for each vertex of a mesh.
+    ///
+    /// Errors: there are more or fewer.
+    pub fn check_count(&self, vertices: u64) -> Result<(), ModelError> {
+        if self.count == vertices {
+            return Ok(());
+        }
+        Err(self.object.refused("count", self.count, format_args!("the mesh has {vertices} positions")))
     }
 
     /// The rows of these indices in ascending order, or all; each of N numbers.
@@ -161,7 +180,7 @@ impl<'a> Accessor<'a> {
 fn component(object: &Object<'_>, accepts: impl Fn(Component) -> bool) -> Result<Component, ModelError> {
     let code = object.needed("componentType", object.whole("componentType")?)?;
     let accepted = "positions, normals and texture coordinates may be 5120, 5121, 5122, 5123 or 5126, \
-                    and indices 5121, 5123 or 5125";
+                    indices 5121, 5123 or 5125, and matrices 5126";
     Component::of(code)
         .filter(|component| accepts(*component))
         .ok_or_else(|| object.refused("componentType", code, accepted))
@@ -293,8 +312,8 @@ mod tests {
     fn other_types_are_refused() {
         let kind = refused(&with(&POSITIONS.replace("VEC3", "VEC4"), VIEW));
         assert_eq!(kind, "accessors[0].type is \"VEC4\", but it is used as VEC3");
-        let accepted = "positions, normals and texture coordinates may be 5120, 5121, 5122, 5123 or 5126, and indices \
-                        5121, 5123 or 5125";
+        let accepted = "positions, normals and texture coordinates may be 5120, 5121, 5122, 5123 or 5126, indices \
+                        5121, 5123 or 5125, and matrices 5126";
         for code in ["5124", "5125"] {
             let component = refused(&with(&POSITIONS.replace("5126", code), VIEW));
             assert_eq!(component, format!("accessors[0].componentType is {code}, but {accepted}"));

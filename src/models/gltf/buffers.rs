@@ -24,7 +24,8 @@ impl<'a> Buffers<'a> {
         open: Open<'_>,
     ) -> Result<Self, ModelError> {
         let mut bytes: Vec<Rc<Cow<'a, [u8]>>> = Vec::new();
-        let mut by_uri: HashMap<&str, Rc<Cow<'a, [u8]>>> = HashMap::new();
+        // The same data may be there twice, and a file by several spellings of its name.
+        let mut by_uri: HashMap<Cow<'a, str>, Rc<Cow<'a, [u8]>>> = HashMap::new();
         for index in 0..document.rows(Table::Buffers) {
             let object = document.row(Table::Buffers, index)?;
             let buffer = match (object.text("uri")?, own) {
@@ -33,14 +34,19 @@ impl<'a> Buffers<'a> {
                     let accepted = "only the first buffer of a .glb file may do without";
                     return Err(object.refused("uri", "missing", accepted));
                 }
-                (Some(uri), _) => match by_uri.get(uri) {
-                    Some(read) => read.clone(),
-                    None => {
-                        let read: Rc<Cow<'a, [u8]>> = Rc::new(Cow::Owned(bytes_of(&object, uri, memory, open)?));
-                        by_uri.insert(uri, read.clone());
-                        read
+                (Some(uri), _) => {
+                    let data = data_of(uri);
+                    let name = if data.is_some() { Cow::Borrowed(uri) } else { Cow::Owned(file_name(uri)) };
+                    match by_uri.get(&name) {
+                        Some(read) => read.clone(),
+                        None => {
+                            let bytes = bytes_of(&object, uri, (data, &name), memory, open)?;
+                            let read: Rc<Cow<'a, [u8]>> = Rc::new(Cow::Owned(bytes));
+                            by_uri.insert(name, read.clone());
+                            read
+                        }
                     }
-                },
+                }
             };
             let length = object.needed("byteLength", object.whole("byteLength")?)?;
             if length > buffer.len() as u64 {
@@ -55,7 +61,7 @@ impl<'a> Buffers<'a> {
     /// The bytes of a buffer view.
     ///
     /// Errors: it is beyond its buffer.
-    pub fn view(&self, document: &Document<'a>, view: &Object<'a>) -> Result<&[u8], ModelError> {
+    pub fn view(&'a self, document: &Document<'a>, view: &Object<'a>) -> Result<&'a [u8], ModelError> {
         let buffer = view.needed("buffer", view.index("buffer", document.rows(Table::Buffers))?)?;
         let offset = view.whole("byteOffset")?.unwrap_or(0);
         let length = view.needed("byteLength", view.whole("byteLength")?)?;
@@ -70,13 +76,19 @@ impl<'a> Buffers<'a> {
 }
 
 /// The bytes of a buffer's or an image's data URI, or of the file it names.
-fn bytes_of(object: &Object<'_>, uri: &str, memory: &mut Memory, open: Open<'_>) -> Result<Vec<u8>, ModelError> {
+fn bytes_of(
+    object: &Object<'_>,
+    uri: &str,
+    (data, name): (Option<Result<Vec<u8>, String>>, &str),
+    memory: &mut Memory,
+    open: Open<'_>,
+) -> Result<Vec<u8>, ModelError> {
     let shown = || crate::model_error::shown(uri);
-    match data_of(uri) {
+    match data {
         Some(data) => data.map_err(|accepted| object.refused("uri", shown(), accepted)),
         None => {
             let problem = |problem| object.refused("uri", shown(), format_args!("it cannot be read: {problem}"));
-            let bytes = open(&file_name(uri)).map_err(problem)?;
+            let bytes = open(name).map_err(problem)?;
             memory.add_file(&bytes);
             Ok(bytes)
         }
@@ -110,6 +122,12 @@ mod tests {
         };
         assert!(read_model("a.gltf", text.as_bytes(), &open).is_ok());
         assert_eq!(opened.get(), 1);
+        // However its name is spelled.
+        let spelled = ["b.bin", "./b.bin", "x/../b.bin", ".//b.bin", "%62.bin", ".\\\\b.bin"];
+        let buffers = spelled.map(|uri| format!("{{\"uri\":\"{uri}\",\"byteLength\":4}}")).join(",");
+        let text = format!("{{\"asset\":{{\"version\":\"2.0\"}},\"buffers\":[{buffers}]}}");
+        assert!(read_model("a.gltf", text.as_bytes(), &open).is_ok());
+        assert_eq!(opened.get(), 2);
     }
 
     #[test]

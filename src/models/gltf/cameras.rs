@@ -16,6 +16,7 @@ pub fn camera(
     document: &Document<'_>,
     node: &Object<'_>,
     world_from_camera: DAffine3,
+    remarks: &mut Remarks,
 ) -> Result<Option<ModelCamera>, ModelError> {
     let index = node.index("camera", document.rows(Table::Cameras))?;
     let Some(camera) = index.map(|index| document.row(Table::Cameras, index)).transpose()? else { return Ok(None) };
@@ -46,6 +47,9 @@ pub fn camera(
             return Err(camera.refused("type", shown(other), accepted));
         }
     };
+    let own = camera.object(kind)?;
+    let clips = own.is_some_and(|own| own.get("znear").is_some() || own.get("zfar").is_some());
+    remarks.add_unread("the clip planes of cameras", u64::from(clips));
     Ok(Some(ModelCamera { name: name_of(node, &camera)?.into(), projection, world_from_camera }))
 }
 
@@ -78,6 +82,7 @@ pub fn light(
         }
     };
     let range = light.number("range")?.filter(|range| *range > 0.0);
+    remarks.add_unread("the range of lights", u64::from(range.is_some()));
     Ok(Some(ModelLight {
         name: name_of(node, &light)?.into(),
         kind,

@@ -12,8 +12,30 @@ pub const IOR: &str = "KHR_materials_ior";
 /// The extension of dielectrics that let light through.
 pub const TRANSMISSION: &str = "KHR_materials_transmission";
 
+/// The extension of dielectrics with an interior.
+pub const VOLUME: &str = "KHR_materials_volume";
+/// The extension of materials by specular and glossiness.
+pub const SPECULAR_GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
+/// The extension that offsets, rotates and scales texture coordinates.
+pub const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
+/// The extension of many instances at one node.
+pub const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
 /// The extensions that are read; the last allows whole numbers in all attributes.
-pub const EXTENSIONS: [&str; 5] = [LIGHTS, EMISSIVE_STRENGTH, IOR, TRANSMISSION, "KHR_mesh_quantization"];
+pub const EXTENSIONS: [&str; 9] = [
+    LIGHTS,
+    EMISSIVE_STRENGTH,
+    IOR,
+    TRANSMISSION,
+    VOLUME,
+    SPECULAR_GLOSSINESS,
+    INSTANCING,
+    TEXTURE_TRANSFORM,
+    "KHR_mesh_quantization",
+];
+
+/// The extensions without which there is no geometry.
+const COMPRESSIONS: [&str; 3] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"];
 
 /// The tables of a glTF file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,11 +62,13 @@ pub enum Table {
     Samplers,
     /// `scenes`
     Scenes,
+    /// `skins`
+    Skins,
     /// `textures`
     Textures,
 }
 
-const NAMES: [&str; 12] = [
+const NAMES: [&str; 13] = [
     "accessors",
     "bufferViews",
     "buffers",
@@ -56,6 +80,7 @@ const NAMES: [&str; 12] = [
     "nodes",
     "samplers",
     "scenes",
+    "skins",
     "textures",
 ];
 
@@ -63,14 +88,16 @@ const NAMES: [&str; 12] = [
 pub struct Document<'a> {
     /// The whole file.
     pub root: Object<'a>,
-    tables: [&'a [Json<'a>]; 12],
+    tables: [&'a [Json<'a>]; 13],
     lights: Option<Object<'a>>,
 }
 
 impl<'a> Document<'a> {
     /// That of a file.
     ///
-    /// Errors: it needs another version or an extension that is not read, or one of its tables is no list.
+    /// Any other extension that it requires may be left out of the picture, which the remarks say.
+    ///
+    /// Errors: it needs another version or compressed geometry, or one of its tables is no list.
     pub fn of(file: &'a str, json: &'a Json<'a>) -> Result<Self, ModelError> {
         let root = Object::at(file, String::new(), json)?;
         let asset = root.needed("asset", root.object("asset")?)?;
@@ -84,15 +111,13 @@ impl<'a> Document<'a> {
             }
         }
         for (index, name) in root.list("extensionsRequired")?.iter().enumerate() {
-            let is_read = matches!(name, Json::Text(name) if EXTENSIONS.contains(&&**name));
-            if !is_read {
-                let accepted =
-                    format!("of the extensions that a file may require, those read are {}", EXTENSIONS.join(", "));
+            if matches!(name, Json::Text(name) if COMPRESSIONS.contains(&&**name)) {
+                let accepted = "compressed geometry is not read; export the model without it";
                 return Err(root.refused(format_args!("extensionsRequired[{index}]"), name, accepted));
             }
         }
         let lights = root.extension(LIGHTS)?;
-        let mut tables: [&[Json<'_>]; 12] = [&[]; 12];
+        let mut tables: [&[Json<'_>]; 13] = [&[]; 13];
         for (table, name) in tables.iter_mut().zip(NAMES) {
             *table = if name == NAMES[Table::Lights as usize] {
                 lights.as_ref().map_or(Ok(&[][..]), |lights| lights.list(name))?
@@ -153,19 +178,35 @@ mod tests {
     }
 
     #[test]
-    fn extensions_that_a_file_requires_are_read_or_refused() {
-        for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_texture_basisu"] {
+    fn compressed_geometry_is_refused_and_any_other_extension_only_said() {
+        for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression"] {
             let expected = format!(
-                "extensionsRequired[1] is \"{name}\", but of the extensions that a file may require, those read are \
-                 KHR_lights_punctual, KHR_materials_emissive_strength, KHR_materials_ior, KHR_materials_transmission, \
-                 KHR_mesh_quantization"
+                "extensionsRequired[1] is \"{name}\", but compressed geometry is not read; export the model without it"
             );
             assert_eq!(refused(&format!("'extensionsRequired':['KHR_materials_ior','{name}']")), expected);
         }
-        let model =
-            read("'extensionsUsed':['KHR_materials_ior','KHR_animation_pointer'],'animations':[{}],'skins':[{},{}]");
-        let sentences = model.expect("read").remarks.sentences();
-        assert_eq!(sentences, ["Not read: the extension KHR_animation_pointer (1), animations (1), skins (2)."]);
+        let said = |fields: &str| read(fields).expect("read").remarks.sentences();
+        for name in ["KHR_materials_unlit", "KHR_materials_variants", "KHR_texture_basisu", "VENDOR_new"] {
+            let fields = format!("'extensionsRequired':['{name}'],'extensionsUsed':['{name}']");
+            assert_eq!(said(&fields), [format!("Not read: the extension {name}, which the file requires (1).")]);
+        }
+        let used = "'extensionsUsed':['KHR_materials_ior','KHR_animation_pointer'],'animations':[{}]";
+        assert_eq!(said(used), ["Not read: the extension KHR_animation_pointer (1), animations (1)."]);
         assert_eq!(refused("'nodes':{}"), "nodes is an object, but it must be a list");
+    }
+
+    /// Wherever an extension stands, also within another.
+    #[test]
+    fn every_extension_is_read_or_said() {
+        let own = |name: &str| format!("'extensions':{{'{name}':{{}}}}");
+        let fields = format!(
+            "'scenes':[{{{}}}],'nodes':[{{{}}},{{{}}}],'samplers':[{{'extensions':{{'KHR_materials_ior':{{{}}}}}}}]",
+            own("A"),
+            own("B"),
+            own("B"),
+            own("C")
+        );
+        let said = read(&fields).expect("read").remarks.sentences();
+        assert_eq!(said, ["Not read: the extension B (2), the extension C (1), the extension A (1)."]);
     }
 }

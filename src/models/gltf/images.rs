@@ -1,5 +1,5 @@
 use super::buffers::Buffers;
-use super::document::{Document, Table};
+use super::document::{Document, TEXTURE_TRANSFORM, Table};
 use super::object::Object;
 use super::uri::{data_of, file_name};
 use crate::memory::Memory;
@@ -7,19 +7,32 @@ use crate::model_error::ModelError;
 use crate::model_error::shown;
 use crate::model_material::{ImageSource, ModelImage, ModelTexture, TextureWrap};
 use crate::remarks::Remarks;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
+
+/// The codes of filters: the nearest texel, and that of the trilinear one which is always used for minification.
+const NEAREST: u64 = 9728;
+const LINEAR_MIPMAP_LINEAR: u64 = 9987;
+
+/// Where an image is.
+enum Found<'a> {
+    /// In a file, or in a URI.
+    Source(ImageSource),
+    /// In a buffer: its bytes there.
+    View(&'a [u8]),
+}
 
 /// The images that materials have asked for so far.
 pub struct Images<'a> {
     document: &'a Document<'a>,
     buffers: &'a Buffers<'a>,
-    /// The bytes or the file of each image of the file.
-    sources: HashMap<usize, ImageSource>,
-    /// The bytes of each view that holds an image.
-    by_view: HashMap<usize, Arc<[u8]>>,
-    /// The index of each image as it is used: by the file's name, or by where its bytes are in memory.
-    by_use: HashMap<(Result<Arc<str>, usize>, bool), usize>,
+    /// What became of each image of the file, by its use; none where it cannot be read.
+    by_index: HashMap<(usize, bool), Option<usize>>,
+    /// The index of each image as it is used, by what it is: one file or the same bytes are one image.
+    by_source: HashMap<(ImageSource, bool), usize>,
+    /// The bytes of the images in buffers, each once, and by where they are in memory.
+    bytes: HashSet<Arc<[u8]>>,
+    by_place: HashMap<(usize, usize), Arc<[u8]>>,
     /// The images.
     pub images: Vec<ModelImage>,
 }
@@ -27,13 +40,14 @@ pub struct Images<'a> {
 impl<'a> Images<'a> {
     /// None so far.
     pub fn of(document: &'a Document<'a>, buffers: &'a Buffers<'a>) -> Self {
-        let (sources, by_view, by_use) = Default::default();
-        Self { document, buffers, sources, by_view, by_use, images: Vec::new() }
+        let (by_index, by_source, bytes, by_place) = Default::default();
+        Self { document, buffers, by_index, by_source, bytes, by_place, images: Vec::new() }
     }
 
-    /// The texture that a field of a material names, and the set of texture coordinates it uses.
+    /// The texture that a field of a material names, and the set of texture coordinates it uses; none where its image cannot be read,
+    /// which the remarks say.
     ///
-    /// Errors: an index that is none, or an image that cannot be read.
+    /// Errors: an index that is none, or images that take too much memory.
     pub fn texture(
         &mut self,
         material: &Object<'a>,
@@ -43,84 +57,119 @@ impl<'a> Images<'a> {
         remarks: &mut Remarks,
     ) -> Result<Option<(ModelTexture, u64)>, ModelError> {
         let Some(info) = material.object(field)? else { return Ok(None) };
-        let uv_set = info.whole("texCoord")?.unwrap_or(0);
         let texture = info.needed("index", self.document.refer(&info, "index", Table::Textures)?)?;
-        if let Some(extensions) = info.object("extensions")? {
-            for (name, _) in extensions.fields() {
-                remarks.add_unread(&format!("the extension {name} of a texture"), 1);
-            }
-        }
         let Some(index) = texture.index("source", self.document.rows(Table::Images))? else {
             remarks.add_unread("textures without an image in PNG or JPEG", 1);
             return Ok(None);
         };
-        let image = self.image(index, is_srgb, memory)?;
+        let Some(image) = self.image(index, is_srgb, memory, remarks)? else { return Ok(None) };
         let sampler = self.document.refer(&texture, "sampler", Table::Samplers)?;
         let (mut wrap, mut nearest) = ([TextureWrap::Repeat; 2], false);
         if let Some(sampler) = sampler {
             for (wrap, field) in wrap.iter_mut().zip(["wrapS", "wrapT"]) {
                 *wrap = match sampler.whole(field)?.unwrap_or(10_497) {
-                    10_497 => TextureWrap::Repeat,
                     33_071 => TextureWrap::Clamp,
                     33_648 => TextureWrap::Mirror,
                     code => {
-                        return Err(sampler.refused(field, code, "it must be 10497, 33071 or 33648"));
+                        let is_known = code == 10_497;
+                        remarks.add_unread(&format!("the {field} {code}, which is none"), u64::from(!is_known));
+                        TextureWrap::Repeat
                     }
                 };
             }
-            nearest = sampler.whole("magFilter")? == Some(9728);
+            nearest = sampler.whole("magFilter")? == Some(NEAREST);
+            let of_far = sampler.whole("minFilter")?;
+            let is_used = of_far.is_none_or(|code| code == if nearest { NEAREST } else { LINEAR_MIPMAP_LINEAR });
+            remarks.add_unread("minification filters", u64::from(!is_used));
         }
-        Ok(Some((ModelTexture { image, wrap, nearest, ..ModelTexture::default() }, uv_set)))
+        let (uv_set, transform) = coordinates(&info)?;
+        Ok(Some((ModelTexture { image, wrap, nearest, ..transform }, uv_set)))
     }
 
-    fn image(&mut self, index: usize, is_srgb: bool, memory: &mut Memory) -> Result<usize, ModelError> {
+    fn image(
+        &mut self,
+        index: usize,
+        is_srgb: bool,
+        memory: &mut Memory,
+        remarks: &mut Remarks,
+    ) -> Result<Option<usize>, ModelError> {
+        if let Some(known) = self.by_index.get(&(index, is_srgb)) {
+            return Ok(*known);
+        }
         let object = self.document.row(Table::Images, index)?;
-        let source = match self.sources.get(&index) {
-            Some(source) => source.clone(),
-            None => {
-                let source = self.source(&object, memory)?;
-                self.sources.insert(index, source.clone());
-                source
+        let source = match self.source(&object) {
+            Ok(Found::Source(source)) => Some(source),
+            Ok(Found::View(bytes)) => Some(ImageSource::Bytes(self.kept(&object, bytes, memory)?)),
+            Err(error) => {
+                remarks.add_unread(&format!("{}, which cannot be an image's", error.place), 1);
+                None
             }
         };
-        let place = match &source {
-            ImageSource::File(file) => Ok(file.clone()),
-            ImageSource::Bytes(bytes) => Err(bytes.as_ptr().addr()),
-        };
-        if let Some(known) = self.by_use.get(&(place.clone(), is_srgb)) {
+        let image = source.map(|source| self.image_of(&object, source, is_srgb)).transpose()?;
+        self.by_index.insert((index, is_srgb), image);
+        Ok(image)
+    }
+
+    fn image_of(&mut self, object: &Object<'a>, source: ImageSource, is_srgb: bool) -> Result<usize, ModelError> {
+        if let Some(known) = self.by_source.get(&(source.clone(), is_srgb)) {
             return Ok(*known);
         }
         let name = match (object.text("name")?, &source) {
             (None | Some(""), ImageSource::File(file)) => file.clone(),
             (name, _) => name.unwrap_or_default().into(),
         };
-        self.by_use.insert((place, is_srgb), self.images.len());
+        self.by_source.insert((source.clone(), is_srgb), self.images.len());
         self.images.push(ModelImage { name, source, is_srgb });
         Ok(self.images.len() - 1)
     }
 
-    fn source(&mut self, object: &Object<'a>, memory: &mut Memory) -> Result<ImageSource, ModelError> {
+    /// The file or the data of an image, or else its bytes in a buffer.
+    ///
+    /// Errors: it has none of these.
+    fn source(&self, object: &Object<'a>) -> Result<Found<'a>, ModelError> {
         if let Some(uri) = object.text("uri")? {
             return match data_of(uri) {
-                None => Ok(ImageSource::File(file_name(uri).into())),
-                Some(Ok(bytes)) => Ok(ImageSource::Bytes(bytes.into())),
+                None => Ok(Found::Source(ImageSource::File(file_name(uri).into()))),
+                Some(Ok(bytes)) => Ok(Found::Source(ImageSource::Bytes(bytes.into()))),
                 Some(Err(accepted)) => Err(object.refused("uri", shown(uri), accepted)),
             };
         }
-        let view = object.index("bufferView", self.document.rows(Table::Views))?;
+        let view = self.document.refer(object, "bufferView", Table::Views)?;
         let Some(view) = view else {
             return Err(object.refused("uri", "missing", "an image has a uri or a bufferView"));
         };
-        let bytes = match self.by_view.get(&view) {
-            Some(bytes) => bytes.clone(),
+        Ok(Found::View(self.buffers.view(self.document, &view)?))
+    }
+
+    /// A copy of an image's bytes, which is made once however many views there are of them.
+    fn kept(&mut self, object: &Object<'a>, bytes: &[u8], memory: &mut Memory) -> Result<Arc<[u8]>, ModelError> {
+        let place = (bytes.as_ptr().addr(), bytes.len());
+        if let Some(known) = self.by_place.get(&place) {
+            return Ok(known.clone());
+        }
+        let kept = match self.bytes.get(bytes) {
+            Some(known) => known.clone(),
             None => {
-                let bytes = self.buffers.view(self.document, &self.document.row(Table::Views, view)?)?;
                 memory.take(bytes.len() as u64, 1, || [object.file.into(), object.path.clone()])?;
-                let bytes: Arc<[u8]> = bytes.into();
-                self.by_view.insert(view, bytes.clone());
-                bytes
+                let copy: Arc<[u8]> = bytes.into();
+                self.bytes.insert(copy.clone());
+                copy
             }
         };
-        Ok(ImageSource::Bytes(bytes))
+        self.by_place.insert(place, kept.clone());
+        Ok(kept)
     }
+}
+
+/// The set of texture coordinates that a reference to a texture uses, and how it changes them.
+fn coordinates(info: &Object<'_>) -> Result<(u64, ModelTexture), ModelError> {
+    let (set, plain) = (info.whole("texCoord")?.unwrap_or(0), ModelTexture::default());
+    let Some(own) = info.extension(TEXTURE_TRANSFORM)? else { return Ok((set, plain)) };
+    let changed = ModelTexture {
+        offset: own.numbers("offset")?.unwrap_or(plain.offset),
+        rotation: own.number("rotation")?.unwrap_or(plain.rotation),
+        scale: own.numbers("scale")?.unwrap_or(plain.scale),
+        ..plain
+    };
+    Ok((own.whole("texCoord")?.unwrap_or(set), changed))
 }

@@ -1,11 +1,15 @@
-use super::document::{Document, EMISSIVE_STRENGTH, EXTENSIONS, IOR, TRANSMISSION, Table};
+use super::document::{Document, EMISSIVE_STRENGTH, IOR, SPECULAR_GLOSSINESS, TRANSMISSION, Table, VOLUME};
 use super::images::Images;
 use super::object::Object;
+use super::specular_glossiness::specular_glossiness;
 use crate::memory::Memory;
 use crate::model_error::ModelError;
 use crate::model_error::shown;
 use crate::model_material::{AlphaMode, ModelMaterial, ModelTexture};
 use crate::remarks::Remarks;
+
+/// The least part of an attenuation colour: an absorption is not infinite.
+const DARKEST: f64 = 1e-4;
 
 /// A material, and the set of texture coordinates that its textures use.
 pub struct ReadMaterial {
@@ -17,9 +21,23 @@ pub struct ReadMaterial {
     pub has_texture: bool,
 }
 
+/// Base colour with its opacity, metallic, roughness, and the textures of both, as the material gives them.
+pub struct Reflection {
+    /// The factor of the base colour and, last, of the opacity.
+    pub base: [f64; 4],
+    /// The base colour's image.
+    pub base_colour_texture: Option<ModelTexture>,
+    /// How much of it is metal.
+    pub metallic: f64,
+    /// The perceived roughness.
+    pub roughness: f64,
+    /// The image of both.
+    pub metallic_roughness_texture: Option<ModelTexture>,
+}
+
 /// Reads the materials.
 ///
-/// Errors: a field of another kind, or an image that cannot be read.
+/// Errors: a field of another kind, or images that take too much memory.
 pub fn read_materials<'a>(
     document: &'a Document<'a>,
     images: &mut Images<'a>,
@@ -44,25 +62,38 @@ fn read_material<'a>(
     memory: &mut Memory,
     remarks: &mut Remarks,
 ) -> Result<ReadMaterial, ModelError> {
-    remark_extensions(object, remarks)?;
     let mut uv_sets = Vec::new();
     let mut texture = |holder: &Object<'a>, field: &str, is_srgb: bool, remarks: &mut Remarks| {
         let read = images.texture(holder, field, is_srgb, memory, remarks)?;
         uv_sets.extend(read.map(|(_, uv_set)| uv_set));
         Ok(read.map(|(texture, _)| texture))
     };
+    let mut reflection = Reflection {
+        base: [1.0; 4],
+        base_colour_texture: None,
+        metallic: 1.0,
+        roughness: 1.0,
+        metallic_roughness_texture: None,
+    };
     let pbr = object.object("pbrMetallicRoughness")?;
-    let mut base_colour_texture: Option<ModelTexture> = None;
-    let mut metallic_roughness_texture = None;
-    let (mut base, mut metallic, mut roughness) = ([1.0; 4], 1.0, 1.0);
+    let specular = object.extension(SPECULAR_GLOSSINESS)?;
+    // Where a material is given both ways, the one of glTF itself is what this renderer has.
+    remarks.add_unread(
+        &format!("{SPECULAR_GLOSSINESS} beside metallic and roughness"),
+        u64::from(pbr.is_some() && specular.is_some()),
+    );
     if let Some(pbr) = pbr {
-        base_colour_texture = texture(&pbr, "baseColorTexture", true, remarks)?;
-        metallic_roughness_texture = texture(&pbr, "metallicRoughnessTexture", false, remarks)?;
-        base = pbr.numbers("baseColorFactor")?.unwrap_or(base);
-        metallic = pbr.number("metallicFactor")?.unwrap_or(1.0);
-        roughness = pbr.number("roughnessFactor")?.unwrap_or(1.0);
+        reflection.base_colour_texture = texture(&pbr, "baseColorTexture", true, remarks)?;
+        reflection.metallic_roughness_texture = texture(&pbr, "metallicRoughnessTexture", false, remarks)?;
+        reflection.base = pbr.numbers("baseColorFactor")?.unwrap_or([1.0; 4]);
+        reflection.metallic = pbr.number("metallicFactor")?.unwrap_or(1.0);
+        reflection.roughness = pbr.number("roughnessFactor")?.unwrap_or(1.0);
+    } else if let Some(specular) = specular {
+        reflection = specular_glossiness(&specular, &mut texture, remarks)?;
     }
     let normal_texture = texture(object, "normalTexture", false, remarks)?;
+    let is_nearest = normal_texture.is_some_and(|texture: ModelTexture| texture.nearest);
+    remarks.add_unread("the nearest filter of normal maps", u64::from(is_nearest));
     let normal_scale = object.object("normalTexture")?.map_or(Ok(None), |normal| normal.number("scale"))?;
     let emission_texture = texture(object, "emissiveTexture", true, remarks)?;
     remarks.add_unread("occlusion textures", u64::from(object.get("occlusionTexture").is_some()));
@@ -76,20 +107,21 @@ fn read_material<'a>(
     if let Some(own) = object.extension(TRANSMISSION)? {
         remarks.add_unread("transmission textures", u64::from(own.get("transmissionTexture").is_some()));
     }
+    let thickness = of_extension(VOLUME, "thicknessFactor", 0.0)?;
     let uv_set = uv_sets.first().copied().unwrap_or(0);
     let others = uv_sets.iter().filter(|own| **own != uv_set).count();
     remarks.add_unread("a second set of texture coordinates", others as u64);
-    let [r, g, b, alpha] = base;
+    let Reflection { base: [r, g, b, alpha], metallic, roughness, .. } = reflection;
     let strength = remarks.clamp(strength, 0.0, f64::MAX);
     let material = ModelMaterial {
         name: object.text("name")?.unwrap_or_default().into(),
         base_colour: remarks.clamp_colour([r, g, b], 1.0),
-        base_colour_texture,
+        base_colour_texture: reflection.base_colour_texture,
         alpha: remarks.clamp(alpha, 0.0, 1.0),
         alpha_mode: alpha_mode(object, remarks)?,
         metallic: remarks.clamp(metallic, 0.0, 1.0),
         roughness: remarks.clamp(roughness, 0.0, 1.0),
-        metallic_roughness_texture,
+        metallic_roughness_texture: reflection.metallic_roughness_texture,
         normal_texture,
         normal_scale: normal_scale.unwrap_or(1.0),
         // A product may be too large for a number.
@@ -98,9 +130,20 @@ fn read_material<'a>(
         // 0 stands for a reflectance of 1.
         ior: if ior == 0.0 { 0.0 } else { remarks.clamp(ior, 1.0, f64::MAX) },
         transmission: remarks.clamp(transmission, 0.0, 1.0),
+        thin: thickness <= 0.0,
+        absorption: if thickness > 0.0 { absorption(object, remarks)? } else { [0.0; 3] },
         double_sided: object.flag("doubleSided")?,
     };
     Ok(ReadMaterial { material, uv_set, has_texture: !uv_sets.is_empty() })
+}
+
+/// The absorption of which the attenuation colour is left after the attenuation distance.
+fn absorption(object: &Object<'_>, remarks: &mut Remarks) -> Result<[f64; 3], ModelError> {
+    let Some(volume) = object.extension(VOLUME)? else { return Ok([0.0; 3]) };
+    let distance = volume.number("attenuationDistance")?.unwrap_or(f64::INFINITY);
+    let colour = remarks.clamp_colour(volume.numbers("attenuationColor")?.unwrap_or([1.0; 3]), 1.0);
+    let distance = remarks.clamp(distance, f64::MIN_POSITIVE, f64::INFINITY);
+    Ok(colour.map(|part| (-libm::log(part.max(DARKEST)) / distance).clamp(0.0, f64::MAX)))
 }
 
 fn alpha_mode(object: &Object<'_>, remarks: &mut Remarks) -> Result<AlphaMode, ModelError> {
@@ -111,25 +154,17 @@ fn alpha_mode(object: &Object<'_>, remarks: &mut Remarks) -> Result<AlphaMode, M
             Ok(AlphaMode::Mask { cutoff: remarks.clamp(cutoff, 0.0, f64::MAX) })
         }
         Some("BLEND") => Ok(AlphaMode::Blend),
-        Some(other) => Err(object.refused("alphaMode", shown(other), "it must be \"OPAQUE\", \"MASK\" or \"BLEND\"")),
-    }
-}
-
-fn remark_extensions(object: &Object<'_>, remarks: &mut Remarks) -> Result<(), ModelError> {
-    if let Some(extensions) = object.object("extensions")? {
-        for (name, _) in extensions.fields() {
-            if !EXTENSIONS.contains(&name) {
-                remarks.add_unread(&format!("the extension {name} of a material"), 1);
-            }
+        Some(other) => {
+            remarks.add_unread(&format!("the alphaMode {}, which is none", shown(other)), 1);
+            Ok(AlphaMode::Opaque)
         }
     }
-    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use crate::written::{data, mesh, read, refused};
-    use crate::{AlphaMode, ImageSource, Model, ModelMaterial, TextureWrap};
+    use crate::{AlphaMode, ImageSource, Model, ModelMaterial, ModelTexture, TextureWrap};
 
     const IMAGES: &str = "'images':[{'uri':'a%20b.png'},{'uri':'a b.png','name':'again'},{'bufferView':0},\
                           {'bufferView':0}],\
@@ -150,7 +185,7 @@ mod tests {
 
     #[test]
     fn what_a_material_does_not_say_is_gltf_s_default() {
-        assert_eq!(material(""), ModelMaterial { metallic: 1.0, ..ModelMaterial::default() });
+        assert_eq!(material(""), ModelMaterial { metallic: 1.0, thin: true, ..ModelMaterial::default() });
     }
 
     #[test]
@@ -218,11 +253,8 @@ mod tests {
         );
         assert_eq!(
             model.remarks.sentences()[1],
-            "Not read: the extension KHR_materials_clearcoat of a material (1), the extension KHR_texture_transform \
-             of a \
-             texture (1), textures without an image in PNG or JPEG (1), occlusion textures (1), transmission textures \
-             (1), \
-             corners behind the last triangle (1)."
+            "Not read: the extension KHR_materials_clearcoat (1), textures without an image in PNG or JPEG (1), \
+             occlusion textures (1), transmission textures (1), corners behind the last triangle (1)."
         );
     }
 
@@ -238,25 +270,94 @@ mod tests {
         assert_eq!((first.remarks.without_uvs, second.remarks.without_uvs), (1, 0));
     }
 
+    /// The extension may choose another set, and each texture has its own.
+    #[test]
+    fn textures_transform_their_coordinates() {
+        let textured = |transforms: [&str; 2]| {
+            let of = |own: &str| format!("{{'index':0,'texCoord':7,'extensions':{{'KHR_texture_transform':{{{own}}}}}}}");
+            let material = format!("'normalTexture':{},'emissiveTexture':{}", of(transforms[0]), of(transforms[1]));
+            let primitive = "{'attributes':{'POSITION':0,'TEXCOORD_1':2},'indices':3,'material':0}";
+            read(&format!("{},{IMAGES},'materials':[{{{material}}}]", mesh(primitive))).expect("read")
+        };
+        let moved = "'texCoord':1,'scale':[4,2],'offset':[0,0.5],'rotation':0.25";
+        let model = textured([moved, "'texCoord':1"]);
+        let ModelMaterial { normal_texture, emission_texture, .. } = &model.materials[0];
+        let of = |texture: &Option<ModelTexture>| texture.map(|own| (own.scale, own.offset, own.rotation));
+        assert_eq!(of(normal_texture), Some(([4.0, 2.0], [0.0, 0.5], 0.25)));
+        assert_eq!(of(emission_texture), Some(([1.0; 2], [0.0; 2], 0.0)));
+        assert!(model.meshes[0].uvs.is_some());
+        assert_eq!(model.remarks.sentences().len(), 1, "no normals");
+        let said = textured([moved, ""]).remarks.sentences().join(" ");
+        assert!(said.contains("a second set of texture coordinates (1)"), "{said}");
+    }
+
     #[test]
     fn broken_materials_are_refused() {
-        let mode = "materials[0].alphaMode is \"GLASS\", but it must be \"OPAQUE\", \"MASK\" or \"BLEND\"";
-        assert_eq!(refusal("'alphaMode':'GLASS'"), mode);
         let texture =
             "materials[0].normalTexture.index is 5, but it must be a whole number from 0 to 4, for there are 5";
         assert_eq!(refusal("'normalTexture':{'index':5}"), texture);
         assert_eq!(refusal("'normalTexture':{}"), "materials[0].normalTexture.index is missing, but it is needed");
-        let view = "bufferViews[0].buffer is missing, but it is needed";
-        assert_eq!(refusal("'normalTexture':{'index':2}"), view);
         let colour =
             "materials[0].pbrMetallicRoughness.baseColorFactor is a list of 3, but it must be a list of 4 numbers";
         assert_eq!(refusal("'pbrMetallicRoughness':{'baseColorFactor':[1,1,1]}"), colour);
-        let image = "images[0].uri is missing, but an image has a uri or a bufferView";
-        let fields = "'images':[{}],'textures':[{'source':0}],'materials':[{'normalTexture':{'index':0}}]";
-        assert_eq!(refused(fields), image);
-        let wrap = "samplers[0].wrapS is 1, but it must be 10497, 33071 or 33648";
-        let fields = "'images':[{'uri':'x'}],'textures':[{'source':0,'sampler':0}],'samplers':[{'wrapS':1}],\
-                      'materials':[{'normalTexture':{'index':0}}]";
-        assert_eq!(refused(fields), wrap);
+    }
+
+    /// The material with its factors, and a sentence.
+    #[test]
+    fn what_is_merely_odd_is_read_and_said() {
+        let said = |fields: &str| {
+            let model = read(fields).expect("read");
+            assert_eq!(model.materials.len(), 1);
+            (model.materials[0].normal_texture, model.remarks.sentences().join(" "))
+        };
+        let with = |images: &str, more: &str| {
+            said(&format!(
+                "'images':[{{{images}}}],'textures':[{{'source':0{more}}}],\
+                 'materials':[{{'normalTexture':{{'index':0}},'alphaMode':'GLASS'}}],'bufferViews':[{{}}]"
+            ))
+        };
+        let mode = "the alphaMode \"GLASS\", which is none (1).";
+        for (images, place) in
+            [("", "images[0].uri"), ("'bufferView':0", "bufferViews[0].buffer"), ("'uri':'data:x'", "images[0].uri")]
+        {
+            let (texture, sentence) = with(images, "");
+            assert_eq!(texture, None, "{images}");
+            assert_eq!(sentence, format!("Not read: {place}, which cannot be an image's (1), {mode}"));
+        }
+        let odd = "'uri':'x'}],'samplers':[{'wrapS':1,'minFilter':9729}],'images':[{'uri':'x'";
+        let (texture, sentence) = with(odd, ",'sampler':0");
+        assert_eq!(texture.map(|texture| texture.wrap), Some([TextureWrap::Repeat; 2]));
+        let unread = "Not read: the wrapS 1, which is none (1), minification filters (1), ";
+        assert_eq!(sentence, format!("{unread}{mode}"));
+    }
+
+    #[test]
+    fn the_same_bytes_are_one_image_however_many_views_there_are() {
+        let views: Vec<String> = (0..24).map(|_| "{'buffer':0,'byteLength':8}".into()).collect();
+        let images: Vec<String> = (0..24).map(|view| format!("{{'bufferView':{view}}}")).collect();
+        let textures: Vec<String> = (0..24).map(|image| format!("{{'source':{image}}}")).collect();
+        let materials: Vec<String> =
+            (0..24).map(|texture| format!("{{'emissiveTexture':{{'index':{texture}}}}}")).collect();
+        let model = read(&format!(
+            "'buffers':[{{'uri':'{}','byteLength':8}}],'bufferViews':[{}],'images':[{}],'textures':[{}],'materials':[{}]",
+            data(b"\x89PNG\r\n\x1a\n"),
+            views.join(","),
+            images.join(","),
+            textures.join(","),
+            materials.join(",")
+        ));
+        assert_eq!(model.expect("read").images.len(), 1);
+    }
+
+    /// With a thickness it is filled with what the attenuation colour is left of; without, it is a thin sheet.
+    #[test]
+    fn a_volume_has_an_absorption_and_a_surface_without_one_is_thin() {
+        let glass = |volume: &str| material(&format!("'extensions':{{'KHR_materials_volume':{{{volume}}}}}"));
+        assert!(material("").thin && glass("").thin && glass("'thicknessFactor':0,'attenuationDistance':2").thin);
+        let filled = glass("'thicknessFactor':0.1,'attenuationDistance':2,'attenuationColor':[1,0.5,0]");
+        assert!(!filled.thin);
+        let left = filled.absorption.map(|part| libm::exp(-2.0 * part));
+        assert!((left[0] - 1.0).abs() + (left[1] - 0.5).abs() + (left[2] - 1e-4).abs() < 1e-12, "{left:?}");
+        assert_eq!(glass("'thicknessFactor':1").absorption, [0.0; 3]);
     }
 }

@@ -7,12 +7,17 @@ mod cameras;
 mod component;
 mod document;
 mod images;
+mod instancing;
 mod json;
 mod materials;
+mod morph;
 mod nodes;
 mod object;
 mod primitive;
 mod read;
+mod skin;
+mod specular_glossiness;
+mod unread;
 mod uri;
 mod write;
 

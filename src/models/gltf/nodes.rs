@@ -7,7 +7,8 @@ use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, DVec4};
 
 /// The index of no node.
 const NONE: u32 = u32::MAX;
-/// How far from 1 the length of a rotation's quaternion may be without a remark.
+/// How far from 1 the length of a rotation's quaternion may be without a remark, and a matrix's last row from that of an
+/// affine map.
 const UNIT: f64 = 1e-3;
 
 /// The nodes of a file's scene, each before its children.
@@ -30,10 +31,10 @@ impl<'a> SceneNodes<'a> {
         Ok(Self { document, roots, about: Vec::new() })
     }
 
-    /// The next node and its matrix to the world.
+    /// The index of the next node, the node, and its matrix to the world.
     ///
     /// Errors: a matrix that is not as it should be.
-    pub fn next(&mut self, remarks: &mut Remarks) -> Result<Option<(Object<'a>, DAffine3)>, ModelError> {
+    pub fn next(&mut self, remarks: &mut Remarks) -> Result<Option<(usize, Object<'a>, DAffine3)>, ModelError> {
         let count = self.document.rows(Table::Nodes);
         let (index, parent) = loop {
             let Some((children, world)) = self.about.last_mut() else {
@@ -56,7 +57,7 @@ impl<'a> SceneNodes<'a> {
             ));
         }
         self.about.push((node.list("children")?.iter(), world));
-        Ok(Some((node, world)))
+        Ok(Some((index, node, world)))
     }
 }
 
@@ -119,12 +120,13 @@ fn roots(document: &Document<'_>, parents: &[u32], remarks: &mut Remarks) -> Res
 fn local_matrix(node: &Object<'_>, remarks: &mut Remarks) -> Result<DAffine3, ModelError> {
     if let Some(columns) = node.numbers::<16>("matrix")? {
         let matrix = DMat4::from_cols_array(&columns);
-        if matrix.row(3) != DVec4::W {
+        // Exporters that multiply matrices in f32 round this row, too.
+        if (matrix.row(3) - DVec4::W).abs().max_element() > UNIT {
             let shown = matrix.row(3).to_array().map(|part| Json::Number(part).to_string()).join(", ");
             let accepted = "its last row must be 0, 0, 0, 1";
             return Err(node.refused("matrix", format_args!("one with the last row {shown}"), accepted));
         }
-        return Ok(DAffine3::from_mat4(matrix));
+        return Ok(DAffine3::from_mat3_translation(DMat3::from_mat4(matrix), matrix.w_axis.truncate()));
     }
     let translation = node.numbers("translation")?.map_or(DVec3::ZERO, DVec3::from);
     let scale = node.numbers("scale")?.map_or(DVec3::ONE, DVec3::from);
@@ -207,6 +209,10 @@ mod tests {
     fn matrices_that_are_none_are_refused() {
         let row = "nodes[0].matrix is one with the last row 0, 0, 0, 2, but its last row must be 0, 0, 0, 1";
         assert_eq!(refused("'nodes':[{'matrix':[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,2]}]"), row);
+        // Rounded in f32, it is a matrix like any other.
+        for rounded in ["0.9999999,0,0,0.00001,0,1,0,0,0,0,1,0,0,0,0,0.9999999", "1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1"] {
+            assert!(read(&with(&format!("'nodes':[{{'mesh':0,'matrix':[{rounded}]}}]"))).is_ok(), "{rounded}");
+        }
         let far = "nodes[1] is too far away, but its matrix to the world must be finite";
         assert_eq!(refused("'nodes':[{'scale':[1e300,1,1],'children':[1]},{'scale':[1e300,1,1]}]"), far);
         let model = read(&with("'nodes':[{'mesh':0,'scale':[1,0,1]}]")).expect("read");

@@ -1,31 +1,49 @@
 use super::accessor::{Accessor, Meant};
 use super::buffers::Buffers;
 use super::document::{Document, Table};
+use super::morph::{Morph, add_morphs, morphs_of};
 use super::object::Object;
+use super::skin::{Influences, skinned};
 use crate::memory::Memory;
 use crate::model_error::ModelError;
 use crate::remarks::Remarks;
 use crate::triangle_mesh::TriangleMesh;
 use crate::triangle_mesh::renumber;
+use glam::DAffine3;
 
 /// Which accessors a primitive is made of: primitives alike in that are one mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PrimitiveParts {
     mode: u64,
     positions: usize,
     indices: Option<usize>,
     normals: Option<usize>,
     uvs: Option<usize>,
+    morphs: Vec<Morph>,
+    /// The skin, and the accessors of joints and weights, a pair for every four joints of a vertex.
+    skin: Option<(usize, Vec<[usize; 2]>)>,
+}
+
+/// How a mesh is used where its node places it: the set of its material's texture coordinates, the weights of its morph
+/// targets, and its skin.
+#[derive(Clone, Copy)]
+pub struct Pose<'p> {
+    /// The set.
+    pub uv_set: u64,
+    /// The weights.
+    pub weights: &'p [f64],
+    /// The index of the skin.
+    pub skin: Option<usize>,
 }
 
 impl PrimitiveParts {
-    /// Those of a primitive, with this set of texture coordinates; nothing if it has no triangles.
+    /// Those of a primitive; nothing if it has no triangles.
     ///
     /// Errors: an index that is none, or geometry that is there only in compressed form.
     pub fn of(
         document: &Document<'_>,
         primitive: &Object<'_>,
-        uv_set: u64,
+        pose: Pose<'_>,
         remarks: &mut Remarks,
     ) -> Result<Option<Self>, ModelError> {
         let mode = primitive.whole("mode")?.unwrap_or(4);
@@ -40,14 +58,21 @@ impl PrimitiveParts {
             return Ok(None);
         }
         let attributes = primitive.needed("attributes", primitive.object("attributes")?)?;
-        let uv_name = format!("TEXCOORD_{uv_set}");
+        let rows = document.rows(Table::Accessors);
+        let skin = match pose.skin {
+            None => None,
+            Some(skin) => {
+                let influences = influences(&attributes, rows)?;
+                (!influences.is_empty()).then_some((skin, influences))
+            }
+        };
+        let uv_name = format!("TEXCOORD_{}", pose.uv_set);
         for (name, _) in attributes.fields() {
-            if !["POSITION", "NORMAL", &uv_name].contains(&name) {
+            let of_skin = pose.skin.is_some() && (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_"));
+            if !(["POSITION", "NORMAL", &uv_name].contains(&name) || of_skin) {
                 remarks.add_unread(&format!("the attribute {name}"), 1);
             }
         }
-        remarks.add_unread("morph targets", primitive.list("targets")?.len() as u64);
-        let rows = document.rows(Table::Accessors);
         let Some(positions) = attributes.index("POSITION", rows)? else {
             remarks.add_unread("primitives without positions", 1);
             return Ok(None);
@@ -64,16 +89,23 @@ impl PrimitiveParts {
             indices: primitive.index("indices", rows)?,
             normals: attributes.index("NORMAL", rows)?,
             uvs: attributes.index(&uv_name, rows)?,
+            morphs: morphs_of(document, primitive, pose.weights, remarks)?,
+            skin,
         }))
     }
 
-    /// The mesh of these parts.
+    /// Whether its skin places its vertices in the world.
+    pub fn is_skinned(&self) -> bool {
+        self.skin.is_some()
+    }
+
+    /// The mesh of these parts, whose skin has these joints.
     ///
     /// Errors: an accessor that is not as it should be, or an index beyond the vertices.
     pub fn read<'a>(
-        self,
-        document: &Document<'a>,
-        buffers: &'a Buffers<'a>,
+        &self,
+        (document, buffers): (&Document<'a>, &'a Buffers<'a>),
+        joints: &[DAffine3],
         memory: &mut Memory,
         remarks: &mut Remarks,
     ) -> Result<TriangleMesh, ModelError> {
@@ -114,21 +146,43 @@ impl PrimitiveParts {
         let wanted = is_part.then_some(&used[..]);
         let normals = self.normals.map(|index| accessor(index, Meant::Vectors)).transpose()?;
         let uvs = self.uvs.map(|index| accessor(index, Meant::Pairs)).transpose()?;
-        for (other, index) in [(&normals, self.normals), (&uvs, self.uvs)] {
-            if let (Some(other), Some(index)) = (other, index)
-                && other.count != vertices
-            {
-                let object = document.row(Table::Accessors, index)?;
-                let accepted = format!("the mesh has {vertices} positions");
-                return Err(object.refused("count", other.count, accepted));
-            }
+        for other in [&normals, &uvs].into_iter().flatten() {
+            other.check_count(vertices)?;
         }
-        Ok(TriangleMesh {
+        let mut mesh = TriangleMesh {
             positions: positions.floats(wanted, memory)?,
             triangles,
             normals: normals.map(|normals| normals.floats(wanted, memory)).transpose()?,
             uvs: uvs.map(|uvs| uvs.floats(wanted, memory)).transpose()?,
-        })
+        };
+        let (file, rows) = ((document, buffers), (wanted, vertices));
+        add_morphs(&mut mesh.positions, &self.morphs, |morph| morph.1, file, rows, memory)?;
+        if let Some(normals) = &mut mesh.normals {
+            add_morphs(normals, &self.morphs, |morph| morph.2, file, rows, memory)?;
+        }
+        let Some((_, accessors)) = &self.skin else { return Ok(mesh) };
+        let mut sets: Vec<Influences> = Vec::new();
+        for pair in accessors {
+            let [joints, weights] = pair.map(|index| accessor(index, Meant::Fours));
+            let (joints, weights) = (joints?, weights?);
+            joints.check_count(vertices)?;
+            weights.check_count(vertices)?;
+            let rows = joints.floats(wanted, memory)?.into_iter().zip(weights.floats(wanted, memory)?);
+            sets.push(rows.collect());
+        }
+        Ok(skinned(mesh, joints, &sets))
+    }
+}
+
+/// The accessors of joints and weights, a pair for every four joints of a vertex.
+fn influences(attributes: &Object<'_>, rows: usize) -> Result<Vec<[usize; 2]>, ModelError> {
+    let mut pairs = Vec::new();
+    loop {
+        let [joints, weights] = ["JOINTS", "WEIGHTS"].map(|name| format!("{name}_{}", pairs.len()));
+        match (attributes.index(&joints, rows)?, attributes.index(&weights, rows)?) {
+            (Some(joints), Some(weights)) => pairs.push([joints, weights]),
+            _ => return Ok(pairs),
+        }
     }
 }
 
@@ -212,7 +266,8 @@ mod tests {
         let sentences = ["Not read: points (1), lines (1), primitives without positions (1)."];
         assert_eq!(model.remarks.sentences(), sentences);
         let model = read(&mesh("{'attributes':{'POSITION':0,'COLOR_0':0},'targets':[{},{}]}")).expect("read");
-        let sentence = "Not read: the attribute COLOR_0 (1), morph targets (2), corners behind the last triangle (1).";
+        // Morph targets whose weight is 0 change nothing.
+        let sentence = "Not read: the attribute COLOR_0 (1), corners behind the last triangle (1).";
         assert_eq!(model.remarks.sentences()[1], sentence);
     }
 

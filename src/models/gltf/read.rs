@@ -1,13 +1,17 @@
 use super::binary::binary_parts;
 use super::buffers::Buffers;
 use super::cameras::{camera, light};
-use super::document::{Document, EXTENSIONS, Table};
+use super::document::{Document, Table};
 use super::images::Images;
+use super::instancing::places_of;
 use super::json::Json;
 use super::materials::{ReadMaterial, read_materials};
+use super::morph::rest_weights;
 use super::nodes::SceneNodes;
 use super::object::Object;
-use super::primitive::PrimitiveParts;
+use super::primitive::{Pose, PrimitiveParts};
+use super::skin::{Worlds, joints_of, worlds_of};
+use super::unread::remark_unread;
 use crate::memory::Memory;
 use crate::model::{Instance, Model};
 use crate::model_error::ModelError;
@@ -32,7 +36,7 @@ pub fn read_gltf(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Mode
     let document = Document::of(name, &json)?;
     let mut memory = Memory::of(bytes);
     let mut remarks = Remarks::default();
-    remark_unread(&document, &mut remarks)?;
+    remark_unread(&document, &json, &mut remarks)?;
     let buffers = Buffers::read(&document, own, &mut memory, open)?;
     let mut images = Images::of(&document, &buffers);
     let materials = read_materials(&document, &mut images, &mut memory, &mut remarks)?;
@@ -43,7 +47,9 @@ pub fn read_gltf(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Mode
         memory,
         model: Model { images: images.images, remarks, ..Model::default() },
         by_parts: HashMap::new(),
-        by_index: HashMap::new(),
+        by_use: HashMap::new(),
+        worlds: Worlds::new(),
+        joints: HashMap::new(),
     };
     scene.place_nodes()?;
     let mut model = scene.model;
@@ -51,23 +57,11 @@ pub fn read_gltf(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Mode
     Ok(model)
 }
 
-/// Notes what a file has that is not read.
-fn remark_unread(document: &Document<'_>, remarks: &mut Remarks) -> Result<(), ModelError> {
-    for name in document.root.list("extensionsUsed")? {
-        if let Json::Text(name) = name
-            && !EXTENSIONS.contains(&&**name)
-        {
-            remarks.add_unread(&format!("the extension {name}"), 1);
-        }
-    }
-    for field in ["animations", "skins"] {
-        remarks.add_unread(field, document.root.list(field)?.len() as u64);
-    }
-    Ok(())
-}
+/// A mesh of the model, its material, and whether a skin has placed it in the world.
+type Part = (usize, Option<usize>, bool);
 
-/// A mesh of the model and its material.
-type Part = (usize, Option<usize>);
+/// A mesh of the file as a node uses it: its index, its skin, and the weights of its morph targets as bits.
+type Use = (usize, Option<usize>, Vec<u64>);
 
 /// The model as it is made of a scene's nodes.
 struct Scene<'a> {
@@ -79,7 +73,11 @@ struct Scene<'a> {
     /// The mesh of each primitive read so far, if it has triangles.
     by_parts: HashMap<PrimitiveParts, Option<usize>>,
     /// The parts of each mesh of the file read so far.
-    by_index: HashMap<usize, Arc<[Part]>>,
+    by_use: HashMap<Use, Arc<[Part]>>,
+    /// The matrices of the nodes, where there are skins.
+    worlds: Worlds,
+    /// The joints of each skin used so far.
+    joints: HashMap<usize, Arc<[DAffine3]>>,
 }
 
 impl<'a> Scene<'a> {
@@ -88,70 +86,109 @@ impl<'a> Scene<'a> {
         if document.rows(Table::Nodes) == 0 {
             let meshes = document.rows(Table::Meshes);
             // A file of meshes alone places them nowhere; here they stand as they are.
-            return (0..meshes).try_for_each(|mesh| self.place_mesh("".into(), mesh, DAffine3::IDENTITY));
+            return (0..meshes).try_for_each(|mesh| self.place_mesh("".into(), None, mesh, &[DAffine3::IDENTITY]));
+        }
+        if document.rows(Table::Skins) > 0 {
+            let bytes = size_of::<(usize, DAffine3)>() as u64;
+            let nodes = document.rows(Table::Nodes) as u64;
+            self.memory.take(nodes, bytes, || [document.root.file.into(), "the list of nodes".into()])?;
+            self.worlds = worlds_of(document)?;
         }
         let mut nodes = SceneNodes::of(document, &mut self.model.remarks)?;
-        while let Some((node, world)) = nodes.next(&mut self.model.remarks)? {
+        while let Some((_, node, world)) = nodes.next(&mut self.model.remarks)? {
             if let Some(mesh) = node.index("mesh", document.rows(Table::Meshes))? {
                 let name = match node.text("name")? {
                     None | Some("") => document.row(Table::Meshes, mesh)?.text("name")?.unwrap_or_default(),
                     Some(name) => name,
                 };
-                if world.matrix3.determinant() == 0.0 {
-                    self.model.remarks.add_unread("instances that a scale of 0 makes planar", 1);
-                } else {
-                    self.place_mesh(name.into(), mesh, world)?;
+                let places = places_of(document, self.buffers, &node, world, &mut self.memory)?;
+                let (solid, flat): (Vec<_>, Vec<_>) =
+                    places.into_iter().partition(|world| world.matrix3.determinant() != 0.0);
+                let remarks = &mut self.model.remarks;
+                remarks.add_unread("instances that a scale of 0 makes planar", flat.len() as u64);
+                if !solid.is_empty() {
+                    self.place_mesh(name.into(), Some(&node), mesh, &solid)?;
                 }
             }
-            self.model.cameras.extend(camera(document, &node, world)?);
+            self.model.cameras.extend(camera(document, &node, world, &mut self.model.remarks)?);
             self.model.lights.extend(light(document, &node, world, &mut self.model.remarks)?);
         }
         Ok(())
     }
 
-    fn place_mesh(&mut self, name: Arc<str>, index: usize, world: DAffine3) -> Result<(), ModelError> {
-        let parts = match self.by_index.get(&index) {
+    fn place_mesh(
+        &mut self,
+        name: Arc<str>,
+        node: Option<&Object<'a>>,
+        index: usize,
+        worlds: &[DAffine3],
+    ) -> Result<(), ModelError> {
+        let mesh = self.document.row(Table::Meshes, index)?;
+        let weights = rest_weights(node, &mesh)?;
+        let skin = node.map_or(Ok(None), |node| node.index("skin", self.document.rows(Table::Skins)))?;
+        let used = (index, skin, weights.iter().map(|weight| weight.to_bits()).collect());
+        let parts = match self.by_use.get(&used) {
             Some(parts) => parts.clone(),
             None => {
-                let parts: Arc<[Part]> = self.parts_of(index)?.into();
-                self.by_index.insert(index, parts.clone());
+                let parts: Arc<[Part]> = self.parts_of(&mesh, skin, &weights)?.into();
+                self.by_use.insert(used, parts.clone());
                 parts
             }
         };
         // The list of instances is moved while it grows.
         let bytes = 2 * size_of::<Instance>() as u64;
         let file = self.document.root.file;
-        self.memory.take(parts.len() as u64, bytes, || [file.into(), format!("the instances of meshes[{index}]")])?;
-        self.model.instances.extend(parts.iter().map(|(mesh, material)| Instance {
-            name: name.clone(),
-            mesh: *mesh,
-            material: *material,
-            world_from_object: world,
-        }));
+        let count = (parts.len() as u64).saturating_mul(worlds.len() as u64);
+        self.memory.take(count, bytes, || [file.into(), format!("the instances of meshes[{index}]")])?;
+        for world in worlds {
+            self.model.instances.extend(parts.iter().map(|(mesh, material, is_placed)| Instance {
+                name: name.clone(),
+                mesh: *mesh,
+                material: *material,
+                // The transform of a node with a skin must be ignored: its joints place the mesh.
+                world_from_object: if *is_placed { DAffine3::IDENTITY } else { *world },
+            }));
+        }
         Ok(())
     }
 
-    fn parts_of(&mut self, index: usize) -> Result<Vec<Part>, ModelError> {
-        let mesh = self.document.row(Table::Meshes, index)?;
+    fn parts_of(
+        &mut self,
+        mesh: &Object<'a>,
+        skin: Option<usize>,
+        weights: &[f64],
+    ) -> Result<Vec<Part>, ModelError> {
         let mut parts = Vec::new();
         for (number, json) in mesh.list("primitives")?.iter().enumerate() {
             let primitive = mesh.item("primitives", number, json)?;
             let material = primitive.index("material", self.materials.len())?;
-            parts.extend(self.mesh_of(&primitive, material)?.map(|mesh| (mesh, material)));
+            let found = self.mesh_of(&primitive, material, skin, weights)?;
+            parts.extend(found.map(|(mesh, is_placed)| (mesh, material, is_placed)));
         }
         Ok(parts)
     }
 
-    /// The mesh of a primitive, if it has triangles.
-    fn mesh_of(&mut self, primitive: &Object<'a>, material: Option<usize>) -> Result<Option<usize>, ModelError> {
+    /// The mesh of a primitive, if it has triangles, and whether a skin has placed it.
+    fn mesh_of(
+        &mut self,
+        primitive: &Object<'a>,
+        material: Option<usize>,
+        skin: Option<usize>,
+        weights: &[f64],
+    ) -> Result<Option<(usize, bool)>, ModelError> {
         let material = material.map(|index| &self.materials[index]);
         let uv_set = material.map_or(0, |material| material.uv_set);
-        let remarks = &mut self.model.remarks;
-        let Some(parts) = PrimitiveParts::of(self.document, primitive, uv_set, remarks)? else { return Ok(None) };
+        let pose = Pose { uv_set, weights, skin };
+        let Some(parts) = PrimitiveParts::of(self.document, primitive, pose, &mut self.model.remarks)? else {
+            return Ok(None);
+        };
+        let is_placed = parts.is_skinned();
         if let Some(known) = self.by_parts.get(&parts) {
-            return Ok(*known);
+            return Ok(known.map(|mesh| (mesh, is_placed)));
         }
-        let mesh = parts.read(self.document, self.buffers, &mut self.memory, remarks)?.cleaned(remarks);
+        let joints = skin.filter(|_| is_placed).map_or(Ok([].into()), |skin| self.joints_of(skin))?;
+        let (file, remarks) = ((self.document, self.buffers), &mut self.model.remarks);
+        let mesh = parts.read(file, &joints, &mut self.memory, remarks)?.cleaned(remarks);
         let TriangleMesh { triangles, normals, uvs, .. } = &mesh;
         let index = if triangles.is_empty() {
             remarks.empty_meshes += 1;
@@ -163,6 +200,17 @@ impl<'a> Scene<'a> {
             Some(self.model.meshes.len() - 1)
         };
         self.by_parts.insert(parts, index);
-        Ok(index)
+        Ok(index.map(|mesh| (mesh, is_placed)))
+    }
+
+    fn joints_of(&mut self, skin: usize) -> Result<Arc<[DAffine3]>, ModelError> {
+        if let Some(known) = self.joints.get(&skin) {
+            return Ok(known.clone());
+        }
+        let object = self.document.row(Table::Skins, skin)?;
+        let joints = joints_of(self.document, self.buffers, &object, &self.worlds, &mut self.memory)?;
+        let joints: Arc<[DAffine3]> = joints.into();
+        self.joints.insert(skin, joints.clone());
+        Ok(joints)
     }
 }
