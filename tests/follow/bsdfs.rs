@@ -58,7 +58,7 @@ const MAPPED: [[f64; 2]; 8] =
 /// A principled surface of a grey where an image gives it this metallic and roughness.
 fn mapped(grey: f64, of_image: [f64; 2]) -> Example {
     let mut world = World::new();
-    let own = Principled { base_colour: Rgb::grey(grey), metallic: 0.5, roughness: 0.5 };
+    let own = Principled { base_colour: Rgb::grey(grey), metallic: 0.5, roughness: 0.5, ..Principled::default() };
     world.spawn((own, MetallicRoughnessMap::default()));
     let bsdf = Census::of(&world).table::<PrincipledTable>().expect("a table");
     let [metallic, roughness] = of_image;

@@ -52,7 +52,7 @@ fn one_by_one() -> World {
         world.spawn((Rectangle { width: 1.0, depth: 1.0 }, placement, emissive));
     }
     for (x, [metallic, roughness]) in [-1.5, 1.5].into_iter().zip(HALVES) {
-        let own = Principled { base_colour: Rgb::new(0.9, 0.7, 0.4), metallic, roughness };
+        let own = Principled { base_colour: Rgb::new(0.9, 0.7, 0.4), metallic, roughness, ..Principled::default() };
         world.spawn((Rectangle { width: 3.0, depth: 6.0 }, Placement::at(x, 0.0, 0.0), own));
     }
     world
@@ -87,7 +87,7 @@ fn by_maps<B: Bundle>(shape: B, [emission, halves]: [&str; 2]) -> World {
     ));
     world.spawn((
         Rectangle { width: 6.0, depth: 6.0 },
-        Principled { base_colour: Rgb::new(0.9, 0.7, 0.4), metallic: 1.0, roughness: 1.0 },
+        Principled { base_colour: Rgb::new(0.9, 0.7, 0.4), metallic: 1.0, roughness: 1.0, ..Principled::default() },
         MetallicRoughnessMap { file: halves.into(), wrap: Wrap::Clamp, filter: false, ..Default::default() },
     ));
     world
@@ -132,7 +132,7 @@ fn maps_of_one_change_no_bit() {
             light.insert(EmissionMap { file: white.clone(), ..EmissionMap::default() });
         }
         for (x, filter) in [(-1.5, false), (1.5, true)] {
-            let own = Principled { base_colour: Rgb::new(0.9, 0.7, 0.4), metallic: 0.75, roughness: 1.0 };
+            let own = Principled { base_colour: Rgb::new(0.9, 0.7, 0.4), metallic: 0.75, roughness: 1.0, ..Principled::default() };
             let mut floor = world.spawn((Rectangle { width: 3.0, depth: 6.0 }, Placement::at(x, 0.0, 0.0), own));
             if worn {
                 floor.insert(MetallicRoughnessMap { file: white.clone(), filter, ..MetallicRoughnessMap::default() });

@@ -23,7 +23,7 @@ fn schlick(normal: f64, cosine: f64) -> f64 {
 /// The BSDF of a grey surface between two directions.
 fn evaluated(grey: f64, metallic: f64, roughness: f64, [light, eye]: [DVec3; 2]) -> f64 {
     let mut world = World::new();
-    world.spawn(Principled { base_colour: Rgb::grey(grey), metallic, roughness });
+    world.spawn(Principled { base_colour: Rgb::grey(grey), metallic, roughness, ..Principled::default() });
     let census = Census::of(&world);
     let table = census.table::<PrincipledTable>().expect("a table");
     Bsdf::eval(&*table, &Site::opaque(0, [grey; 3]), light, eye)[1]
@@ -135,7 +135,7 @@ fn assert_mapped(name: &str, roughness_of: impl Fn(f64) -> f64, most: [f64; 2]) 
         let mut draws = Draws::new(3401, index);
         let (grey, metallic, roughness) = (draws.unit(), draws.unit(), roughness_of(draws.unit()));
         let mut other = World::new();
-        other.spawn(Principled { base_colour: Rgb::grey(grey), metallic, roughness });
+        other.spawn(Principled { base_colour: Rgb::grey(grey), metallic, roughness, ..Principled::default() });
         let own = Census::of(&other).table::<PrincipledTable>().expect("a table");
         let opaque = Site::opaque(0, [grey; 3]);
         let mapped = Site { mapped: Some([metallic, roughness]), ..opaque };

@@ -37,6 +37,7 @@ mod principled_energy;
 mod registered;
 mod rough_glass;
 mod table;
+mod thin_glass;
 
 /// Every BSDF: its kind, its table, and its name in the names of stages and columns; a new one is a line here.
 // ANCHOR: bsdf_list
@@ -51,6 +52,7 @@ macro_rules! for_each_bsdf {
             Metal(MetalTable, "metal"),
             RoughGlass(RoughGlassTable, "rough glass"),
             Principled(PrincipledTable, "principled"),
+            ThinGlass(ThinGlassTable, "thin glass"),
         }
     };
 }
@@ -80,3 +82,4 @@ pub use registered::{
 pub(crate) use registered::{components_in_words, interior_of, one_material};
 pub use rough_glass::RoughGlassTable;
 pub use table::{MaterialTable, NO_ROW};
+pub use thin_glass::{ThinGlassTable, pane_reflectance};

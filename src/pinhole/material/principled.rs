@@ -1,4 +1,4 @@
-use super::principled_energy::{Between, DIELECTRIC, Energy, EnergyTable, alpha_of, grazing};
+use super::principled_energy::{Between, Energy, EnergyTable, alpha_of, grazing};
 use super::registered::entities_of_kind;
 use super::{
     Bsdf, BsdfClass, BsdfSample, Example, Named, Site, cosine_direction, cosine_pdf, ggx_brdf, ggx_sample, visible_pdf,
@@ -7,7 +7,11 @@ use crate::check::{kind_and_name, number, reflectance};
 use crate::plan::{Census, Table};
 use crate::scene::{MetallicRoughnessMap, Principled, Rgb, SceneError};
 use glam::DVec3;
+use std::collections::HashMap;
 use std::f64::consts::FRAC_1_PI;
+
+/// The greatest index of refraction, at which all light is reflected.
+const MOST_INDEX: f64 = 1e9;
 
 /// Principled materials, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -16,6 +20,10 @@ pub struct PrincipledTable {
     pub metallic: Vec<f64>,
     /// GGX's α, from 0.001 to 1.
     pub alpha: Vec<f64>,
+    /// The reflectance of the dielectric at normal incidence, from 0 to 1.
+    pub dielectric: Vec<f64>,
+    /// The row of each α's energies, which equal ones share.
+    energy_of: Vec<u32>,
     energy: Vec<EnergyTable>,
     /// The energies of all roughnesses, if an image gives any material its own.
     by_roughness: &'static [EnergyTable],
@@ -27,29 +35,40 @@ struct Surface<E> {
     colour: [f64; 3],
     metallic: f64,
     alpha: f64,
+    dielectric: f64,
     energy: E,
 }
 
 impl PrincipledTable {
-    fn push(&mut self, metallic: f64, roughness: f64) {
-        let alpha = alpha_of(roughness);
-        self.metallic.push(metallic);
+    /// Adds a material; equal roughnesses share their energies, whose rows are in `known`.
+    fn push(&mut self, own: &Principled, known: &mut HashMap<u64, u32>) {
+        let alpha = alpha_of(own.roughness);
+        let energy_of = *known.entry(alpha.to_bits()).or_insert_with(|| {
+            self.energy.push(EnergyTable::new(alpha));
+            self.energy.len() as u32 - 1
+        });
+        let amplitude = (own.ior - 1.0) / (own.ior + 1.0);
+        self.metallic.push(own.metallic);
         self.alpha.push(alpha);
-        self.energy.push(EnergyTable::new(alpha));
+        self.dielectric.push(amplitude * amplitude);
+        self.energy_of.push(energy_of);
     }
 
     /// The surface of a row without an image of metallic and roughness.
     #[inline(always)]
     fn own(&self, site: &Site) -> Surface<&EnergyTable> {
-        let (metallic, alpha) = (self.metallic[site.row], self.alpha[site.row]);
-        Surface { colour: site.colour, metallic, alpha, energy: &self.energy[site.row] }
+        let (metallic, alpha, dielectric) =
+            (self.metallic[site.row], self.alpha[site.row], self.dielectric[site.row]);
+        let energy = &self.energy[self.energy_of[site.row] as usize];
+        Surface { colour: site.colour, metallic, alpha, dielectric, energy }
     }
 
     /// The surface where an image gives metallic and roughness.
     #[inline(always)]
     fn mapped(&self, site: &Site, [metallic, roughness]: [f64; 2]) -> Surface<Between<'_>> {
         let energy = Between::of(self.by_roughness, roughness);
-        Surface { colour: site.colour, metallic, alpha: alpha_of(roughness), energy }
+        let dielectric = self.dielectric[site.row];
+        Surface { colour: site.colour, metallic, alpha: alpha_of(roughness), dielectric, energy }
     }
 
     // What follows stays out of the code of scenes without such an image.
@@ -80,7 +99,7 @@ impl<E: Energy> Surface<E> {
     /// The reflectance at normal incidence, of the dielectric and the metal together.
     #[inline(always)]
     fn at_normal_incidence(&self) -> [f64; 3] {
-        self.colour.map(|colour| DIELECTRIC + self.metallic * (colour - DIELECTRIC))
+        self.colour.map(|colour| self.dielectric + self.metallic * (colour - self.dielectric))
     }
 
     /// Specular reflection of one scattering, in 1/sr.
@@ -98,15 +117,16 @@ impl<E: Energy> Surface<E> {
     /// leaves; its scale makes the two add up to 1 where nothing is absorbed (Kelemen and Szirmay-Kalos 2001).
     #[inline(always)]
     fn broad(&self, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        let (energy, metallic) = (self.energy, self.metallic);
+        let (energy, metallic, normal) = (self.energy, self.metallic, self.dielectric);
         let [lost_in, lost_out] = [to_light.z, to_eye.z].map(|cosine| energy.lost(cosine));
         let [left_in, left_out] = [to_light.z, to_eye.z].map(|cosine| energy.left_at_grazing(cosine));
         let [lost, left] = energy.average();
         let several = if lost > 0.0 { lost_in * lost_out / lost } else { 0.0 };
         let [below_in, below_out, below] = [[lost_in, left_in], [lost_out, left_out], [lost, left]]
-            .map(|[lost, left]| 1.0 - energy.of_dielectric(lost, left));
-        let diffuse = below_in * below_out / below;
-        let again = energy.again(DIELECTRIC) * several;
+            .map(|[lost, left]| 1.0 - energy.of_dielectric(normal, lost, left));
+        // A dielectric that reflects all light leaves none for its base.
+        let diffuse = if below > 0.0 { below_in * below_out / below } else { 0.0 };
+        let again = energy.again(normal) * several;
         self.colour.map(|colour| {
             let dielectric = again + colour * diffuse;
             FRAC_1_PI * (dielectric + metallic * (energy.again(colour) * several - dielectric))
@@ -117,13 +137,13 @@ impl<E: Energy> Surface<E> {
     /// The probability of sampling specular reflection of one scattering: its part of the albedo.
     #[inline(always)]
     fn specular_probability(&self, to_eye: DVec3) -> f64 {
-        let (energy, metallic) = (self.energy, self.metallic);
+        let (energy, metallic, of_dielectric) = (self.energy, self.metallic, self.dielectric);
         let (lost, left) = (energy.lost(to_eye.z), energy.left_at_grazing(to_eye.z));
-        let below = 1.0 - energy.of_dielectric(lost, left);
+        let below = 1.0 - energy.of_dielectric(of_dielectric, lost, left);
         let once: f64 =
             self.at_normal_incidence().iter().map(|normal| normal * (1.0 - lost) + (1.0 - normal) * left).sum();
         let broad = |colour: &f64| {
-            let dielectric = energy.again(DIELECTRIC) * lost + colour * below;
+            let dielectric = energy.again(of_dielectric) * lost + colour * below;
             dielectric + metallic * (energy.again(*colour) * lost - dielectric)
         };
         let whole = once + self.colour.iter().map(broad).sum::<f64>();
@@ -164,11 +184,11 @@ impl Table for PrincipledTable {
     const NAME: &'static str = "principled materials";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let mut table = Self::default();
+        let (mut table, mut known) = (Self::default(), HashMap::new());
         for entity in entities_of_kind(scene, Self::KIND) {
             let own = scene.get::<Principled>(entity).copied().unwrap_or_default();
             Self::colour(&own, &kind_and_name(scene, Self::WORD, entity))?;
-            table.push(own.metallic, own.roughness);
+            table.push(&own, &mut known);
             if scene.get::<MetallicRoughnessMap>(entity).is_some() {
                 table.by_roughness = EnergyTable::of_all_roughnesses();
             }
@@ -177,7 +197,8 @@ impl Table for PrincipledTable {
     }
 
     fn bytes(&self) -> usize {
-        self.alpha.len() * (2 * size_of::<f64>() + size_of::<EnergyTable>()) + size_of_val(self.by_roughness)
+        let rows = self.alpha.len() * (3 * size_of::<f64>() + size_of::<u32>());
+        rows + size_of_val(&self.energy[..]) + size_of_val(self.by_roughness)
     }
 }
 
@@ -195,6 +216,9 @@ impl Bsdf for PrincipledTable {
             if !(0.0..=1.0).contains(&value) {
                 return Err(SceneError::new(who, field, number(value), "it must be a number from 0 to 1"));
             }
+        }
+        if !(1.0..=MOST_INDEX).contains(&own.ior) {
+            return Err(SceneError::new(who, "ior", number(own.ior), "it must be a number from 1 to 1e9"));
         }
         Ok(reflectance(who, "base_colour", own.base_colour)?.to_array())
     }
@@ -229,11 +253,15 @@ impl Bsdf for PrincipledTable {
 
     fn examples() -> Vec<Example<Principled>> {
         let of = |grey: f64, metallic, roughness| {
-            let component = Principled { base_colour: Rgb::grey(grey), metallic, roughness };
+            let component = Principled { base_colour: Rgb::grey(grey), metallic, roughness, ..Principled::default() };
             Example { component, lossless_to: (grey == 1.0).then_some(3e-3) }
         };
         let white = [0.1, 0.3, 0.5, 0.8, 1.0].into_iter();
         let white = white.flat_map(|roughness| [0.0, 0.5, 1.0].map(|metallic| of(1.0, metallic, roughness)));
-        white.chain([of(0.5, 0.0, 0.0), of(0.2, 0.3, 0.4), of(0.7, 1.0, 0.7)]).collect()
+        let dense = [1.0, 2.0, 1e9].map(|ior| {
+            let Example { component, lossless_to } = of(1.0, 0.0, 0.4);
+            Example { component: Principled { ior, ..component }, lossless_to }
+        });
+        white.chain([of(0.5, 0.0, 0.0), of(0.2, 0.3, 0.4), of(0.7, 1.0, 0.7)]).chain(dense).collect()
     }
 }

@@ -3,8 +3,6 @@
 use super::{ByCosine, SMOOTHEST_METAL, multiple_scattering_albedo, single_scattering};
 use std::sync::OnceLock;
 
-/// The reflectance of a dielectric of index 1.5 at normal incidence.
-pub(super) const DIELECTRIC: f64 = 0.04;
 /// Steps of the hemispherical average of Schlick's part.
 const STEPS: u32 = 512;
 /// Equal steps of the root of roughness, from that of the smoothest metal to 1, between which images' roughnesses are
@@ -48,11 +46,11 @@ pub(super) trait Energy: Copy {
         multiple_scattering_albedo(normal + (1.0 - normal) / 21.0, self.average()[0])
     }
 
-    /// The albedo of the dielectric's specular reflection where single scattering loses `lost` and leaves `left` at
-    /// grazing.
+    /// The albedo of the specular reflection of a dielectric that reflects `normal` at normal incidence, where single
+    /// scattering loses `lost` and leaves `left` at grazing.
     #[inline(always)]
-    fn of_dielectric(&self, lost: f64, left: f64) -> f64 {
-        DIELECTRIC * (1.0 - lost) + (1.0 - DIELECTRIC) * left + self.again(DIELECTRIC) * lost
+    fn of_dielectric(&self, normal: f64, lost: f64, left: f64) -> f64 {
+        normal * (1.0 - lost) + (1.0 - normal) * left + self.again(normal) * lost
     }
 }
 

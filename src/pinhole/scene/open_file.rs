@@ -3,7 +3,7 @@
 //! A name in a scene may lead to anything: a pipe that nobody writes to, a device that never ends, a folder.
 //! Therefore nothing here blocks, only regular files are read, and no more bytes of them than their kind allows.
 
-use super::printable_path;
+use super::{TooLittleMemory, check_memory, printable_path};
 use std::fmt;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read};
@@ -40,6 +40,8 @@ pub enum Unopened {
     NotRegular,
     /// It is too long; its number of bytes.
     TooLong(u64),
+    /// It does not fit into memory.
+    TooLittleMemory(TooLittleMemory),
     /// Another error of the operating system.
     System(io::Error),
 }
@@ -63,6 +65,7 @@ impl fmt::Display for FileError {
             Unopened::Folder => write!(f, "{shown} is a folder, but {name} is a file"),
             Unopened::NotRegular => write!(f, "{shown} is not a regular file"),
             Unopened::TooLong(bytes) => write!(f, "{shown} has {bytes} bytes, but {name} has at most {most}"),
+            Unopened::TooLittleMemory(said) => write!(f, "{shown} cannot be read: it {said}"),
             Unopened::System(said) => write!(f, "{shown} cannot be read: {said}"),
         }
     }
@@ -123,6 +126,10 @@ impl OpenFile {
     /// Errors: as [`open_file`].
     pub fn bytes(self) -> Result<Vec<u8>, FileError> {
         let Self { file, metadata, kind, shown } = self;
+        // A file may be longer than what it takes on the disk.
+        if let Err(too_little) = check_memory(metadata.len()) {
+            return Err(FileError { shown, kind, why: Unopened::TooLittleMemory(too_little) });
+        }
         let mut bytes = Vec::with_capacity(metadata.len() as usize);
         let read = file.take(kind.most.saturating_add(1)).read_to_end(&mut bytes);
         let why = match read {

@@ -56,6 +56,7 @@ fn reason(error: FileError) -> String {
         Unopened::Folder => format!("this is a folder, but {name} is a text file"),
         Unopened::NotRegular => format!("this is not a regular file, but {name} is a text file"),
         Unopened::TooLong(bytes) => format!("the file has {bytes} bytes, but {name} has at most {most}"),
+        Unopened::TooLittleMemory(said) => format!("the file cannot be read: it {said}"),
         Unopened::System(said) => format!("the file cannot be read: {said}"),
     }
 }

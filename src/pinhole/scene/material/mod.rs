@@ -8,6 +8,7 @@ mod mirror;
 mod phong;
 mod principled;
 mod rough_glass;
+mod thin_glass;
 
 pub use blinn_phong::BlinnPhong;
 pub use glass::Glass;
@@ -19,6 +20,7 @@ pub use mirror::Mirror;
 pub use phong::Phong;
 pub use principled::Principled;
 pub use rough_glass::RoughGlass;
+pub use thin_glass::ThinGlass;
 
 use super::file::Word;
 use bevy_ecs::prelude::*;
@@ -38,4 +40,5 @@ pub(super) const MATERIALS: &[Word] = &[
     Word::of::<Metal>("metal"),
     Word::of::<RoughGlass>("rough_glass"),
     Word::of::<Principled>("principled"),
+    Word::of::<ThinGlass>("thin_glass"),
 ];

@@ -1,6 +1,8 @@
-use super::components_of::{is_glass, placement_of, spawn_material};
+use super::material::spawn_material;
+use super::material_notes::MaterialNotes;
 use super::mesh::{Mesh, MeshPart, ModelNotes, UnreadMesh};
 use super::open_model::{OpenModel, open_model};
+use super::placing::placements_of;
 use crate::scene::material::is_material;
 use crate::scene::{ChildOf, Disabled, Emissive, MeshGeometry, MeshInstance, Name, Placement, UsesMaterial, printable};
 use bevy_ecs::prelude::*;
@@ -23,12 +25,18 @@ pub fn load_meshes(scene: &mut World) {
     for (entity, file) in named.into_iter().filter(|(entity, _)| !loaded.contains(entity)) {
         match open_model(scene, &file) {
             Ok(model) if model.model.instances.is_empty() => {
-                scene.entity_mut(entity).insert(UnreadMesh("it has no triangles".into()));
+                scene.entity_mut(entity).insert(UnreadMesh(model.nothing()));
             }
             Ok(model) => {
-                spawn_parts(scene, entity, (&file, &model), &mut materials);
-                let notes = notes_on(&file, &model);
-                scene.get_resource_or_init::<ModelNotes>().0.extend(notes);
+                let mut of_materials = MaterialNotes::default();
+                spawn_parts(scene, entity, (&file, &model), (&mut materials, &mut of_materials));
+                let notes = notes_on(&file, &model, &of_materials);
+                let mut said = scene.get_resource_or_init::<ModelNotes>();
+                for note in notes {
+                    if !said.0.contains(&note) {
+                        said.0.push(note);
+                    }
+                }
             }
             Err(why) => _ = scene.entity_mut(entity).insert(UnreadMesh(why)),
         }
@@ -36,20 +44,10 @@ pub fn load_meshes(scene: &mut World) {
 }
 
 /// What there is to say about a file that was read.
-fn notes_on(file: &str, model: &OpenModel) -> Vec<String> {
-    let mut sentences = model.model.remarks.sentences();
-    let materials = &model.model.materials;
-    let glass = || materials.iter().filter(|own| is_glass(own));
-    let counts = [
-        (glass().filter(|own| own.base_colour_texture.is_some()).count(), "colour"),
-        (glass().filter(|own| own.metallic_roughness_texture.is_some()).count(), "metallic and roughness"),
-    ];
-    for (count, of) in counts.into_iter().filter(|(count, _)| *count > 0) {
-        let materials = if count == 1 { "material of glass has" } else { "materials of glass have" };
-        sentences.push(format!("{count} {materials} a texture of {of}, which is left out"));
-    }
+fn notes_on(file: &str, model: &OpenModel, of_materials: &MaterialNotes) -> Vec<String> {
+    let sentences = model.model.remarks.sentences().into_iter().chain(of_materials.sentences());
     let name = Path::new(file).file_name().map_or(file.into(), |name| name.to_string_lossy());
-    sentences.into_iter().map(|sentence| format!("{}: {sentence}", printable(&name, 80))).collect()
+    sentences.map(|sentence| format!("{}: {sentence}", printable(&name, 80))).collect()
 }
 
 /// Spawns the meshes of a model, with the entity's own material if it has one.
@@ -57,7 +55,7 @@ fn spawn_parts(
     scene: &mut World,
     entity: Entity,
     (file, model): (&str, &OpenModel),
-    materials: &mut BTreeMap<(String, usize), Entity>,
+    (materials, notes): (&mut BTreeMap<(String, usize), Entity>, &mut MaterialNotes),
 ) {
     let used = scene.get::<UsesMaterial>(entity).map(|used| used.0);
     let has_own = is_material(scene.entity(entity)) || scene.entity(entity).contains::<Emissive>();
@@ -75,10 +73,11 @@ fn spawn_parts(
         let number = instance.material.unwrap_or(usize::MAX);
         let material = own.unwrap_or_else(|| {
             let key = (file.to_owned(), number);
-            *materials.entry(key).or_insert_with(|| spawn_material(scene, model, number))
+            *materials.entry(key).or_insert_with(|| spawn_material(scene, model, number, notes))
         });
-        let (geometry, placement) = placed(model, instance);
-        let part = scene.spawn((MeshInstance { geometry }, placement, MeshPart(entity), ChildOf(entity))).id();
+        let (geometry, outer, placement) = placed(model, instance);
+        let parent = outer.map_or(entity, |outer| scene.spawn((outer, MeshPart(entity), ChildOf(entity))).id());
+        let part = scene.spawn((MeshInstance { geometry }, placement, MeshPart(entity), ChildOf(parent))).id();
         scene.entity_mut(part).insert(UsesMaterial(material));
         let own_name = if instance.name.is_empty() { format!("part {}", at + 1) } else { instance.name.to_string() };
         let name = name.as_ref().map_or_else(|| own_name.clone(), |name| format!("{name}, {own_name}"));
@@ -86,12 +85,17 @@ fn spawn_parts(
     }
 }
 
-/// An instance's geometry and placement; where its matrix shears, that is in the geometry.
-fn placed(model: &OpenModel, instance: &Instance) -> (MeshGeometry, Placement) {
+/// An instance's geometry and placement, and the one around it where its matrix shears; a matrix that is too flat for
+/// placements is in the geometry.
+fn placed(model: &OpenModel, instance: &Instance) -> (MeshGeometry, Option<Placement>, Placement) {
     let geometry = &model.geometry[instance.mesh];
-    match placement_of(&instance.world_from_object) {
-        Some(placement) => (geometry.clone(), placement),
-        None => (MeshGeometry::new(sheared(geometry, &instance.world_from_object)), Placement::default()),
+    match placements_of(&instance.world_from_object).as_deref() {
+        Some([outer, inner]) => (geometry.clone(), Some(*outer), *inner),
+        Some([placement]) => (geometry.clone(), None, *placement),
+        _ => {
+            let sheared = MeshGeometry::new(sheared(geometry, &instance.world_from_object));
+            (sheared, None, Placement::default())
+        }
     }
 }
 

@@ -1,15 +1,15 @@
 use super::components_of::{spawn_camera, spawn_light};
+use super::lighting::{LitBy, bounds_of, exposure, lit_by, vertices};
 use super::load::load_meshes;
 use super::mesh::{Mesh, ModelNotes};
 use super::open_model::open_model;
 use crate::scene::{
-    Degrees, DirectionalLight, FileProblem, FovAxis, Gradient, Integrator, LookAt, Name, PerspectiveCamera, Resolution,
-    Rgb, Sampling, SceneFolder, printable_path,
+    Degrees, DirectionalLight, Emissive, FileProblem, FovAxis, Gradient, Integrator, LookAt, Name, PerspectiveCamera,
+    Resolution, Rgb, Sampling, SceneFolder, printable_path,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole_models::{Instance, LightKind, Model, ModelLight};
-use std::f64::consts::PI;
+use pinhole_models::{Model, ModelLight, Projection};
 use std::path::{Path, PathBuf};
 
 /// The endings of the model files that can be read.
@@ -19,6 +19,11 @@ const FOV: Degrees = Degrees(36.0);
 
 /// The part of the picture's height that a fitted model fills.
 const FILLED: f64 = 0.9;
+
+/// The greatest aspect ratio that a picture takes from a camera.
+const MOST_OBLONG: f64 = 20.0;
+/// The most that a surface emits, well within what f32 holds.
+const BRIGHTEST: f64 = 1e30;
 
 /// Whether a path is that of a model file, by its ending.
 pub fn is_model_file(path: &Path) -> bool {
@@ -51,7 +56,7 @@ impl ModelScene {
         })?;
         let mut said = Vec::new();
         if model.model.instances.is_empty() {
-            return Err(FileProblem::of(path, "it has no triangles, and there is nothing to render"));
+            return Err(FileProblem::of(path, format!("{}, and there is nothing to render", model.nothing())));
         }
         match model.model.cameras.len() {
             0 => said.push("it has no camera: one is fitted to its bounding box".into()),
@@ -60,10 +65,18 @@ impl ModelScene {
         }
         if !model.model.lights.is_empty() {
             let factor = exposure(&model.model);
-            said.push(format!("its lights are multiplied by {factor:.1e}, to expose what is at its centre"));
+            said.push(format!(
+                "all light of the file, its lights' and its surfaces', is multiplied by {factor:.1e}, for a white surface at its \
+                 centre to be white"
+            ));
         }
-        if !has_lights(&model.model) {
-            said.push("it has no light: a sky and a sun are added".into());
+        match lit_by(&model.model) {
+            LitBy::Lights => {}
+            LitBy::Surfaces => said.push("its emissive surfaces light it: no sky is added".into()),
+            LitBy::NextToNothing => {
+                said.push("its emissive surfaces are too weak to light it: a sky and a sun are added".into());
+            }
+            LitBy::Nothing => said.push("it has no light: a sky and a sun are added".into()),
         }
         Ok(Self { path: path.into(), said })
     }
@@ -80,14 +93,14 @@ impl ModelScene {
             scene.spawn((Name::new("fitted camera"), fitted, looks)).id()
         });
         let sampling = Sampling { samples: 16, ..Sampling::default() };
-        let resolution = Resolution { width: 640, height: 360 };
+        let resolution = open.as_ref().map_or_else(|_| resolution_of(None), |open| resolution_of(aspect_of(&open.model)));
         scene.entity_mut(camera).insert((resolution, sampling, Integrator::PATH));
         if let Ok(open) = &open {
             let exposure = exposure(&open.model);
             for light in &open.model.lights {
                 spawn_light(&mut scene, &ModelLight { intensity: light.intensity * exposure, ..light.clone() });
             }
-            if !has_lights(&open.model) {
+            if matches!(lit_by(&open.model), LitBy::Nothing | LitBy::NextToNothing) {
                 let sky = Gradient { bottom: Rgb::grey(0.2), top: Rgb::new(0.36, 0.46, 0.64) };
                 scene.spawn((Name::new("added sky"), sky));
                 let shines = LookAt { eye: DVec3::new(0.6, 1.0, 0.5), target: DVec3::ZERO, ..LookAt::default() };
@@ -99,18 +112,34 @@ impl ModelScene {
         scene.spawn((Mesh { file: named }, Name::new(name)));
         scene.insert_resource(ModelNotes(self.said.clone()));
         load_meshes(&mut scene);
+        // The surfaces of the model shine as much brighter or darker as its lights.
+        let exposure = open.as_ref().map_or(1.0, |open| exposure(&open.model));
+        for mut emissive in scene.query::<&mut Emissive>().iter_mut(&mut scene) {
+            let [r, g, b] = emissive.radiance.to_array().map(|part| (part * exposure).min(BRIGHTEST));
+            emissive.radiance = Rgb::new(r, g, b);
+        }
         scene.insert_resource(SceneFolder::default());
         scene
     }
 }
 
-fn has_lights(model: &Model) -> bool {
-    // Textures of emission are mostly black, and what they light is little.
-    let emits = |material: usize| {
-        let own = model.materials.get(material);
-        own.is_some_and(|own| own.emission != [0.0; 3] && own.emission_texture.is_none())
-    };
-    !model.lights.is_empty() || model.instances.iter().filter_map(|instance| instance.material).any(emits)
+/// Width over height of the file's first camera, if it says it.
+fn aspect_of(model: &Model) -> Option<f64> {
+    match model.cameras.first()?.projection {
+        Projection::Perspective { aspect, .. } => aspect,
+        Projection::Orthographic { xmag, ymag } => Some(xmag / ymag),
+    }
+}
+
+/// A picture of 640 × 360 pixels, or of about as many with another aspect ratio.
+fn resolution_of(aspect: Option<f64>) -> Resolution {
+    let [width, height] = [640.0, 360.0_f64];
+    let aspect = aspect.filter(|aspect| aspect.is_finite()).map(|aspect| aspect.clamp(MOST_OBLONG.recip(), MOST_OBLONG));
+    let [width, height] = aspect.map_or([width, height], |aspect| {
+        let across = (width * height * aspect).sqrt();
+        [across, across / aspect]
+    });
+    Resolution { width: width.round() as u32, height: height.round() as u32 }
 }
 
 /// From the upper right of the front, as near as all vertices are in the picture.
@@ -127,33 +156,4 @@ fn fitted(model: &Model) -> LookAt {
     };
     let away = vertices(model).map(away).fold(1e-3 * size, f64::max);
     LookAt { eye: target + towards * away, target, ..LookAt::default() }
-}
-
-/// The vertices of all instances in world space, but for those that are not finite.
-fn vertices(model: &Model) -> impl Iterator<Item = DVec3> {
-    let of = |instance: &Instance| {
-        let matrix = instance.world_from_object;
-        let positions = model.meshes[instance.mesh].positions.iter();
-        positions.map(move |position| matrix.transform_point3(position.map(f64::from).into()))
-    };
-    model.instances.iter().flat_map(of).filter(|at| at.is_finite())
-}
-
-fn bounds_of(model: &Model) -> (DVec3, DVec3) {
-    vertices(model).fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)))
-}
-
-/// The factor by which the lights of a model are multiplied, for a white surface at the centre of the bounding box to be
-/// white in the picture: model files give photometric units, and leave the exposure to the program.
-fn exposure(model: &Model) -> f64 {
-    let (low, high) = bounds_of(model);
-    let centre = 0.5 * (low + high);
-    let falling = |light: &ModelLight| {
-        let apart = (light.world_from_light.translation - centre).length_squared().max(f64::MIN_POSITIVE);
-        let strength = light.intensity * light.colour.into_iter().fold(0.0, f64::max);
-        if light.kind == LightKind::Directional { strength } else { strength / apart }
-    };
-    let irradiance: f64 = model.lights.iter().map(falling).sum();
-    let factor = PI / irradiance;
-    if factor.is_finite() && factor > 0.0 { factor } else { 1.0 }
 }

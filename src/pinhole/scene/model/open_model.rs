@@ -1,11 +1,13 @@
+use super::closed::is_closed;
+use super::image_found::{check_bytes, check_file, ending_of, found_beside};
 use crate::scene::{
-    EmbeddedFiles, FileKind, FileStore, MeshGeometry, SceneFolder, Undecoded, printable_path, read_file,
+    EmbeddedFiles, FileKind, FileStore, MeshGeometry, SceneFolder, Undecoded, printable, printable_path, read_file,
 };
 use bevy_ecs::prelude::*;
 use pinhole_models::{ImageSource, Model, read_model};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// The kind of file that a mesh names.
 pub const MODEL_FILE: FileKind = FileKind { name: "a model", most: 4 << 30 };
@@ -20,6 +22,8 @@ pub struct OpenModel {
     pub model: Model,
     /// Its meshes.
     pub geometry: Vec<MeshGeometry>,
+    /// Whether each mesh encloses an interior; asked only where it matters.
+    closed: Vec<OnceLock<bool>>,
     /// The path that it was read from.
     path: PathBuf,
 }
@@ -32,6 +36,15 @@ impl ModelFiles {
     /// The bytes of an image that a model file holds.
     pub fn find(scene: &World, file: &str) -> Option<Arc<[u8]>> {
         scene.get_resource::<Self>()?.0.get(file).cloned()
+    }
+
+    /// Keeps an image under the first name that no other image has: two models may have one name.
+    fn keep(&mut self, bytes: &Arc<[u8]>, name: impl Fn(usize) -> String) -> String {
+        let mut numbered = (1..).map(name);
+        let is_free = |name: &String| self.0.get(name).is_none_or(|other| other == bytes);
+        let name = numbered.find(is_free).unwrap_or_default();
+        self.0.insert(name.clone(), Arc::clone(bytes));
+        name
     }
 }
 
@@ -50,35 +63,77 @@ pub fn open_model(scene: &World, file: &str) -> Result<Arc<OpenModel>, String> {
 }
 
 fn read(path: &Path, bytes: &[u8]) -> Result<(OpenModel, usize), String> {
-    let beside = |name: &str| {
-        let path = path.parent().map_or_else(|| PathBuf::from(name), |folder| folder.join(name));
-        read_file(&path, MODEL_FILE).map_err(|error| error.to_string())
-    };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let beside = |name: &str| read_file(&found_beside(folder, name), MODEL_FILE).map_err(|error| error.to_string());
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let model = read_model(&name, bytes, &beside)
         .map_err(|problem| format!("{} cannot be read: {problem}", printable_path(path)))?;
-    let geometry = model.meshes.iter().map(|mesh| MeshGeometry::new(Arc::clone(mesh))).collect();
-    let size = model.meshes.iter().map(|mesh| mesh.bytes()).sum();
-    Ok((OpenModel { model, geometry, path: path.into() }, size))
+    let geometry: Vec<MeshGeometry> = model.meshes.iter().map(|mesh| MeshGeometry::new(Arc::clone(mesh))).collect();
+    let images = model.images.iter().map(|image| match &image.source {
+        ImageSource::Bytes(bytes) => bytes.len(),
+        ImageSource::File(_) => 0,
+    });
+    let size = model.meshes.iter().map(|mesh| mesh.bytes()).sum::<usize>() + images.sum::<usize>();
+    let closed = geometry.iter().map(|_| OnceLock::new()).collect();
+    Ok((OpenModel { model, geometry, closed, path: path.into() }, size))
 }
 
+/// Meshes of more triangles than this are not asked whether they are closed where only a remark depends on it.
+const MANY: usize = 200_000;
+
 impl OpenModel {
+    /// The meshes of a material.
+    fn meshes_of(&self, material: usize) -> impl Iterator<Item = usize> {
+        let own = self.model.instances.iter().filter(move |instance| instance.material == Some(material));
+        own.map(|instance| instance.mesh)
+    }
+
+    fn is_closed_mesh(&self, mesh: usize) -> bool {
+        *self.closed[mesh].get_or_init(|| is_closed(&self.model.meshes[mesh]))
+    }
+
+    /// Why there is nothing of it to see, as a clause: what it has in place of triangles.
+    pub fn nothing(&self) -> String {
+        let there = self.model.remarks.sentences();
+        if there.is_empty() {
+            return "it has no triangles".into();
+        }
+        let there: Vec<&str> = there.iter().map(|sentence| sentence.trim_end_matches('.')).collect();
+        format!("it has no triangles that could be drawn: {}", there.join("; "))
+    }
+
+    /// Whether every mesh of a material encloses an interior.
+    pub fn is_closed(&self, material: usize) -> bool {
+        self.meshes_of(material).all(|mesh| self.is_closed_mesh(mesh))
+    }
+
+    /// Whether some mesh of a material can be seen from behind.
+    pub fn is_open_somewhere(&self, material: usize) -> bool {
+        let is_large = |mesh: usize| self.model.meshes[mesh].triangles.len() > MANY;
+        self.meshes_of(material).any(|mesh| is_large(mesh) || !self.is_closed_mesh(mesh))
+    }
+
     /// The name by which a texture can name one of the model's images, which the scene then knows.
-    pub fn name_of_image(&self, scene: &mut World, image: usize) -> Option<String> {
-        let image = self.model.images.get(image).map(|own| (image, &own.source));
-        match image? {
-            (_, ImageSource::File(name)) => {
-                let path = self.path.parent().map_or_else(|| PathBuf::from(&**name), |folder| folder.join(&**name));
+    ///
+    /// Errors: why it cannot be read, with its name.
+    pub fn name_of_image(&self, scene: &mut World, image: usize) -> Result<String, String> {
+        let Some(own) = self.model.images.get(image) else { return Err("it is not in the model".into()) };
+        match &own.source {
+            ImageSource::File(name) => {
+                let path = found_beside(self.path.parent().unwrap_or(Path::new("")), name);
                 // Texture files are named relative to the scene's folder, and an absolute path stays as it is.
-                let absolute = std::path::absolute(&path).ok()?;
-                Some(absolute.to_string_lossy().into_owned())
+                let path = std::path::absolute(&path).unwrap_or(path);
+                check_file(&path).map_err(|why| format!("{}: {why}", printable_path(&path)))?;
+                Ok(path.to_string_lossy().into_owned())
             }
-            (number, ImageSource::Bytes(bytes)) => {
-                let ending = if bytes.starts_with(&[0xff, 0xd8]) { "jpg" } else { "png" };
+            ImageSource::Bytes(bytes) => {
                 let model = self.path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
-                let name = format!("{model}, image {number}.{ending}");
-                scene.get_resource_or_init::<ModelFiles>().0.insert(name.clone(), Arc::clone(bytes));
-                Some(name)
+                check_bytes(bytes).map_err(|why| format!("{}, image {image}: {why}", printable(&model, 80)))?;
+                let ending = ending_of(bytes);
+                Ok(scene.get_resource_or_init::<ModelFiles>().keep(bytes, |number| match number {
+                    1 => format!("{model}, image {image}.{ending}"),
+                    _ => format!("{model} ({number}), image {image}.{ending}"),
+                }))
             }
         }
     }

@@ -1,0 +1,150 @@
+//! The materials of a model, as components, and what of them has no counterpart here.
+
+use super::components_of::name;
+use super::material_notes::MaterialNotes;
+use super::open_model::OpenModel;
+use crate::scene::{
+    Degrees, EmissionMap, Emissive, Glass, ImageTexture, MetallicRoughnessMap, Name, NormalMap, Principled, Rgb,
+    RoughGlass, Sides, TextureBy, ThinGlass, UvTransform, Wrap, WrapMode,
+};
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use pinhole_models::{AlphaMode, ModelMaterial, ModelTexture, TextureWrap};
+
+/// The factor of roughness squared below which glass is smooth.
+const SMOOTH: f64 = 1e-3;
+/// The roughness above which a pane is seen to be frosted.
+const FROSTED: f64 = 0.1;
+/// The most that a surface of a model emits, well within what f32 holds.
+const BRIGHTEST: f64 = 1e30;
+/// The indices of refraction that glass may have, and those of a dielectric that lies over a diffuse base.
+const OF_GLASS: [f64; 2] = [1.0, 1000.0];
+const OF_DIELECTRICS: [f64; 2] = [1.0, 1e9];
+
+/// How light goes through a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Transmits {
+    /// Not at all.
+    Opaque,
+    /// Straight on, as through a window pane.
+    Thin,
+    /// Into an interior.
+    Solid,
+}
+
+/// How light goes through surfaces of a material, of meshes that enclose an interior or do not.
+///
+/// What is metal lets no light through, and the rest as much as the material says; more than half counts as all.
+fn transmits(own: &ModelMaterial, is_closed: impl FnOnce() -> bool) -> Transmits {
+    // An image of metallic is one of the parts that are no glass.
+    let metallic = if own.metallic_roughness_texture.is_some() { 0.0 } else { own.metallic };
+    match own.transmission * (1.0 - metallic) > 0.5 {
+        false => Transmits::Opaque,
+        true if own.thin || !is_closed() => Transmits::Thin,
+        true => Transmits::Solid,
+    }
+}
+
+/// Spawns a material of a model, and counts what of it is left out.
+pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize, notes: &mut MaterialNotes) -> Entity {
+    let Some(own) = model.model.materials.get(material).cloned() else {
+        let grey = Principled { base_colour: Rgb::grey(0.8), metallic: 0.0, roughness: 0.5, ..Principled::default() };
+        return scene.spawn((grey, Name::new("default material"))).id();
+    };
+    let [r, g, b] = own.base_colour;
+    let base_colour = Rgb::new(r, g, b);
+    // 0 stands for a dielectric that reflects all light.
+    let ior = |[least, most]: [f64; 2]| if own.ior == 0.0 { most } else { own.ior.clamp(least, most) };
+    let transmits = transmits(&own, || model.is_closed(material));
+    let alpha = own.roughness * own.roughness;
+    let entity = match transmits {
+        Transmits::Opaque => {
+            let ior = ior(OF_DIELECTRICS);
+            scene.spawn(Principled { base_colour, metallic: own.metallic, roughness: own.roughness, ior }).id()
+        }
+        Transmits::Thin => {
+            notes.open_glass += usize::from(!own.thin);
+            notes.frosted += usize::from(own.roughness > FROSTED);
+            scene.spawn(ThinGlass { ior: ior(OF_GLASS), colour: base_colour }).id()
+        }
+        Transmits::Solid => {
+            notes.tinted += usize::from(own.base_colour != [1.0; 3]);
+            let [r, g, b] = own.absorption;
+            let (ior, absorption) = (ior(OF_GLASS), Rgb::new(r, g, b));
+            if alpha < SMOOTH {
+                scene.spawn(Glass { ior, absorption, ..Glass::default() }).id()
+            } else {
+                scene.spawn(RoughGlass { ior, roughness: alpha, absorption, ..RoughGlass::default() }).id()
+            }
+        }
+    };
+    name(scene, entity, &own.name);
+    remark(&own, transmits, model.is_open_somewhere(material), notes);
+    let mut named = |scene: &mut World, texture: Option<ModelTexture>| {
+        let texture = texture?;
+        match model.name_of_image(scene, texture.image) {
+            Ok(file) => Some((file, wrap_of(texture.wrap), transform_of(&texture), !texture.nearest)),
+            Err(why) => {
+                notes.missing_images.insert(why);
+                None
+            }
+        }
+    };
+    if own.emission != [0.0; 3] {
+        let [r, g, b] = own.emission.map(|part| part.min(BRIGHTEST));
+        let map = named(scene, own.emission_texture);
+        // Without its image, mostly black as a rule, all of the surface would shine.
+        if map.is_some() || own.emission_texture.is_none() {
+            let sides = if own.double_sided { Sides::Both } else { Sides::Front };
+            scene.entity_mut(entity).insert(Emissive { radiance: Rgb::new(r, g, b), sides });
+        }
+        if let Some((file, wrap, transform, filter)) = map {
+            scene.entity_mut(entity).insert(EmissionMap { file, size: 1.0, wrap, transform, filter });
+        }
+    }
+    if let Some((file, wrap, transform, _)) = named(scene, own.normal_texture) {
+        let scale = if own.normal_scale.is_finite() { own.normal_scale } else { 1.0 };
+        scene.entity_mut(entity).insert(NormalMap { file, scale, size: 1.0, wrap, transform });
+    }
+    if transmits != Transmits::Opaque {
+        return entity;
+    }
+    if let Some((file, wrap, transform, filter)) = named(scene, own.base_colour_texture) {
+        scene.entity_mut(entity).insert(ImageTexture { file, size: 1.0, by: TextureBy::Uv, wrap, transform, filter });
+    }
+    if let Some((file, wrap, transform, filter)) = named(scene, own.metallic_roughness_texture) {
+        scene.entity_mut(entity).insert(MetallicRoughnessMap { file, size: 1.0, wrap, transform, filter });
+    }
+    entity
+}
+
+/// Counts what a material says and its components do not.
+fn remark(own: &ModelMaterial, transmits: Transmits, is_open: bool, notes: &mut MaterialNotes) {
+    let has_alpha = own.alpha < 1.0 || own.base_colour_texture.is_some();
+    match own.alpha_mode {
+        AlphaMode::Mask { cutoff } if has_alpha && cutoff > 0.0 => notes.masked += 1,
+        AlphaMode::Blend if has_alpha => notes.blended += 1,
+        _ => {}
+    }
+    notes.seen_from_behind += usize::from(!own.double_sided && is_open);
+    notes.in_part += usize::from(own.transmission > 0.0 && own.transmission < 1.0 && own.metallic < 1.0);
+    if transmits == Transmits::Opaque {
+        return;
+    }
+    notes.glass_colours += usize::from(own.base_colour_texture.is_some());
+    notes.glass_roughnesses += usize::from(own.metallic_roughness_texture.is_some());
+}
+
+fn wrap_of(axes: [TextureWrap; 2]) -> Wrap {
+    let mode = |wrap| match wrap {
+        TextureWrap::Repeat => WrapMode::Repeat,
+        TextureWrap::Clamp => WrapMode::Clamp,
+        TextureWrap::Mirror => WrapMode::Mirror,
+    };
+    axes.map(mode).into()
+}
+
+fn transform_of(texture: &ModelTexture) -> UvTransform {
+    let ModelTexture { offset, rotation, scale, .. } = *texture;
+    UvTransform { offset: offset.into(), rotation: Degrees(rotation.to_degrees()), scale: DVec2::from(scale) }
+}

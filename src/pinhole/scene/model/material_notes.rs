@@ -1,0 +1,88 @@
+use std::collections::BTreeSet;
+
+/// What the materials of a model say and its picture does not show, counted.
+#[derive(Debug, Default)]
+pub struct MaterialNotes {
+    /// Those that are cut out by an alpha mask.
+    pub masked: usize,
+    /// Those that are see-through by their alpha.
+    pub blended: usize,
+    /// Those that are meant to be seen from one side, of meshes that can be seen from the other.
+    pub seen_from_behind: usize,
+    /// Those that transmit a part of the light that enters.
+    pub in_part: usize,
+    /// Glass with an interior whose meshes are open.
+    pub open_glass: usize,
+    /// Panes that are rough.
+    pub frosted: usize,
+    /// Glass with an interior and a base colour.
+    pub tinted: usize,
+    /// Glass with a texture of colour.
+    pub glass_colours: usize,
+    /// Glass with a texture of roughness.
+    pub glass_roughnesses: usize,
+    /// Why images were replaced, one clause each.
+    pub missing_images: BTreeSet<String>,
+}
+
+/// How many missing images are named.
+const NAMED: usize = 8;
+
+impl MaterialNotes {
+    /// What there is to say, in one sentence each.
+    pub fn sentences(&self) -> Vec<String> {
+        let counted = [
+            (self.masked, "is cut out by its alpha (alphaMode MASK)", "are cut out by their alpha (alphaMode MASK)", OPAQUE),
+            (self.blended, "is see-through by its alpha (alphaMode BLEND)", "are see-through by their alpha (alphaMode BLEND)", OPAQUE),
+            (
+                self.seen_from_behind,
+                "is single-sided (doubleSided is false)",
+                "are single-sided (doubleSided is false)",
+                "the back, which the file wants left out, is seen",
+            ),
+            (
+                self.in_part,
+                "transmits a part of the light",
+                "transmit a part of the light",
+                "more than half of it counts as all, and less as nothing",
+            ),
+            (
+                self.open_glass,
+                "is glass with a thickness on an open mesh",
+                "are glass with a thickness on open meshes",
+                "drawn as a thin pane, for an open mesh has no interior",
+            ),
+            (self.frosted, "is thin rough glass", "are thin rough glass", "drawn clear"),
+            (
+                self.tinted,
+                "is solid glass with a base colour",
+                "are solid glass with a base colour",
+                "the colour is left out, for only absorption tints solid glass",
+            ),
+            (self.glass_colours, "of glass has a texture of colour", "of glass have a texture of colour", LEFT_OUT),
+            (
+                self.glass_roughnesses,
+                "of glass has a texture of metallic and roughness",
+                "of glass have a texture of metallic and roughness",
+                LEFT_OUT,
+            ),
+        ];
+        let mut sentences: Vec<String> = counted
+            .into_iter()
+            .filter(|(count, ..)| *count > 0)
+            .map(|(count, one, many, here)| match count {
+                1 => format!("1 material {one}: {here}."),
+                _ => format!("{count} materials {many}: {here}."),
+            })
+            .collect();
+        sentences.extend(self.missing_images.iter().take(NAMED).map(|why| format!("An image is replaced by the material's own numbers: {why}.")));
+        let more = self.missing_images.len().saturating_sub(NAMED);
+        if more > 0 {
+            sentences.push(format!("{more} more images are replaced by their materials' own numbers."));
+        }
+        sentences
+    }
+}
+
+const OPAQUE: &str = "drawn opaque";
+const LEFT_OUT: &str = "left out";
