@@ -25,4 +25,5 @@ mod shapes;
 mod stages;
 mod textures;
 mod ties;
+mod whole_models;
 mod words;

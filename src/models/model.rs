@@ -43,6 +43,8 @@ pub struct ModelCamera {
     pub name: Arc<str>,
     /// How it projects.
     pub projection: Projection,
+    /// The distances before which and beyond which it is meant to see nothing.
+    pub clip: [f64; 2],
     /// The matrix that takes its own space to the world.
     pub world_from_camera: DAffine3,
 }

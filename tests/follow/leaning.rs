@@ -25,7 +25,12 @@ pub const MATERIALS: &[(&str, fn(&mut EntityWorldMut<'_>))] = &[
         _ = thing.insert(Metal { colour: Rgb::grey(0.9), roughness: 1.0, multiple_scattering: true });
     }),
     ("principled", |thing| {
-        _ = thing.insert(Principled { base_colour: Rgb::grey(0.8), metallic: 0.3, roughness: 0.7, ..Principled::default() });
+        _ = thing.insert(Principled {
+            base_colour: Rgb::grey(0.8),
+            metallic: 0.3,
+            roughness: 0.7,
+            ..Principled::default()
+        });
     }),
 ];
 

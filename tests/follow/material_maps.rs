@@ -132,7 +132,12 @@ fn maps_of_one_change_no_bit() {
             light.insert(EmissionMap { file: white.clone(), ..EmissionMap::default() });
         }
         for (x, filter) in [(-1.5, false), (1.5, true)] {
-            let own = Principled { base_colour: Rgb::new(0.9, 0.7, 0.4), metallic: 0.75, roughness: 1.0, ..Principled::default() };
+            let own = Principled {
+                base_colour: Rgb::new(0.9, 0.7, 0.4),
+                metallic: 0.75,
+                roughness: 1.0,
+                ..Principled::default()
+            };
             let mut floor = world.spawn((Rectangle { width: 3.0, depth: 6.0 }, Placement::at(x, 0.0, 0.0), own));
             if worn {
                 floor.insert(MetallicRoughnessMap { file: white.clone(), filter, ..MetallicRoughnessMap::default() });

@@ -84,7 +84,8 @@ fn in_a_white_furnace_no_block_is_brighter_than_the_sky() {
     write_map(&file, 16, bumpy);
     let white = Rgb::grey(1.0);
     let metal = |roughness| Metal { colour: white, roughness, multiple_scattering: true };
-    let principled = |metallic, roughness| Principled { base_colour: white, metallic, roughness, ..Principled::default() };
+    let principled =
+        |metallic, roughness| Principled { base_colour: white, metallic, roughness, ..Principled::default() };
     // The same image of numbers from 0 to 1, as metallic and roughness.
     let by_image = MetallicRoughnessMap { file: file.to_string_lossy().into_owned(), size: 0.3, ..Default::default() };
     let furnaces: [(&str, World); 9] = [

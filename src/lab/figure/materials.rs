@@ -46,7 +46,12 @@ pub fn draw_rough_glass(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 /// The three balls as dielectric, as a mixture, and as metal, each rougher from left to right.
 pub fn draw_principled(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let of = |metallic: f64, line: &str| {
-        let material = |roughness| Principled { base_colour: Rgb::new(0.9, 0.35, 0.15), metallic, roughness, ..Principled::default() };
+        let material = |roughness| Principled {
+            base_colour: Rgb::new(0.9, 0.35, 0.15),
+            metallic,
+            roughness,
+            ..Principled::default()
+        };
         let balls = [("smooth ball", 0.1), ("brushed ball", 0.4), ("rough ball", 0.8)];
         let materials = balls.map(|(name, roughness)| (name, material(roughness)));
         exhibit(chapter, &materials, [format!("metallic {metallic}"), line.into()])

@@ -16,7 +16,6 @@ pub fn camera(
     document: &Document<'_>,
     node: &Object<'_>,
     world_from_camera: DAffine3,
-    remarks: &mut Remarks,
 ) -> Result<Option<ModelCamera>, ModelError> {
     let index = node.index("camera", document.rows(Table::Cameras))?;
     let Some(camera) = index.map(|index| document.row(Table::Cameras, index)).transpose()? else { return Ok(None) };
@@ -47,10 +46,9 @@ pub fn camera(
             return Err(camera.refused("type", shown(other), accepted));
         }
     };
-    let own = camera.object(kind)?;
-    let clips = own.is_some_and(|own| own.get("znear").is_some() || own.get("zfar").is_some());
-    remarks.add_unread("the clip planes of cameras", u64::from(clips));
-    Ok(Some(ModelCamera { name: name_of(node, &camera)?.into(), projection, world_from_camera }))
+    let own = camera.needed(kind, camera.object(kind)?)?;
+    let clip = [own.number("znear")?.unwrap_or(0.0), own.number("zfar")?.unwrap_or(f64::INFINITY)];
+    Ok(Some(ModelCamera { name: name_of(node, &camera)?.into(), projection, clip, world_from_camera }))
 }
 
 /// The light of a node, if it has one.
@@ -119,6 +117,7 @@ mod tests {
         assert_eq!(cameras[0].world_from_camera.translation, DVec3::new(1.0, 2.0, 3.0));
         assert_eq!(cameras[1].projection, Projection::Orthographic { xmag: 3.0, ymag: 4.0 });
         assert_eq!((&*cameras[0].name, &*cameras[1].name), ("wide", "side"));
+        assert_eq!([cameras[0].clip, cameras[1].clip], [[0.1, f64::INFINITY], [0.0, 1.0]]);
     }
 
     #[test]

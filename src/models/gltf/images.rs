@@ -173,3 +173,71 @@ fn coordinates(info: &Object<'_>) -> Result<(u64, ModelTexture), ModelError> {
     };
     Ok((own.whole("texCoord")?.unwrap_or(set), changed))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::written::{data, mesh, read};
+    use crate::{ImageSource, TextureWrap};
+
+    #[test]
+    fn images_are_there_once() {
+        let images = "'images':[{'uri':'a%20b.png'},{'uri':'./a b.png'}],'textures':[{'source':0},{'source':1}]";
+        let material = "'pbrMetallicRoughness':{'baseColorTexture':{'index':0}},'emissiveTexture':{'index':1}";
+        let file = format!("{},{images},'materials':[{{{material}}}]", mesh("{'attributes':{'POSITION':0}}"));
+        let model = read(&file).expect("read");
+        assert_eq!(model.images.len(), 1);
+        let uri = data(b"\x89PNG");
+        let embedded = format!(
+            "'images':[{{'uri':'{uri}'}}],'textures':[{{'source':0}}],'materials':[{{'emissiveTexture':{{'index':0}}}}]"
+        );
+        let images = read(&embedded).expect("read").images;
+        assert_eq!(images[0].source, ImageSource::Bytes(b"\x89PNG"[..].into()));
+    }
+
+    /// The material with its factors, and a sentence.
+    #[test]
+    fn what_is_merely_odd_is_read_and_said() {
+        let said = |fields: &str| {
+            let model = read(fields).expect("read");
+            assert_eq!(model.materials.len(), 1);
+            (model.materials[0].normal_texture, model.remarks.sentences().join(" "))
+        };
+        let with = |images: &str, more: &str| {
+            said(&format!(
+                "'images':[{{{images}}}],'textures':[{{'source':0{more}}}],\
+                 'materials':[{{'normalTexture':{{'index':0}},'alphaMode':'GLASS'}}],'bufferViews':[{{}}]"
+            ))
+        };
+        let mode = "the alphaMode \"GLASS\", which is none (1).";
+        for (images, place) in
+            [("", "images[0].uri"), ("'bufferView':0", "bufferViews[0].buffer"), ("'uri':'data:x'", "images[0].uri")]
+        {
+            let (texture, sentence) = with(images, "");
+            assert_eq!(texture, None, "{images}");
+            assert_eq!(sentence, format!("Not read: {place}, which cannot be an image's (1), {mode}"));
+        }
+        let odd = "'uri':'x'}],'samplers':[{'wrapS':1,'minFilter':9729}],'images':[{'uri':'x'";
+        let (texture, sentence) = with(odd, ",'sampler':0");
+        assert_eq!(texture.map(|texture| texture.wrap), Some([TextureWrap::Repeat; 2]));
+        let unread = "Not read: the wrapS 1, which is none (1), minification filters (1), ";
+        assert_eq!(sentence, format!("{unread}{mode}"));
+    }
+
+    #[test]
+    fn the_same_bytes_are_one_image_however_many_views_there_are() {
+        let views: Vec<String> = (0..24).map(|_| "{'buffer':0,'byteLength':8}".into()).collect();
+        let images: Vec<String> = (0..24).map(|view| format!("{{'bufferView':{view}}}")).collect();
+        let textures: Vec<String> = (0..24).map(|image| format!("{{'source':{image}}}")).collect();
+        let materials: Vec<String> =
+            (0..24).map(|texture| format!("{{'emissiveTexture':{{'index':{texture}}}}}")).collect();
+        let model = read(&format!(
+            "'buffers':[{{'uri':'{}','byteLength':8}}],'bufferViews':[{}],'images':[{}],'textures':[{}],'materials':[{}]",
+            data(b"\x89PNG\r\n\x1a\n"),
+            views.join(","),
+            images.join(","),
+            textures.join(","),
+            materials.join(",")
+        ));
+        assert_eq!(model.expect("read").images.len(), 1);
+    }
+}

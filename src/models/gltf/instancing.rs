@@ -76,9 +76,10 @@ mod tests {
         let uneven = "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.count is 3, but every attribute of the \
                       instances must have as many rows, and the first has 4";
         // The second accessor is that of the scales.
-        let (head, tail) = with("'TRANSLATION':0,'SCALE':1").split_once("'count':4").map_or_else(Default::default, |at| {
-            (format!("{}'count':4", at.0), at.1.replacen("'count':4", "'count':3", 1))
-        });
+        let (head, tail) =
+            with("'TRANSLATION':0,'SCALE':1").split_once("'count':4").map_or_else(Default::default, |at| {
+                (format!("{}'count':4", at.0), at.1.replacen("'count':4", "'count':3", 1))
+            });
         assert_eq!(refused(&format!("{head}{tail}")), uneven);
     }
 }

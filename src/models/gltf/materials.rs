@@ -163,7 +163,7 @@ fn alpha_mode(object: &Object<'_>, remarks: &mut Remarks) -> Result<AlphaMode, M
 
 #[cfg(test)]
 mod tests {
-    use crate::written::{data, mesh, read, refused};
+    use crate::written::{mesh, read, refused};
     use crate::{AlphaMode, ImageSource, Model, ModelMaterial, ModelTexture, TextureWrap};
 
     const IMAGES: &str = "'images':[{'uri':'a%20b.png'},{'uri':'a b.png','name':'again'},{'bufferView':0},\
@@ -215,18 +215,6 @@ mod tests {
     }
 
     #[test]
-    fn images_are_there_once() {
-        let model = model("'pbrMetallicRoughness':{'baseColorTexture':{'index':0}},'emissiveTexture':{'index':1}");
-        assert_eq!(model.images.len(), 1);
-        let uri = data(b"\x89PNG");
-        let embedded = format!(
-            "'images':[{{'uri':'{uri}'}}],'textures':[{{'source':0}}],'materials':[{{'emissiveTexture':{{'index':0}}}}]"
-        );
-        let images = read(&embedded).expect("read").images;
-        assert_eq!(images[0].source, ImageSource::Bytes(b"\x89PNG"[..].into()));
-    }
-
-    #[test]
     fn numbers_out_of_range_are_clamped_and_counted() {
         let model = model(
             "'pbrMetallicRoughness':{'baseColorFactor':[2,-1,0.5,3],'metallicFactor':-1,'roughnessFactor':7},\
@@ -274,7 +262,8 @@ mod tests {
     #[test]
     fn textures_transform_their_coordinates() {
         let textured = |transforms: [&str; 2]| {
-            let of = |own: &str| format!("{{'index':0,'texCoord':7,'extensions':{{'KHR_texture_transform':{{{own}}}}}}}");
+            let of =
+                |own: &str| format!("{{'index':0,'texCoord':7,'extensions':{{'KHR_texture_transform':{{{own}}}}}}}");
             let material = format!("'normalTexture':{},'emissiveTexture':{}", of(transforms[0]), of(transforms[1]));
             let primitive = "{'attributes':{'POSITION':0,'TEXCOORD_1':2},'indices':3,'material':0}";
             read(&format!("{},{IMAGES},'materials':[{{{material}}}]", mesh(primitive))).expect("read")
@@ -300,53 +289,6 @@ mod tests {
         let colour =
             "materials[0].pbrMetallicRoughness.baseColorFactor is a list of 3, but it must be a list of 4 numbers";
         assert_eq!(refusal("'pbrMetallicRoughness':{'baseColorFactor':[1,1,1]}"), colour);
-    }
-
-    /// The material with its factors, and a sentence.
-    #[test]
-    fn what_is_merely_odd_is_read_and_said() {
-        let said = |fields: &str| {
-            let model = read(fields).expect("read");
-            assert_eq!(model.materials.len(), 1);
-            (model.materials[0].normal_texture, model.remarks.sentences().join(" "))
-        };
-        let with = |images: &str, more: &str| {
-            said(&format!(
-                "'images':[{{{images}}}],'textures':[{{'source':0{more}}}],\
-                 'materials':[{{'normalTexture':{{'index':0}},'alphaMode':'GLASS'}}],'bufferViews':[{{}}]"
-            ))
-        };
-        let mode = "the alphaMode \"GLASS\", which is none (1).";
-        for (images, place) in
-            [("", "images[0].uri"), ("'bufferView':0", "bufferViews[0].buffer"), ("'uri':'data:x'", "images[0].uri")]
-        {
-            let (texture, sentence) = with(images, "");
-            assert_eq!(texture, None, "{images}");
-            assert_eq!(sentence, format!("Not read: {place}, which cannot be an image's (1), {mode}"));
-        }
-        let odd = "'uri':'x'}],'samplers':[{'wrapS':1,'minFilter':9729}],'images':[{'uri':'x'";
-        let (texture, sentence) = with(odd, ",'sampler':0");
-        assert_eq!(texture.map(|texture| texture.wrap), Some([TextureWrap::Repeat; 2]));
-        let unread = "Not read: the wrapS 1, which is none (1), minification filters (1), ";
-        assert_eq!(sentence, format!("{unread}{mode}"));
-    }
-
-    #[test]
-    fn the_same_bytes_are_one_image_however_many_views_there_are() {
-        let views: Vec<String> = (0..24).map(|_| "{'buffer':0,'byteLength':8}".into()).collect();
-        let images: Vec<String> = (0..24).map(|view| format!("{{'bufferView':{view}}}")).collect();
-        let textures: Vec<String> = (0..24).map(|image| format!("{{'source':{image}}}")).collect();
-        let materials: Vec<String> =
-            (0..24).map(|texture| format!("{{'emissiveTexture':{{'index':{texture}}}}}")).collect();
-        let model = read(&format!(
-            "'buffers':[{{'uri':'{}','byteLength':8}}],'bufferViews':[{}],'images':[{}],'textures':[{}],'materials':[{}]",
-            data(b"\x89PNG\r\n\x1a\n"),
-            views.join(","),
-            images.join(","),
-            textures.join(","),
-            materials.join(",")
-        ));
-        assert_eq!(model.expect("read").images.len(), 1);
     }
 
     /// With a thickness it is filled with what the attenuation colour is left of; without, it is a thin sheet.

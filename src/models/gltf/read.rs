@@ -110,7 +110,7 @@ impl<'a> Scene<'a> {
                     self.place_mesh(name.into(), Some(&node), mesh, &solid)?;
                 }
             }
-            self.model.cameras.extend(camera(document, &node, world, &mut self.model.remarks)?);
+            self.model.cameras.extend(camera(document, &node, world)?);
             self.model.lights.extend(light(document, &node, world, &mut self.model.remarks)?);
         }
         Ok(())
@@ -152,12 +152,7 @@ impl<'a> Scene<'a> {
         Ok(())
     }
 
-    fn parts_of(
-        &mut self,
-        mesh: &Object<'a>,
-        skin: Option<usize>,
-        weights: &[f64],
-    ) -> Result<Vec<Part>, ModelError> {
+    fn parts_of(&mut self, mesh: &Object<'a>, skin: Option<usize>, weights: &[f64]) -> Result<Vec<Part>, ModelError> {
         let mut parts = Vec::new();
         for (number, json) in mesh.list("primitives")?.iter().enumerate() {
             let primitive = mesh.item("primitives", number, json)?;

@@ -113,9 +113,13 @@ mod tests {
         let accessor = |view: usize, component: usize, count: usize, kind: &str| {
             format!("{{'bufferView':{view},'componentType':{component},'count':{count},'type':'{kind}'}}")
         };
-        let accessors =
-            [accessor(0, 5126, 3, "VEC3"), accessor(1, 5126, 3, "VEC4"), accessor(2, 5121, 3, "VEC4"), accessor(3, 5126, 2, "MAT4")]
-                .join(",");
+        let accessors = [
+            accessor(0, 5126, 3, "VEC3"),
+            accessor(1, 5126, 3, "VEC4"),
+            accessor(2, 5121, 3, "VEC4"),
+            accessor(3, 5126, 2, "MAT4"),
+        ]
+        .join(",");
         let attributes = "'attributes':{'POSITION':0,'WEIGHTS_0':1,'JOINTS_0':2}";
         read(&format!(
             "'buffers':[{{'byteLength':224,'uri':'{}'}}],'bufferViews':[{views}],'accessors':[{accessors}],\

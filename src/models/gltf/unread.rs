@@ -7,11 +7,7 @@ use crate::remarks::Remarks;
 use std::collections::BTreeSet;
 
 /// Notes the extensions and the tables of a file that are not read.
-pub fn remark_unread<'a>(
-    document: &Document<'a>,
-    json: &'a Json<'a>,
-    remarks: &mut Remarks,
-) -> Result<(), ModelError> {
+pub fn remark_unread<'a>(document: &Document<'a>, json: &'a Json<'a>, remarks: &mut Remarks) -> Result<(), ModelError> {
     let required: BTreeSet<&str> = texts(document.root.list("extensionsRequired")?).collect();
     let mut say = |name: &str| {
         let why = if required.contains(name) { ", which the file requires" } else { "" };

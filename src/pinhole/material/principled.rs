@@ -57,8 +57,7 @@ impl PrincipledTable {
     /// The surface of a row without an image of metallic and roughness.
     #[inline(always)]
     fn own(&self, site: &Site) -> Surface<&EnergyTable> {
-        let (metallic, alpha, dielectric) =
-            (self.metallic[site.row], self.alpha[site.row], self.dielectric[site.row]);
+        let (metallic, alpha, dielectric) = (self.metallic[site.row], self.alpha[site.row], self.dielectric[site.row]);
         let energy = &self.energy[self.energy_of[site.row] as usize];
         Surface { colour: site.colour, metallic, alpha, dielectric, energy }
     }

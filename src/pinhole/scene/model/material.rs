@@ -126,9 +126,9 @@ fn remark(own: &ModelMaterial, transmits: Transmits, is_open: bool, notes: &mut 
         AlphaMode::Blend if has_alpha => notes.blended += 1,
         _ => {}
     }
-    notes.seen_from_behind += usize::from(!own.double_sided && is_open);
     notes.in_part += usize::from(own.transmission > 0.0 && own.transmission < 1.0 && own.metallic < 1.0);
     if transmits == Transmits::Opaque {
+        notes.seen_from_behind += usize::from(!own.double_sided && is_open);
         return;
     }
     notes.glass_colours += usize::from(own.base_colour_texture.is_some());

@@ -32,8 +32,18 @@ impl MaterialNotes {
     /// What there is to say, in one sentence each.
     pub fn sentences(&self) -> Vec<String> {
         let counted = [
-            (self.masked, "is cut out by its alpha (alphaMode MASK)", "are cut out by their alpha (alphaMode MASK)", OPAQUE),
-            (self.blended, "is see-through by its alpha (alphaMode BLEND)", "are see-through by their alpha (alphaMode BLEND)", OPAQUE),
+            (
+                self.masked,
+                "is cut out by its alpha (alphaMode MASK)",
+                "are cut out by their alpha (alphaMode MASK)",
+                OPAQUE,
+            ),
+            (
+                self.blended,
+                "is see-through by its alpha (alphaMode BLEND)",
+                "are see-through by their alpha (alphaMode BLEND)",
+                OPAQUE,
+            ),
             (
                 self.seen_from_behind,
                 "is single-sided (doubleSided is false)",
@@ -75,7 +85,12 @@ impl MaterialNotes {
                 _ => format!("{count} materials {many}: {here}."),
             })
             .collect();
-        sentences.extend(self.missing_images.iter().take(NAMED).map(|why| format!("An image is replaced by the material's own numbers: {why}.")));
+        sentences.extend(
+            self.missing_images
+                .iter()
+                .take(NAMED)
+                .map(|why| format!("An image is replaced by the material's own numbers: {why}.")),
+        );
         let more = self.missing_images.len().saturating_sub(NAMED);
         if more > 0 {
             sentences.push(format!("{more} more images are replaced by their materials' own numbers."));

@@ -63,6 +63,9 @@ impl ModelScene {
             1 => {}
             count => said.push(format!("it has {count} cameras: the first is used")),
         }
+        if is_clipped(&model.model) {
+            said.push("its camera is meant to see nothing too near or too far (znear, zfar), but here it does".into());
+        }
         if !model.model.lights.is_empty() {
             let factor = exposure(&model.model);
             said.push(format!(
@@ -93,7 +96,8 @@ impl ModelScene {
             scene.spawn((Name::new("fitted camera"), fitted, looks)).id()
         });
         let sampling = Sampling { samples: 16, ..Sampling::default() };
-        let resolution = open.as_ref().map_or_else(|_| resolution_of(None), |open| resolution_of(aspect_of(&open.model)));
+        let resolution =
+            open.as_ref().map_or_else(|_| resolution_of(None), |open| resolution_of(aspect_of(&open.model)));
         scene.entity_mut(camera).insert((resolution, sampling, Integrator::PATH));
         if let Ok(open) = &open {
             let exposure = exposure(&open.model);
@@ -131,10 +135,21 @@ fn aspect_of(model: &Model) -> Option<f64> {
     }
 }
 
+/// Whether the clip planes of the file's first camera would leave out some vertex before it.
+fn is_clipped(model: &Model) -> bool {
+    let Some(camera) = model.cameras.first() else { return false };
+    let matrix = camera.world_from_camera;
+    let ahead = -matrix.z_axis.normalize_or_zero();
+    let [near, far] = camera.clip;
+    let mut depths = vertices(model).map(|at| (at - matrix.translation).dot(ahead));
+    depths.any(|depth| depth > 0.0 && (depth < near || depth > far))
+}
+
 /// A picture of 640 × 360 pixels, or of about as many with another aspect ratio.
 fn resolution_of(aspect: Option<f64>) -> Resolution {
     let [width, height] = [640.0, 360.0_f64];
-    let aspect = aspect.filter(|aspect| aspect.is_finite()).map(|aspect| aspect.clamp(MOST_OBLONG.recip(), MOST_OBLONG));
+    let aspect =
+        aspect.filter(|aspect| aspect.is_finite()).map(|aspect| aspect.clamp(MOST_OBLONG.recip(), MOST_OBLONG));
     let [width, height] = aspect.map_or([width, height], |aspect| {
         let across = (width * height * aspect).sqrt();
         [across, across / aspect]
