@@ -67,10 +67,11 @@ impl<'c> Subject<'c> {
                 }
                 Ok(Self::File { file, typed })
             }
-            Self::Model { typed, .. } => {
-                let what =
-                    format!("{typed} is a model file, which has no values to set: `export` makes a scene file of it");
-                Err(Error::CommandLine(what))
+            Self::Model { mut model, typed } => {
+                for setting in settings {
+                    model = exposed(model, &typed, setting)?;
+                }
+                Ok(Self::Model { model, typed })
             }
         }
     }
@@ -151,6 +152,24 @@ impl<'c> Subject<'c> {
             _ => return error.into(),
         };
         FileProblem { path: file.path.clone(), place, what: in_words_of_files(&error.to_string()) }.into()
+    }
+}
+
+/// A model whose light is multiplied by what a setting says, which is the only one that model files have.
+fn exposed(model: ModelScene, typed: &str, setting: &str) -> Result<ModelScene> {
+    let Some(written) = setting.trim().strip_prefix("exposure=") else {
+        let what = format!(
+            "{typed} is a model file, which has no value to set but its exposure, as in exposure=1: `export` makes a scene \
+             file of it"
+        );
+        return Err(Error::CommandLine(what));
+    };
+    match written.trim().parse::<f64>() {
+        Ok(factor) if (1e-30..=1e30).contains(&factor) => Ok(model.with_exposure(factor)),
+        _ => {
+            let written = find::shown(written.as_ref());
+            Err(Error::CommandLine(format!("the exposure is {written}, but it must be a number from 1e-30 to 1e30")))
+        }
     }
 }
 

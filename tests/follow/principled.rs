@@ -2,6 +2,7 @@
 
 use super::*;
 use pinhole::material::{ByCosine, ggx_brdf, ggx_sample, multiple_scattering_albedo, single_scattering};
+use pinhole::plan::Table;
 use std::f64::consts::FRAC_1_PI;
 
 const DIELECTRIC: f64 = 0.04;
@@ -27,6 +28,33 @@ fn evaluated(grey: f64, metallic: f64, roughness: f64, [light, eye]: [DVec3; 2])
     let census = Census::of(&world);
     let table = census.table::<PrincipledTable>().expect("a table");
     Bsdf::eval(&*table, &Site::opaque(0, [grey; 3]), light, eye)[1]
+}
+
+/// Of a black base only specular reflection is left, which at normal incidence is ((n − 1)/(n + 1))².
+#[test]
+fn a_principled_dielectric_reflects_by_its_index() {
+    let up = DVec3::Z;
+    for (ior, expected) in [(1.0, 0.0), (1.5, 0.04), (2.0, 1.0 / 9.0), (2.5, 9.0 / 49.0), (1e9, 1.0)] {
+        let mut world = World::new();
+        world.spawn(Principled { base_colour: Rgb::BLACK, metallic: 0.0, roughness: 0.1, ior });
+        let table = Census::of(&world).table::<PrincipledTable>().expect("a table");
+        let reflected = Bsdf::eval(&*table, &Site::opaque(0, [0.0; 3]), up, up)[1] / ggx_brdf(up, up, 0.01);
+        assert!((reflected - expected).abs() < 1e-3, "{ior}: {reflected} for {expected}");
+    }
+}
+
+/// A thousand materials that are equally rough take little more than one.
+#[test]
+fn equal_roughnesses_share_what_is_tabulated() {
+    let bytes = |roughness: &dyn Fn(u32) -> f64| {
+        let mut world = World::new();
+        for number in 0..100 {
+            world.spawn(Principled { roughness: roughness(number), ..Principled::default() });
+        }
+        Table::bytes(&*Census::of(&world).table::<PrincipledTable>().expect("a table"))
+    };
+    let [alike, different] = [bytes(&|_| 0.5), bytes(&|number| 0.2 + 0.005 * f64::from(number))];
+    assert!(10 * alike < different, "{alike} and {different}");
 }
 
 /// What single scattering loses is scattered again, with the average of Schlick's reflectance.

@@ -152,3 +152,17 @@ fn a_camera_s_aspect_ratio_is_that_of_the_picture() {
     assert_eq!([size(None), size(Some(16.0 / 9.0)), size(Some(1.0))], [[640, 360], [640, 360], [480, 480]]);
     assert_eq!(size(Some(0.25)), [240, 960]);
 }
+
+/// Whoever wants the file's own numbers gets them.
+#[test]
+fn a_model_s_exposure_can_be_chosen() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = write(folder.path(), "m.gltf", &base());
+    let model = ModelScene::open(&path).expect("read").with_exposure(1.0);
+    let mut world = model.world();
+    let light = world.query::<&PointLight>().iter(&world).next().expect("a light").intensity;
+    let shines = world.query::<&Emissive>().iter(&world).next().expect("emission").radiance;
+    assert_eq!((light, shines), (Rgb::grey(50.0), Rgb::new(0.1, 0.05, 0.02)));
+    let ModelNotes(notes) = world.resource::<ModelNotes>();
+    assert_eq!(notes.iter().filter(|note| note.contains("multiplied by 1")).count(), 1, "{notes:?}");
+}

@@ -20,6 +20,7 @@ pub use mirror::Mirror;
 pub use phong::Phong;
 pub use principled::Principled;
 pub use rough_glass::RoughGlass;
+#[doc(hidden)]
 pub use thin_glass::ThinGlass;
 
 use super::file::Word;

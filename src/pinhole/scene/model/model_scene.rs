@@ -20,6 +20,8 @@ const FOV: Degrees = Degrees(36.0);
 /// The part of the picture's height that a fitted model fills.
 const FILLED: f64 = 0.9;
 
+/// What the exposure scales.
+const ALL_LIGHT: &str = "all light of the file, its lights' and its surfaces',";
 /// The greatest aspect ratio that a picture takes from a camera.
 const MOST_OBLONG: f64 = 20.0;
 /// The most that a surface emits, well within what f32 holds.
@@ -38,6 +40,8 @@ pub struct ModelScene {
     pub path: PathBuf,
     /// What was added and what was left out, one sentence each.
     pub said: Vec<String>,
+    /// The factor of all light of the file.
+    pub exposure: f64,
 }
 
 impl ModelScene {
@@ -66,11 +70,11 @@ impl ModelScene {
         if is_clipped(&model.model) {
             said.push("its camera is meant to see nothing too near or too far (znear, zfar), but here it does".into());
         }
+        let exposure = exposure(&model.model);
         if !model.model.lights.is_empty() {
-            let factor = exposure(&model.model);
             said.push(format!(
-                "all light of the file, its lights' and its surfaces', is multiplied by {factor:.1e}, for a white surface at its \
-                 centre to be white"
+                "{ALL_LIGHT} is multiplied by {exposure:.1e}, for a white surface at its centre to be white (exposure=1 \
+                 leaves it as it is)"
             ));
         }
         match lit_by(&model.model) {
@@ -81,7 +85,14 @@ impl ModelScene {
             }
             LitBy::Nothing => said.push("it has no light: a sky and a sun are added".into()),
         }
-        Ok(Self { path: path.into(), said })
+        Ok(Self { path: path.into(), said, exposure })
+    }
+
+    /// The same with another factor of all its light.
+    pub fn with_exposure(mut self, exposure: f64) -> Self {
+        self.said.retain(|sentence| !sentence.starts_with(ALL_LIGHT));
+        self.said.push(format!("{ALL_LIGHT} is multiplied by {exposure}"));
+        Self { exposure, ..self }
     }
 
     /// The scene as a world.
@@ -100,7 +111,7 @@ impl ModelScene {
             open.as_ref().map_or_else(|_| resolution_of(None), |open| resolution_of(aspect_of(&open.model)));
         scene.entity_mut(camera).insert((resolution, sampling, Integrator::PATH));
         if let Ok(open) = &open {
-            let exposure = exposure(&open.model);
+            let exposure = self.exposure;
             for light in &open.model.lights {
                 spawn_light(&mut scene, &ModelLight { intensity: light.intensity * exposure, ..light.clone() });
             }
@@ -117,9 +128,8 @@ impl ModelScene {
         scene.insert_resource(ModelNotes(self.said.clone()));
         load_meshes(&mut scene);
         // The surfaces of the model shine as much brighter or darker as its lights.
-        let exposure = open.as_ref().map_or(1.0, |open| exposure(&open.model));
         for mut emissive in scene.query::<&mut Emissive>().iter_mut(&mut scene) {
-            let [r, g, b] = emissive.radiance.to_array().map(|part| (part * exposure).min(BRIGHTEST));
+            let [r, g, b] = emissive.radiance.to_array().map(|part| (part * self.exposure).min(BRIGHTEST));
             emissive.radiance = Rgb::new(r, g, b);
         }
         scene.insert_resource(SceneFolder::default());
