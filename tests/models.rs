@@ -4,6 +4,8 @@
 
 #[path = "models/fuzz.rs"]
 mod fuzz;
+#[path = "models/odd_files.rs"]
+mod odd_files;
 
 use std::sync::{Mutex, PoisonError};
 

@@ -14,6 +14,8 @@
 //! triangles; `serde-ply` 0.2 tells neither row nor value of an error.
 //! JSON is `serde_json`'s, base64 that of `base64`.
 
+mod centre;
+mod colour;
 mod gltf;
 mod memory;
 mod model;
@@ -23,6 +25,7 @@ mod number;
 mod obj;
 mod open;
 mod ply;
+mod polygon;
 mod printable;
 mod read;
 mod remarks;

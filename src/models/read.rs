@@ -2,6 +2,7 @@ use crate::gltf;
 use crate::model::Model;
 use crate::model_error::ModelError;
 use crate::model_error::shown_bytes;
+use crate::number::without_mark;
 use crate::obj;
 use crate::open::Open;
 use crate::ply;
@@ -27,14 +28,15 @@ pub fn read_model(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Mod
         let start = &bytes[..bytes.len().min(16)];
         Err(ModelError::new(name, "the start of the file", shown_bytes(start), accepted))
     };
+    let text = without_mark(bytes);
     match ending.as_str() {
-        "ply" if !bytes.starts_with(b"ply") => refused("a .ply file begins with \"ply\""),
-        "ply" => ply::read_ply(name, bytes),
+        "ply" if !text.starts_with(b"ply") => refused("a .ply file begins with \"ply\""),
+        "ply" => ply::read_ply(name, text),
         "glb" if !bytes.starts_with(b"glTF") => refused("a .glb file begins with \"glTF\""),
         "gltf" if bytes.starts_with(b"glTF") => refused("a .gltf file is JSON; name it .glb if it is binary"),
         "glb" | "gltf" => gltf::read_gltf(name, bytes, open),
         "obj" if bytes.starts_with(b"glTF") || bytes.contains(&0) => refused("an .obj file is text"),
-        "obj" => obj::read_obj(name, bytes, open),
+        "obj" => obj::read_obj(name, text, open),
         _ => {
             let shown = crate::model_error::shown(&ending);
             Err(ModelError::new(name, "the file name's ending", shown, "a model is a .gltf, .glb, .obj or .ply file"))

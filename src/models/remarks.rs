@@ -20,8 +20,16 @@ pub struct Remarks {
     pub without_uvs: u64,
     /// Meshes without triangles, left out.
     pub empty_meshes: u64,
-    /// Polygons of five corners or more, which became fans.
+    /// Polygons that cross themselves, which became fans.
     pub fans: u64,
+    /// Vertices that no triangle uses, left out.
+    pub unused_vertices: u64,
+    /// Faces with a vertex that is not there, dropped.
+    pub absent_vertices: u64,
+    /// Corners whose texture coordinate or normal is not there.
+    pub absent_attributes: u64,
+    /// Rows with more values than their element has properties.
+    pub extra_values: u64,
     /// Numbers of materials, lights and cameras out of their range, replaced by the nearest in it.
     pub clamped: u64,
     /// What was not read, by name, and how often it occurred.
@@ -91,8 +99,28 @@ impl Remarks {
             (self.empty_meshes, "mesh without triangles was left out", "meshes without triangles were left out"),
             (
                 self.fans,
-                "polygon of five corners or more became a fan of triangles, which is right if it is convex",
-                "polygons of five corners or more became fans of triangles, which is right if they are convex",
+                "polygon that crosses itself or has very many corners became a fan of triangles",
+                "polygons that cross themselves or have very many corners became fans of triangles",
+            ),
+            (
+                self.unused_vertices,
+                "vertex that no triangle uses was left out",
+                "vertices that no triangle uses were left out",
+            ),
+            (
+                self.absent_vertices,
+                "face with a vertex that the file does not have was dropped",
+                "faces with a vertex that the file does not have were dropped",
+            ),
+            (
+                self.absent_attributes,
+                "corner has a texture coordinate or a normal that the file does not have, and goes without",
+                "corners have a texture coordinate or a normal that the file does not have, and go without",
+            ),
+            (
+                self.extra_values,
+                "row has more values than its element has properties, and the rest of it was left out",
+                "rows have more values than their element has properties, and the rest of them was left out",
             ),
             (
                 self.clamped,
@@ -130,10 +158,14 @@ mod tests {
             without_uvs: 1,
             empty_meshes: 1,
             fans: 1,
+            unused_vertices: 1,
+            absent_vertices: 1,
+            absent_attributes: 1,
+            extra_values: 1,
             clamped: 1,
             ..Remarks::default()
         };
-        assert_eq!(one.sentences().len(), 9);
+        assert_eq!(one.sentences().len(), 13);
         assert!(one.sentences().iter().all(|sentence| sentence.starts_with("1 ") && sentence.ends_with('.')));
         let many = Remarks { degenerate: 12, ..Remarks::default() };
         assert_eq!(many.sentences(), ["12 triangles without an area were dropped."]);

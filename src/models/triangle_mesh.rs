@@ -15,6 +15,8 @@ pub struct TriangleMesh {
     pub normals: Option<Vec<[f32; 3]>>,
     /// The vertices' texture coordinates: u to the right and v down, (0, 0) at the image's upper left corner.
     pub uvs: Option<Vec<[f32; 2]>>,
+    /// The vertices' colours, linear Rec. 709, each part from 0 to 1.
+    pub colours: Option<Vec<[f32; 3]>>,
 }
 // ANCHOR_END: triangle_mesh
 
@@ -28,7 +30,8 @@ impl TriangleMesh {
     /// The bytes of a triangle.
     pub const BYTES_A_TRIANGLE: u64 = 12;
 
-    /// Drops the triangles that no ray can hit, and makes every normal a unit vector or zero.
+    /// Drops the triangles that no ray can hit and the vertices that no triangle uses, and makes every normal a unit
+    /// vector or zero.
     ///
     /// The indices must be those of vertices.
     pub(super) fn cleaned(mut self, remarks: &mut Remarks) -> Self {
@@ -62,32 +65,45 @@ impl TriangleMesh {
                 *uv = [0.0; 2];
             }
         }
-        let finite = |position: &[f32; 3]| position.iter().all(|part| part.is_finite());
-        if self.positions.iter().all(finite) { self } else { self.with_used_vertices() }
+        for part in self.colours.iter_mut().flatten().flatten() {
+            *part = if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) };
+        }
+        self.with_used_vertices()
     }
 
     /// The same triangles, without the vertices that none of them uses.
-    fn with_used_vertices(self) -> Self {
-        let mut order: Vec<u32> = self.triangles.iter().flatten().copied().collect();
-        order.sort_unstable();
-        order.dedup();
-        let mut triangles = self.triangles;
-        renumber(&mut triangles, &order);
-        let picked = |column: Vec<[f32; 3]>| order.iter().map(|&index| column[index as usize]).collect();
-        Self {
-            positions: picked(self.positions),
-            triangles,
-            normals: self.normals.map(picked),
-            uvs: self.uvs.map(|uvs| order.iter().map(|&index| uvs[index as usize]).collect()),
+    fn with_used_vertices(mut self) -> Self {
+        const UNUSED: u32 = u32::MAX;
+        let mut row = vec![UNUSED; self.positions.len()];
+        self.triangles.iter().flatten().for_each(|&index| row[index as usize] = 0);
+        if !row.contains(&UNUSED) {
+            return self;
         }
+        let used: Vec<bool> = row.iter().map(|&row| row != UNUSED).collect();
+        for (number, row) in row.iter_mut().filter(|row| **row != UNUSED).enumerate() {
+            // Fewer than there are vertices, which have indices of 32 bits.
+            *row = number as u32;
+        }
+        self.triangles.iter_mut().flatten().for_each(|index| *index = row[*index as usize]);
+        let triples = [Some(&mut self.positions), self.normals.as_mut(), self.colours.as_mut()];
+        triples.into_iter().flatten().for_each(|column| retain_used(column, &used));
+        self.uvs.iter_mut().for_each(|uvs| retain_used(uvs, &used));
+        self
     }
 
     /// Its memory, in bytes.
     pub fn bytes(&self) -> usize {
         let normals = self.normals.as_ref().map_or(0, |normals| size_of_val(&normals[..]));
         let uvs = self.uvs.as_ref().map_or(0, |uvs| size_of_val(&uvs[..]));
-        size_of_val(&self.positions[..]) + size_of_val(&self.triangles[..]) + normals + uvs
+        let colours = self.colours.as_ref().map_or(0, |colours| size_of_val(&colours[..]));
+        size_of_val(&self.positions[..]) + size_of_val(&self.triangles[..]) + normals + uvs + colours
     }
+}
+
+fn retain_used<T>(column: &mut Vec<T>, used: &[bool]) {
+    let mut used = used.iter();
+    column.retain(|_| used.next().is_some_and(|used| *used));
+    column.shrink_to_fit();
 }
 
 /// Replaces each index by its place in a sorted list of those that are used.
@@ -98,12 +114,6 @@ pub(super) fn renumber(triangles: &mut [[u32; 3]], used: &[u32]) {
     }
 }
 
-/// The triangles of a polygon: a fan about its first corner.
-pub(super) fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
-    let first = corners.first().copied().unwrap_or(0);
-    corners.windows(2).skip(1).map(move |pair| [first, pair[0], pair[1]])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,16 +121,9 @@ mod tests {
     fn square() -> TriangleMesh {
         TriangleMesh {
             positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
-            triangles: fan(&[0, 1, 2, 3]).collect(),
-            normals: None,
-            uvs: None,
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            ..TriangleMesh::default()
         }
-    }
-
-    #[test]
-    fn a_polygon_is_a_fan() {
-        assert_eq!(fan(&[7, 8, 9, 4, 5]).collect::<Vec<_>>(), [[7, 8, 9], [7, 9, 4], [7, 4, 5]]);
-        assert_eq!(fan(&[1, 2]).count() + fan(&[1]).count() + fan(&[]).count(), 0);
     }
 
     #[test]
@@ -131,7 +134,20 @@ mod tests {
         let mut remarks = Remarks::default();
         let cleaned = mesh.cleaned(&mut remarks);
         assert_eq!((cleaned.triangles.len(), remarks.degenerate, remarks.not_finite), (2, 5, 0));
-        assert_eq!(cleaned.positions.len(), 7);
+        assert_eq!(cleaned.positions.len(), 4);
+    }
+
+    #[test]
+    fn vertices_that_no_triangle_uses_are_dropped_from_every_column() {
+        let mut mesh = square();
+        mesh.positions.splice(1..1, [[9.0; 3], [f32::NAN; 3]]);
+        mesh.triangles = vec![[0, 3, 4], [0, 4, 5]];
+        mesh.uvs = Some((0..6).map(|row| [row as f32; 2]).collect());
+        mesh.colours = Some(vec![[0.5, 2.0, f32::NAN]; 6]);
+        let cleaned = mesh.cleaned(&mut Remarks::default());
+        assert_eq!((cleaned.positions, cleaned.triangles), (square().positions, square().triangles));
+        assert_eq!(cleaned.uvs, Some(vec![[0.0; 2], [3.0; 2], [4.0; 2], [5.0; 2]]));
+        assert_eq!(cleaned.colours, Some(vec![[0.5, 1.0, 0.0]; 4]));
     }
 
     #[test]

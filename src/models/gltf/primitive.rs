@@ -19,6 +19,7 @@ pub struct PrimitiveParts {
     indices: Option<usize>,
     normals: Option<usize>,
     uvs: Option<usize>,
+    colours: Option<usize>,
     morphs: Vec<Morph>,
     /// The skin, and the accessors of joints and weights, a pair for every four joints of a vertex.
     skin: Option<(usize, Vec<[usize; 2]>)>,
@@ -69,7 +70,7 @@ impl PrimitiveParts {
         let uv_name = format!("TEXCOORD_{}", pose.uv_set);
         for (name, _) in attributes.fields() {
             let of_skin = pose.skin.is_some() && (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_"));
-            if !(["POSITION", "NORMAL", &uv_name].contains(&name) || of_skin) {
+            if !(["POSITION", "NORMAL", "COLOR_0", &uv_name].contains(&name) || of_skin) {
                 remarks.add_unread(&format!("the attribute {name}"), 1);
             }
         }
@@ -88,6 +89,7 @@ impl PrimitiveParts {
             positions,
             indices: primitive.index("indices", rows)?,
             normals: attributes.index("NORMAL", rows)?,
+            colours: attributes.index("COLOR_0", rows)?,
             uvs: attributes.index(&uv_name, rows)?,
             morphs: morphs_of(document, primitive, pose.weights, remarks)?,
             skin,
@@ -149,11 +151,28 @@ impl PrimitiveParts {
         for other in [&normals, &uvs].into_iter().flatten() {
             other.check_count(vertices)?;
         }
+        let colours = match self.colours {
+            None => None,
+            Some(index) if document.row(Table::Accessors, index)?.text("type")? == Some("VEC4") => {
+                let colours = accessor(index, Meant::Fours)?;
+                colours.check_count(vertices)?;
+                let colours: Vec<[f32; 4]> = colours.floats(wanted, memory)?;
+                let see_through = colours.iter().filter(|colour| colour[3] < 1.0).count();
+                remarks.add_unread("opacity below 1 of vertices", see_through as u64);
+                Some(colours.into_iter().map(|[r, g, b, _]| [r, g, b]).collect())
+            }
+            Some(index) => {
+                let colours = accessor(index, Meant::Vectors)?;
+                colours.check_count(vertices)?;
+                Some(colours.floats(wanted, memory)?)
+            }
+        };
         let mut mesh = TriangleMesh {
             positions: positions.floats(wanted, memory)?,
             triangles,
             normals: normals.map(|normals| normals.floats(wanted, memory)).transpose()?,
             uvs: uvs.map(|uvs| uvs.floats(wanted, memory)).transpose()?,
+            colours,
         };
         let (file, rows) = ((document, buffers), (wanted, vertices));
         add_morphs(&mut mesh.positions, &self.morphs, |morph| morph.1, file, rows, memory)?;
@@ -259,15 +278,24 @@ mod tests {
     }
 
     #[test]
+    fn the_first_set_of_colours_is_that_of_the_vertices() {
+        let model = read(&mesh("{'attributes':{'POSITION':0,'COLOR_0':1},'indices':3}")).expect("read");
+        assert_eq!(model.meshes[0].colours, Some(vec![[0.0, 0.0, 1.0]; 4]));
+        let four = mesh("{'attributes':{'POSITION':0,'COLOR_0':2},'indices':3}")
+            .replace("'count':4,'type':'VEC2'", "'count':2,'type':'VEC4'");
+        assert_eq!(refused(&four), "accessors[2].count is 2, but the mesh has 4 positions");
+    }
+
+    #[test]
     fn what_has_no_triangles_is_left_out_and_said() {
         let points = "{'attributes':{'POSITION':0},'mode':0},{'attributes':{'POSITION':0},'mode':3},{'attributes':{}}";
         let model = read(&mesh(points)).expect("read");
         assert!(model.meshes.is_empty() && model.instances.is_empty());
         let sentences = ["Not read: points (1), lines (1), primitives without positions (1)."];
         assert_eq!(model.remarks.sentences(), sentences);
-        let model = read(&mesh("{'attributes':{'POSITION':0,'COLOR_0':0},'targets':[{},{}]}")).expect("read");
+        let model = read(&mesh("{'attributes':{'POSITION':0,'COLOR_1':0},'targets':[{},{}]}")).expect("read");
         // Morph targets whose weight is 0 change nothing.
-        let sentence = "Not read: the attribute COLOR_0 (1), corners behind the last triangle (1).";
+        let sentence = "Not read: the attribute COLOR_1 (1), corners behind the last triangle (1).";
         assert_eq!(model.remarks.sentences()[1], sentence);
     }
 

@@ -109,6 +109,7 @@ mod tests {
                 triangles: triangles.clone(),
                 normals: (columns & 1 != 0).then(|| normals.clone()),
                 uvs: (columns & 2 != 0).then(|| uvs.clone()),
+                ..TriangleMesh::default()
             };
             let file = glb_of(&mesh).expect("a small file");
             assert_eq!(file.len() % 4, 0);

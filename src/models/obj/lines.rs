@@ -1,8 +1,10 @@
 use std::borrow::Cow;
 
 /// The lines of a text, numbered from 1, without comments; a line that ends with a backslash goes on in the next.
+///
+/// They end as on any system: with a line feed, a carriage return or both.
 pub fn lines(text: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
-    let mut physical = text.split(|byte| *byte == b'\n').enumerate();
+    let mut physical = physical_lines(text).enumerate();
     std::iter::from_fn(move || {
         let (number, line) = physical.next()?;
         let Some(begun) = goes_on(line) else { return Some((number + 1, Cow::Borrowed(without_comment(line)))) };
@@ -12,20 +14,37 @@ pub fn lines(text: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
             match goes_on(line) {
                 Some(part) => whole.extend_from_slice(part),
                 None => {
-                    whole.extend_from_slice(line);
+                    whole.extend_from_slice(without_comment(line));
                     break;
                 }
             }
         }
-        let length = without_comment(&whole).len();
-        whole.truncate(length);
         Some((number + 1, Cow::Owned(whole)))
     })
 }
 
-/// What stands before a backslash at the end of a line.
+/// The lines as they stand in the text.
+fn physical_lines(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let by_return = text.windows(2).any(|pair| pair[0] == b'\r' && pair[1] != b'\n') || !text.contains(&b'\n');
+    let mut rest = Some(text);
+    std::iter::from_fn(move || {
+        let text = rest?;
+        let end = text.iter().position(|byte| *byte == b'\n' || by_return && *byte == b'\r');
+        let Some(end) = end else {
+            rest = None;
+            return Some(text);
+        };
+        let both = text[end] == b'\r' && text.get(end + 1) == Some(&b'\n');
+        rest = Some(&text[end + if both { 2 } else { 1 }..]);
+        let line = &text[..end];
+        Some(line.strip_suffix(b"\r").unwrap_or(line))
+    })
+}
+
+/// What stands before a backslash at the end of a line; a comment does not go on.
 fn goes_on(line: &[u8]) -> Option<&[u8]> {
-    line.strip_suffix(b"\r").unwrap_or(line).strip_suffix(b"\\")
+    let line = line.strip_suffix(b"\r").unwrap_or(line);
+    (line.last() == Some(&b'\\') && without_comment(line).len() == line.len()).then(|| &line[..line.len() - 1])
 }
 
 /// A comment begins a line or follows a space: file names may have the sign in them.
@@ -70,7 +89,18 @@ mod tests {
     fn comments_are_left_out() {
         assert_eq!(split("# all\nv 1 # end\nusemtl a#1"), [line(1, ""), line(2, "v 1"), line(3, "usemtl a#1")]);
         assert_eq!(split("usemtl a#1 ##\n #"), [line(1, "usemtl a#1"), line(2, "")]);
-        assert_eq!(split("f 1 # \\\n2"), [line(1, "f 1")]);
+        assert_eq!(split("f 1 # \\\n2"), [line(1, "f 1"), line(2, "2")]);
+        assert_eq!(split("# C:\\models\\\nv 1\\\n2 # \\\nf"), [line(1, ""), line(2, "v 1 2"), line(4, "f")]);
+    }
+
+    #[test]
+    fn lines_end_as_on_any_system() {
+        for end in ["\n", "\r\n", "\r"] {
+            let text = ["v 1", "", "# a", "f 1 \\", "2", "g"].join(end);
+            let expected = [line(1, "v 1"), line(2, ""), line(3, ""), line(4, "f 1  2"), line(6, "g")];
+            assert_eq!(split(&text), expected, "{end:?}");
+        }
+        assert_eq!(split("v 1\r\nv 2\rv 3\n"), [line(1, "v 1"), line(2, "v 2"), line(3, "v 3"), line(4, "")]);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-use super::mtl::Map;
+use super::map::Map;
 use crate::model_material::{AlphaMode, ModelMaterial, ModelTexture};
 use crate::remarks::Remarks;
 
@@ -30,6 +30,8 @@ pub struct MtlMaterial {
     pub metallic: Option<f64>,
     /// From `map_Kd`.
     pub diffuse_map: Option<ModelTexture>,
+    /// Whether there is a `map_Ka`.
+    pub has_ambient_map: bool,
     /// From `map_Ke`.
     pub emission_map: Option<ModelTexture>,
     /// From `norm`.
@@ -57,10 +59,16 @@ impl MtlMaterial {
         let opacity = remarks.clamp(self.opacity.unwrap_or(1.0), 0.0, 1.0);
         let is_glass = self.illumination.is_some_and(|illumination| TRANSPARENT.contains(&illumination));
         let alpha = if is_glass { 1.0 } else { opacity };
-        // A map for `norm` is one of normals; in `map_Bump`, Blender and others write one, too.
+        if self.has_ambient_map && self.diffuse_map.is_none() {
+            remarks.add_unread("`map_Ka` without `map_Kd`", 1);
+        }
+        if alpha < 1.0 {
+            remarks.add_unread("opacity below 1 of `d` or `Tr`, so that what is transparent is opaque", 1);
+        }
+        // A map for `norm` is one of normals; in `map_Bump`, Blender and others write one, too, and grey ones are heights.
         let normal_map = self.normal_map.or(self.bump_map);
         // A factor makes a black base white under a texture, as older exporters mean it.
-        let under_texture = self.diffuse_map.is_some() && black(self.diffuse);
+        let under_texture = self.diffuse_map.is_some() && (black(self.diffuse) || self.diffuse.is_none());
         ModelMaterial {
             name: self.name.into(),
             base_colour: if under_texture {

@@ -1,14 +1,14 @@
-use super::faces::{Columns, Corner, Faces, Vertices};
+use super::faces::{Columns, Corner, Faces, Vertices, rows_of};
+use super::library::Libraries;
 use super::lines::{lines, rest_of};
-use super::mtl::{MtlImages, read_mtl};
-use crate::memory::Memory;
+use crate::centre::centre_of;
+use crate::colour::linear_from_srgb;
 use crate::model::{Instance, Model};
 use crate::model_error::ModelError;
-use crate::model_error::{shown, shown_bytes};
+use crate::model_error::shown_bytes;
 use crate::model_material::ModelMaterial;
-use crate::number::{float, words};
+use crate::number::{double, words};
 use crate::open::Open;
-use crate::triangle_mesh::fan;
 use glam::DAffine3;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -55,29 +55,39 @@ pub fn read_obj(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Model
     let mut model = Model::default();
     let (mut columns, mut vertices, mut groups) = (Columns::default(), Vertices::default(), Groups::default());
     let mut libraries = Libraries::of(bytes);
-    let (mut polygon, mut coloured) = (Vec::new(), 0);
+    let (mut polygon, all) = (Vec::new(), rows_of(bytes));
     for (number, line) in lines(bytes) {
         let mut words = words(&line);
         let Some(keyword) = words.next() else { continue };
         match keyword {
             b"v" => {
                 columns.positions.push(numbers(name, number, "v", &mut words)?);
-                coloured += u64::from(words.nth(2).is_some());
+                if let Some(colour) = colour(words) {
+                    // Those before it that have none are white.
+                    columns.colours.resize(columns.positions.len() - 1, [1.0; 3]);
+                    columns.colours.push(colour);
+                }
             }
-            b"vn" => columns.normals.push(numbers(name, number, "vn", &mut words)?),
+            b"vn" => columns.normals.push(numbers(name, number, "vn", &mut words)?.map(|part| part as f32)),
             b"vt" => columns.uvs.push(texture_coordinates(name, number, &mut words)?),
             b"f" => {
                 polygon.clear();
+                let (rows, mut is_there) = (columns.rows(), true);
                 let (group, faces) = groups.current();
                 for word in words {
-                    let corner = Corner::read(word, &columns)
+                    let corner = Corner::read(word, rows, all, &mut model.remarks)
                         .map_err(|accepted| ModelError::new(name, place(number, "f"), shown_bytes(word), accepted))?;
-                    polygon.push(vertices.find(corner, group, faces));
+                    match corner {
+                        Some(corner) if is_there => polygon.push(vertices.find(corner, group, faces)),
+                        _ => is_there = false,
+                    }
                 }
                 vertices.check_count(name)?;
-                model.remarks.degenerate += u64::from(polygon.len() < 3);
-                model.remarks.fans += u64::from(polygon.len() > 4);
-                faces.extend(fan(&polygon));
+                if is_there {
+                    faces.add_polygon(&polygon, &mut model.remarks);
+                } else {
+                    model.remarks.absent_vertices += 1;
+                }
             }
             b"usemtl" => groups.use_material(&rest_of(&line)),
             b"mtllib" => libraries.read(&rest_of(&line), open, &mut model)?,
@@ -87,10 +97,9 @@ pub fn read_obj(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Model
                 .add_unread(&format!("`{}`", String::from_utf8_lossy(&keyword[..keyword.len().min(80)])), 1),
         }
     }
-    model.remarks.add_unread("vertex colours", coloured);
     drop(vertices);
     place_meshes(&mut model, groups, &columns, &libraries);
-    model.images = libraries.images.images;
+    model.images = libraries.into_images();
     Ok(model)
 }
 
@@ -104,11 +113,11 @@ fn numbers<'w, const N: usize>(
     line: usize,
     keyword: &str,
     words: &mut impl Iterator<Item = &'w [u8]>,
-) -> Result<[f32; N], ModelError> {
+) -> Result<[f64; N], ModelError> {
     let mut numbers = [0.0; N];
     for number in &mut numbers {
         let word = words.next().unwrap_or(b"");
-        *number = float(word).ok_or_else(|| {
+        *number = double(word).ok_or_else(|| {
             ModelError::new(
                 name,
                 place(line, keyword),
@@ -120,6 +129,19 @@ fn numbers<'w, const N: usize>(
     Ok(numbers)
 }
 
+/// The colour behind a position, in linear light: three numbers, or four of which the first is the position's weight.
+fn colour<'w>(words: impl Iterator<Item = &'w [u8]>) -> Option<[f32; 3]> {
+    let (mut numbers, mut count) = ([0.0; 4], 0);
+    for (number, word) in numbers.iter_mut().zip(words) {
+        *number = double(word)?;
+        count += 1;
+    }
+    match (numbers, count) {
+        ([r, g, b, _], 3) | ([_, r, g, b], 4) => Some([r, g, b].map(linear_from_srgb)),
+        _ => None,
+    }
+}
+
 /// u, and v if it is there.
 fn texture_coordinates<'w>(
     name: &str,
@@ -128,23 +150,33 @@ fn texture_coordinates<'w>(
 ) -> Result<[f32; 2], ModelError> {
     let [u] = numbers(name, line, "vt", words)?;
     let v = words.next().map_or(Ok([0.0]), |word| numbers(name, line, "vt", &mut std::iter::once(word)))?;
-    Ok([u, v[0]])
+    Ok([u, v[0]].map(|part| part as f32))
 }
 
 /// Makes a mesh and an instance of each material's faces.
 fn place_meshes(model: &mut Model, groups: Groups, columns: &Columns, libraries: &Libraries) {
     let mut missing: HashSet<Arc<str>> = HashSet::new();
+    // All meshes about one point, so that what they have in common stays so.
+    let centre = centre_of(groups.faces.iter().flat_map(|(_, faces)| faces.positions(columns)));
+    let mut plain = None;
     for (material, faces) in groups.faces {
-        let mesh = faces.into_mesh(columns).cleaned(&mut model.remarks);
+        let mesh = faces.into_mesh(columns, centre, &mut model.remarks).cleaned(&mut model.remarks);
         if mesh.triangles.is_empty() {
             model.remarks.empty_meshes += 1;
             continue;
         }
-        let index = material.as_ref().and_then(|material| libraries.by_name.get(material)).copied();
+        let mut index = material.as_ref().and_then(|material| libraries.index_of(material));
         if let (Some(material), None) = (&material, index)
             && missing.insert(material.clone())
         {
             model.remarks.add_unread("materials that no library describes", 1);
+        }
+        if mesh.colours.is_some() && index.is_none() {
+            // White, so that the colours of the vertices are seen as they are.
+            index = Some(*plain.get_or_insert_with(|| {
+                model.materials.push(ModelMaterial { name: "vertex colours".into(), ..ModelMaterial::default() });
+                model.materials.len() - 1
+            }));
         }
         model.remarks.without_normals += u64::from(mesh.normals.is_none());
         model.remarks.without_uvs += u64::from(
@@ -154,67 +186,10 @@ fn place_meshes(model: &mut Model, groups: Groups, columns: &Columns, libraries:
             name: material.unwrap_or_default(),
             mesh: model.meshes.len(),
             material: index,
-            world_from_object: DAffine3::IDENTITY,
+            world_from_object: DAffine3::from_translation(centre),
         });
         model.meshes.push(Arc::new(mesh));
     }
-}
-
-/// The material libraries read so far.
-struct Libraries {
-    memory: Memory,
-    images: MtlImages,
-    /// The names of those that were asked for.
-    asked: HashSet<String>,
-    /// The index of each material.
-    by_name: HashMap<Arc<str>, usize>,
-}
-
-impl Libraries {
-    /// None yet, of a file.
-    fn of(file: &[u8]) -> Self {
-        let (images, asked, by_name) = Default::default();
-        Self { memory: Memory::of(file), images, asked, by_name }
-    }
-
-    /// Reads the library of a line, if it was not read before: a name may have spaces, and a line several names.
-    fn read(&mut self, names: &str, open: Open<'_>, model: &mut Model) -> Result<(), ModelError> {
-        if names.is_empty() || !self.asked.insert(names.into()) {
-            return Ok(());
-        }
-        match open(names) {
-            Ok(bytes) => self.add(names, &bytes, model),
-            Err(_) if names.contains(char::is_whitespace) => {
-                for name in names.split_whitespace() {
-                    if self.asked.insert(name.into()) {
-                        match open(name) {
-                            Ok(bytes) => self.add(name, &bytes, model)?,
-                            Err(problem) => missing_library(name, &problem, model),
-                        }
-                    }
-                }
-                Ok(())
-            }
-            Err(problem) => {
-                missing_library(names, &problem, model);
-                Ok(())
-            }
-        }
-    }
-
-    fn add(&mut self, name: &str, bytes: &[u8], model: &mut Model) -> Result<(), ModelError> {
-        self.memory.add_file(bytes);
-        for material in read_mtl(name, bytes, &mut self.images, &mut self.memory, &mut model.remarks)? {
-            let ModelMaterial { name, .. } = &material;
-            self.by_name.insert(name.clone(), model.materials.len());
-            model.materials.push(material);
-        }
-        Ok(())
-    }
-}
-
-fn missing_library(name: &str, problem: &str, model: &mut Model) {
-    model.remarks.add_unread(&format!("the library {}, since {problem}", shown(name)), 1);
 }
 
 #[cfg(test)]
@@ -276,8 +251,10 @@ mod tests {
                         there is \
                         none (1).";
         assert_eq!(model.remarks.sentences()[1], sentence);
-        let wrong = "wrong.mtl: `Kd` on line 2 is \"x\", but it needs a finite number";
-        assert_eq!(refused("mtllib wrong.mtl\n"), wrong);
+        let model = read(&format!("mtllib wrong.mtl\nusemtl blue\n{SQUARE}f 1 2 3")).expect("read");
+        assert_eq!((model.materials[0].base_colour, model.instances[0].material), ([0.8; 3], Some(0)));
+        let sentence = "Not read: `Kd` on line 2 of \"wrong.mtl\", since \"x\" is no finite number (1).";
+        assert_eq!(model.remarks.sentences()[1], sentence);
     }
 
     #[test]
@@ -287,8 +264,8 @@ mod tests {
              6 1"
         );
         let model = read(&text).expect("read");
-        assert_eq!((model.remarks.fans, model.remarks.degenerate), (1, 1));
-        let sentence = "Not read: `l` (2), `p` (1), vertex colours (1).";
+        assert_eq!((model.remarks.fans, model.remarks.degenerate), (0, 1));
+        let sentence = "Not read: `l` (2), `p` (1).";
         assert_eq!(model.remarks.sentences().last().map(String::as_str), Some(sentence));
     }
 
@@ -299,9 +276,8 @@ mod tests {
         assert_eq!(refused("vn 0 1\n"), "`vn` on line 1 is \"\", but it needs 3 numbers");
         assert_eq!(refused("vt\n"), "`vt` on line 1 is \"\", but it needs a number");
         assert_eq!(refused("vt 0 x\n"), "`vt` on line 1 is \"x\", but it needs a number");
-        let beyond =
-            "`f` on line 5 is \"5\", but there are 4 positions above it, counted from 1 or, backwards, from -1";
-        assert_eq!(refused(&format!("{SQUARE}f 1 2 5")), beyond);
+        let index = "`f` on line 5 is \"x\", but the index of a position is a whole number, such as 3 or -1";
+        assert_eq!(refused(&format!("{SQUARE}f 1 2 x")), index);
     }
 
     #[test]

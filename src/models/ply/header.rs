@@ -24,6 +24,15 @@ pub struct Header {
     pub format: Format,
     /// Its elements, in their order.
     pub elements: Vec<Element>,
+    /// The image files that comments of the form `TextureFile name` give.
+    pub textures: Vec<String>,
+}
+
+/// The line at the start of a text, without spaces about it, and what follows; its end may be a line feed, a carriage
+/// return, or both.
+fn first_line<'b>(text: &'b [u8], by_return: bool) -> Option<(&'b [u8], &'b [u8])> {
+    let end = text.iter().position(|byte| *byte == if by_return { b'\r' } else { b'\n' })?;
+    Some((text[..end].trim_ascii(), &text[end + 1..]))
 }
 
 impl Header {
@@ -33,15 +42,21 @@ impl Header {
     pub fn read<'b>(file: &str, bytes: &'b [u8]) -> Result<(Self, &'b [u8]), ModelError> {
         let mut rest = bytes;
         let (mut format, mut elements): (Option<Format>, Vec<Element>) = (None, Vec::new());
+        let mut textures = Vec::new();
+        let end = bytes.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+        let by_return = end.is_some_and(|end| bytes[end] == b'\r' && bytes.get(end + 1) != Some(&b'\n'));
         for number in 1.. {
-            let Some(end) = rest.iter().position(|byte| *byte == b'\n') else { break };
-            let line = rest[..end].trim_ascii();
-            rest = &rest[end + 1..];
+            let Some((line, behind)) = first_line(rest, by_return) else { break };
+            rest = behind;
             let refused =
                 |accepted: &str| Err(ModelError::new(file, format_args!("line {number}"), shown_bytes(line), accepted));
             let words: Vec<&[u8]> = words(line).take(6).collect();
             match words[..] {
                 [b"ply"] if number == 1 => {}
+                [b"comment" | b"obj_info", b"TextureFile", _, ..] => {
+                    let name = line.trim_ascii_start().split(u8::is_ascii_whitespace).skip(2).collect::<Vec<_>>();
+                    textures.push(text(name.join(&b' ').trim_ascii()));
+                }
                 [] | [b"comment" | b"obj_info", ..] => {}
                 [b"format", name, b"1.0"] => match name {
                     b"ascii" => format = Some(Format::Ascii),
@@ -83,7 +98,7 @@ impl Header {
                 }
                 [b"end_header"] => {
                     let Some(format) = format else { return refused("a line `format` comes before it") };
-                    return Ok((Self { format, elements }, rest));
+                    return Ok((Self { format, elements, textures }, rest));
                 }
                 _ => {
                     return refused("a line is `format`, `element`, `property`, `comment` or `end_header`");
@@ -132,6 +147,15 @@ mod tests {
             header.elements[0].properties,
             [property("x", Number::F32, None), property("vertex_indices", Number::I32, Some(Number::U8))]
         );
+    }
+
+    #[test]
+    fn a_header_s_lines_end_as_on_any_system() {
+        let lines = ["ply", "format ascii 1.0 ", "comment TextureFile a b.png", "element vertex 1", "end_header"];
+        for end in ["\n", "\r\n", "\r"] {
+            let header = read(&format!("{}{end}1 2 3", lines.join(end))).expect("read");
+            assert_eq!((header.elements.len(), header.textures), (1, vec!["a b.png".to_owned()]), "{end:?}");
+        }
     }
 
     #[test]

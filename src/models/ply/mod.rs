@@ -3,6 +3,7 @@
 mod element;
 mod faces;
 mod header;
+mod meshes;
 mod read;
 mod values;
 mod vertices;

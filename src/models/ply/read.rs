@@ -1,15 +1,13 @@
 use super::element::Element;
-use super::faces::{read_faces, skip_element, unread_element};
+use super::faces::{FaceParts, PlyFaces, read_faces, read_strips, skip_element, unread_element};
 use super::header::{Format, Header};
+use super::meshes::model_of;
 use super::values::{Absent, Binary, Text, Values};
-use super::vertices::VertexParts;
-use crate::model::{Instance, Model};
+use super::vertices::{VertexParts, Vertices};
+use crate::model::Model;
 use crate::model_error::ModelError;
 use crate::model_error::{shown, shown_bytes};
 use crate::remarks::Remarks;
-use crate::triangle_mesh::TriangleMesh;
-use glam::DAffine3;
-use std::sync::Arc;
 
 /// The parts of a colour.
 const COLOURS: [&str; 4] = ["red", "green", "blue", "alpha"];
@@ -20,36 +18,36 @@ const COLOURS: [&str; 4] = ["red", "green", "blue", "alpha"];
 pub fn read_ply(name: &str, bytes: &[u8]) -> Result<Model, ModelError> {
     let (header, rest) = Header::read(name, bytes)?;
     let mut remarks = Remarks::default();
-    let mesh = match header.format {
-        Format::Ascii => mesh::<false>(name, &header, &mut Text { rest }, &mut remarks),
-        Format::LittleEndian => mesh::<false>(name, &header, &mut Binary::<false> { rest }, &mut remarks),
-        Format::BigEndian => mesh::<true>(name, &header, &mut Binary::<true> { rest }, &mut remarks),
+    let rows = header.elements.iter().filter(|element| !element.properties.is_empty()).map(|element| element.rows);
+    let read = match header.format {
+        Format::Ascii => {
+            let rows = rows.fold(0, u64::saturating_add);
+            columns::<false>(name, &header, &mut Text::of(rest, rows), &mut remarks)
+        }
+        Format::LittleEndian => columns::<false>(name, &header, &mut Binary::<false> { rest }, &mut remarks),
+        Format::BigEndian => columns::<true>(name, &header, &mut Binary::<true> { rest }, &mut remarks),
     }?;
-    let mesh = mesh.cleaned(&mut remarks);
-    let mut model = Model { remarks, ..Model::default() };
-    if mesh.triangles.is_empty() {
-        model.remarks.empty_meshes += 1;
-        return Ok(model);
-    }
-    model.remarks.without_normals += u64::from(mesh.normals.is_none());
-    model.meshes.push(Arc::new(mesh));
-    let world_from_object = DAffine3::IDENTITY;
-    model.instances.push(Instance { name: "".into(), mesh: 0, material: None, world_from_object });
-    Ok(model)
+    Ok(model_of(read, &header.textures, remarks))
 }
 
-fn mesh<'b, const BIG: bool>(
+fn columns<'b, const BIG: bool>(
     name: &str,
     header: &Header,
     values: &mut impl Values<'b>,
     remarks: &mut Remarks,
-) -> Result<TriangleMesh, ModelError> {
-    let (mut mesh, mut triangles) = (None, Vec::new());
+) -> Result<(Vertices, PlyFaces), ModelError> {
+    let (mut columns, mut faces) = (Vertices::default(), PlyFaces::default());
     let is_text = header.format == Format::Ascii;
     let find = |name: &str| header.elements.iter().find(|element| element.name == name);
-    let missing = |what: &str| ModelError::new(name, format_args!("the element {what}"), "missing", "a mesh needs it");
-    let vertices = find("vertex").ok_or_else(|| missing("vertex"))?.rows;
-    find("face").ok_or_else(|| missing("face"))?;
+    let named = header.elements.iter().map(|element| shown(&element.name)).collect::<Vec<_>>().join(", ");
+    let vertices = find("vertex").ok_or_else(|| {
+        let named = if named.is_empty() { "there are none".into() } else { format!("its elements are {named}") };
+        ModelError::new(name, "the element vertex", "missing", format!("a mesh needs it, and {named}"))
+    })?;
+    let count = vertices.rows;
+    if find("face").is_none() && find("tristrips").is_none() {
+        remarks.add_unread("points without faces", count);
+    }
     for element in &header.elements {
         check_rows(name, element, values.left(), is_text)?;
         match element.name.as_str() {
@@ -58,15 +56,20 @@ fn mesh<'b, const BIG: bool>(
                 remark_properties(element, |place| parts.contain(place), remarks);
                 let size = element.least_size(false) as usize;
                 let rows = if element.is_fixed() { values.rows(element.rows, size) } else { None };
-                mesh = Some(match rows {
+                columns = match rows {
                     Some(rows) => parts.read_rows::<BIG>(element, rows, size),
-                    None => parts.read_values(name, element, values)?,
-                });
+                    None => parts.read_values(name, element, values, &mut remarks.extra_values)?,
+                };
             }
             "face" => {
-                let list = super::faces::index_list(name, element)?.0;
-                remark_properties(element, |place| place == list, remarks);
-                triangles = read_faces(name, element, vertices, values, remarks)?;
+                let parts = FaceParts::of(name, element, header.textures.len())?;
+                remark_properties(element, |place| parts.contain(place), remarks);
+                let read = read_faces(name, element, (count, header.textures.len()), values, remarks)?;
+                faces.wedges = read.wedges;
+                faces.by_texture.splice(0..0, read.by_texture);
+            }
+            "tristrips" if find("face").is_none() => {
+                faces.by_texture.push(read_strips(name, element, count, values, remarks)?);
             }
             _ => {
                 remarks.add_unread(&unread_element(element), element.rows);
@@ -74,9 +77,7 @@ fn mesh<'b, const BIG: bool>(
             }
         }
     }
-    let mut mesh = mesh.unwrap_or_default();
-    mesh.triangles = triangles;
-    Ok(mesh)
+    Ok((columns, faces))
 }
 
 /// Errors: more rows than the bytes that are left can hold, or than an index can number.
@@ -101,11 +102,12 @@ fn check_rows(name: &str, element: &Element, left: usize, is_text: bool) -> Resu
 /// Notes the properties that are not read.
 fn remark_properties(element: &Element, is_read: impl Fn(usize) -> bool, remarks: &mut Remarks) {
     let is_colour = |name: &str| COLOURS.contains(&name.strip_prefix("diffuse_").unwrap_or(name));
-    if element.properties.iter().any(|property| is_colour(&property.name)) {
+    let unread = || element.properties.iter().enumerate().filter(|(place, _)| !is_read(*place));
+    if unread().any(|(_, property)| is_colour(&property.name) && property.name != "alpha") {
         remarks.add_unread(&format!("colours of {}", element.name), element.rows);
     }
-    for (place, property) in element.properties.iter().enumerate() {
-        if !is_read(place) && !is_colour(&property.name) {
+    for (_, property) in unread() {
+        if !is_colour(&property.name) || property.name == "alpha" {
             remarks.add_unread(&format!("the property {} of {}", shown(&property.name), element.name), element.rows);
         }
     }
@@ -150,7 +152,7 @@ mod tests {
     fn polygons_are_fans() {
         let model = read(&format!("{}{CORNERS}5 0 1 2 4 3\n 3\n0 1 2", header(XYZ, LIST))).expect("read");
         assert_eq!(model.meshes[0].triangles, [[0, 1, 2], [0, 2, 4], [0, 4, 3], [0, 1, 2]]);
-        assert_eq!((model.remarks.fans, model.remarks.without_normals, model.instances.len()), (1, 1, 1));
+        assert_eq!((model.remarks.fans, model.remarks.without_normals, model.instances.len()), (0, 1, 1));
         let model = read(&format!("{}{CORNERS}4 0 1 2 3\n2 0 1", header(XYZ, LIST))).expect("read");
         assert_eq!((model.meshes[0].triangles.len(), model.remarks.fans, model.remarks.degenerate), (2, 0, 1));
     }
@@ -197,15 +199,21 @@ mod tests {
         assert_eq!(model.meshes[0].triangles, [[0, 1, 2]]);
         let sentence = "Not read: the property \"flags\" of face (1), the element \"other\" (2), the element \"none\" \
                         (999999999999999999).";
-        assert_eq!(model.remarks.sentences()[1], sentence);
+        assert_eq!(model.remarks.sentences()[2], sentence);
     }
 
     #[test]
     fn headers_without_what_a_mesh_needs_are_refused() {
         let start = "ply\nformat ascii 1.0\n";
-        assert_eq!(refused(&format!("{start}end_header\n")), "the element vertex is missing, but a mesh needs it");
+        let none = "the element vertex is missing, but a mesh needs it, and there are none";
+        assert_eq!(refused(&format!("{start}end_header\n")), none);
+        let other = "the element vertex is missing, but a mesh needs it, and its elements are \"vertices\"";
+        assert_eq!(refused(&format!("{start}element vertices 0\nend_header\n")), other);
         let no_face = format!("{start}element vertex 0\n{XYZ}\nend_header\n");
-        assert_eq!(refused(&no_face), "the element face is missing, but a mesh needs it");
+        assert!(read(&no_face).expect("read").instances.is_empty());
+        let points = format!("{start}element vertex 5\n{XYZ}\nend_header\n{CORNERS}");
+        let said = read(&points).expect("read").remarks.sentences();
+        assert_eq!(said.last().map(String::as_str), Some("Not read: points without faces (5)."));
         let with = |vertex: &str, face: &str| refused(&format!("{}{CORNERS}3 0 1 2 3 0 1 2", header(vertex, face)));
         let no_z = with("property float x\nproperty float y", LIST);
         assert_eq!(no_z, "a vertex's z is missing, but a vertex needs the properties x, y and z");

@@ -1,7 +1,7 @@
 //! The numbers of a file, one after another.
 
 use super::element::Number;
-use crate::number::{float, whole};
+use crate::number::{double, float, whole};
 
 /// Why a number cannot be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +17,9 @@ pub trait Values<'b> {
     /// The next number as a coordinate.
     fn float(&mut self, number: Number) -> Result<f32, Absent<'b>>;
 
+    /// The same in f64.
+    fn double(&mut self, number: Number) -> Result<f64, Absent<'b>>;
+
     /// The next number, which is whole.
     fn whole(&mut self, number: Number) -> Result<i64, Absent<'b>>;
 
@@ -31,15 +34,32 @@ pub trait Values<'b> {
 
     /// The number of bytes that are left.
     fn left(&self) -> usize;
+
+    /// A row has been read: where each has a line of its own, what is left of that is passed over.
+    ///
+    /// Whether there was anything.
+    fn end_row(&mut self) -> bool {
+        false
+    }
 }
 
 /// Numbers as text.
 pub struct Text<'b> {
     /// What is left.
     pub rest: &'b [u8],
+    /// Whether each row has a line of its own.
+    pub a_line_each: bool,
 }
 
 impl<'b> Text<'b> {
+    /// The numbers of so many rows.
+    ///
+    /// A row has a line of its own unless there are fewer lines than rows.
+    pub fn of(rest: &'b [u8], rows: u64) -> Self {
+        let lines = rest.split(|byte| matches!(byte, b'\n' | b'\r')).filter(|line| !line.trim_ascii().is_empty());
+        Self { rest, a_line_each: lines.count() as u64 >= rows }
+    }
+
     fn word(&mut self) -> Result<&'b [u8], Absent<'b>> {
         let start = self.rest.iter().position(|byte| !byte.is_ascii_whitespace()).ok_or(Absent::End)?;
         let rest = &self.rest[start..];
@@ -53,6 +73,11 @@ impl<'b> Values<'b> for Text<'b> {
     fn float(&mut self, _: Number) -> Result<f32, Absent<'b>> {
         let word = self.word()?;
         float(word).ok_or(Absent::Word(word))
+    }
+
+    fn double(&mut self, _: Number) -> Result<f64, Absent<'b>> {
+        let word = self.word()?;
+        double(word).ok_or(Absent::Word(word))
     }
 
     fn whole(&mut self, _: Number) -> Result<i64, Absent<'b>> {
@@ -74,6 +99,16 @@ impl<'b> Values<'b> for Text<'b> {
 
     fn left(&self) -> usize {
         self.rest.len()
+    }
+
+    fn end_row(&mut self) -> bool {
+        if !self.a_line_each {
+            return false;
+        }
+        let end = self.rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')).unwrap_or(self.rest.len());
+        let (line, rest) = self.rest.split_at(end);
+        self.rest = rest;
+        !line.trim_ascii().is_empty()
     }
 }
 
@@ -101,6 +136,13 @@ fn ordered<const BIG: bool, const N: usize>(mut bytes: [u8; N]) -> [u8; N] {
     bytes
 }
 
+/// A number at the start of these bytes in f64; 0 if they are too few.
+#[inline(always)]
+pub fn double_at<const BIG: bool>(bytes: &[u8], number: Number) -> f64 {
+    let mut values = Binary::<BIG> { rest: bytes };
+    values.double(number).unwrap_or_default()
+}
+
 /// A number at the start of these bytes as a coordinate; 0 if they are too few.
 #[inline(always)]
 pub fn float_at<const BIG: bool>(bytes: &[u8], number: Number) -> f32 {
@@ -115,6 +157,15 @@ impl<'b, const BIG: bool> Values<'b> for Binary<'b, BIG> {
             Number::F32 => f32::from_le_bytes(self.bytes()?),
             Number::F64 => f64::from_le_bytes(self.bytes()?) as f32,
             whole => self.whole(whole)? as f32,
+        })
+    }
+
+    #[inline(always)]
+    fn double(&mut self, number: Number) -> Result<f64, Absent<'b>> {
+        Ok(match number {
+            Number::F32 => f32::from_le_bytes(self.bytes()?).into(),
+            Number::F64 => f64::from_le_bytes(self.bytes()?),
+            whole => self.whole(whole)? as f64,
         })
     }
 
@@ -198,6 +249,19 @@ mod tests {
     }
 
     #[test]
+    fn a_row_ends_with_its_line_where_there_are_enough_lines() {
+        for end in ["\n", "\r\n", "\r", " \n\n"] {
+            let text = ["1 2", "3 4 5", "6 7"].join(end);
+            let mut values = Text::of(text.as_bytes(), 3);
+            let mut row = || [values.whole(Number::I8), values.whole(Number::I8), Ok(values.end_row().into())];
+            assert_eq!([row(), row(), row()], [[Ok(1), Ok(2), Ok(0)], [Ok(3), Ok(4), Ok(1)], [Ok(6), Ok(7), Ok(0)]]);
+        }
+        let mut values = Text::of(b"1 2 3 4\n5 6", 3);
+        let mut row = || [values.whole(Number::I8), values.whole(Number::I8), Ok(values.end_row().into())];
+        assert_eq!([row(), row(), row()], [[Ok(1), Ok(2), Ok(0)], [Ok(3), Ok(4), Ok(0)], [Ok(5), Ok(6), Ok(0)]]);
+    }
+
+    #[test]
     fn a_file_may_end_anywhere() {
         let mut values = Binary::<false> { rest: &[1, 2, 3] };
         assert_eq!(values.float(Number::F32), Err(Absent::End));
@@ -205,7 +269,7 @@ mod tests {
         assert_eq!(values.rows(u64::MAX, 8), None);
         assert_eq!(values.skip(Number::U8, 3), Ok(()));
         assert_eq!(values.left(), 0);
-        let mut values = Text { rest: b" 1 2.5\nx" };
+        let mut values = Text { rest: b" 1 2.5\nx", a_line_each: false };
         assert_eq!(values.whole(Number::U8), Ok(1));
         assert_eq!(values.whole(Number::U8), Err(Absent::Word(b"2.5")));
         assert_eq!(values.float(Number::F32), Err(Absent::Word(b"x")));
