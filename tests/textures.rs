@@ -4,6 +4,8 @@
 mod aspect;
 #[path = "textures/maps.rs"]
 mod maps;
+#[path = "textures/odd_images.rs"]
+mod odd_images;
 #[path = "textures/poles.rs"]
 mod poles;
 
@@ -390,10 +392,7 @@ fn files_that_are_no_images_are_refused_in_a_sentence() {
     put("cut.exr", b"v/1\x01\x02\x00\x00\x00");
     put("text.exr", b"nor is this");
     put("text.hdr", b"#?RADIANCE\n\n-Y 99999999 +X 99999999\n");
-    put("wrong.hdr", &card);
     fs::create_dir(folder.path().join("folder.png")).expect("made");
-    let nan = drawn([3, 2], |x, y| if (x, y) == (1, 1) { [0.5, 2.5, 0.5] } else { [0.5; 3] });
-    write_exr(&nan, &folder.path().join("bright.exr")).expect("written");
     let names = [
         "empty.png",
         "text.png",
@@ -402,9 +401,7 @@ fn files_that_are_no_images_are_refused_in_a_sentence() {
         "cut.exr",
         "text.exr",
         "text.hdr",
-        "wrong.hdr",
         "folder.png",
-        "bright.exr",
         "missing.png",
         "card.gif",
         "card",

@@ -15,7 +15,9 @@ use super::subject::Subject;
 use super::summary::Summary;
 use super::warnings::warnings;
 use pinhole::Chapter;
-use pinhole::extract::{ChosenIntegrator, LayerTable, adaptive_of, camera_entity, integrator_of, validate};
+use pinhole::extract::{
+    ChosenIntegrator, LayerTable, adaptive_of, camera_entity, image_remarks, integrator_of, validate,
+};
 use pinhole::film::{check_place, png_bytes, write_whole};
 use pinhole::look::{Preflight, RenderStats, preflight};
 use pinhole::plan::Census;
@@ -218,6 +220,10 @@ fn render_with(
     }
     if let (Some(ModelNotes(notes)), false) = (scene.get_resource(), json || options.quiet) {
         notes.iter().try_for_each(|note| streams.note(&format!("note: {note}")))?;
+    }
+    if !(json || options.quiet) {
+        let remarks = image_remarks(census)?;
+        remarks.iter().try_for_each(|remark| streams.note(&format!("note: {remark}")))?;
     }
     let said = before_rendering(census, options, (&render, began), json, streams)?;
 

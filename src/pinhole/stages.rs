@@ -126,6 +126,7 @@ const LIST: &[Part] = &[Part(&[
     (Textures, shade::normal_map_stage),
     (Textures, shade::metallic_roughness_stage),
     (Textures, shade::emission_map_stage),
+    (Textures, shade::tint_stage),
 
     // The radiance of rays that hit nothing.
     (Radiance, shade::background_stage),

@@ -22,7 +22,7 @@ pub fn evening(turn: f64) -> EnvironmentTable {
 fn lamp(width: usize, height: usize, at: [usize; 2]) -> EnvironmentTable {
     let mut rgb = vec![[0.0; 3]; width * height];
     rgb[at[1] * width + at[0]] = [100.0, 50.0, 10.0];
-    EnvironmentTable { image: Texels { width, height, rgb }.into(), turn: [0.6, 0.8] }
+    EnvironmentTable { image: Texels { width, height, rgb }.into(), turn: [0.6, 0.8], remarks: Vec::new() }
 }
 
 /// The sum of a function over all directions, texel by texel in `fine`² parts.

@@ -166,7 +166,7 @@ fn a_film_that_does_not_fit_is_refused_before_it_is_asked_for() {
     assert_eq!(ended, Some(0), "a plan has no film: {said}");
 }
 
-/// A picture of 4 bytes of deflate for every 4,000 texels, as many as an image may have.
+/// A picture of 4 bytes of deflate for every 4,000 texels, 4096² of them.
 #[cfg(target_os = "linux")]
 #[test]
 fn textures_that_do_not_fit_are_refused_before_they_are_decoded() {

@@ -13,6 +13,8 @@ pub struct EnvironmentTable {
     pub image: Arc<Texels>,
     /// Sine and cosine of the rotation about +y.
     pub turn: [f64; 2],
+    /// What was done to the file's texels, one sentence each.
+    pub remarks: Vec<String>,
 }
 
 impl Table for EnvironmentTable {
@@ -20,7 +22,8 @@ impl Table for EnvironmentTable {
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let Some(entity) = at_most_one::<Environment>(scene, "environment", "Environment")? else {
-            return Ok(Self { image: Texels::single([0.0; 3]).into(), turn: [0.0, 1.0] });
+            let image = Texels::single([0.0; 3]).into();
+            return Ok(Self { image, turn: [0.0, 1.0], remarks: Vec::new() });
         };
         let Environment { file, turn, scale } = scene.get::<Environment>(entity).cloned().unwrap_or_default();
         let who = kind_and_name(scene, "environment", entity);
@@ -30,7 +33,8 @@ impl Table for EnvironmentTable {
         if !(0.0..f64::INFINITY).contains(&scale) {
             return Err(SceneError::new(who, "scale", number(scale), "it must be a finite number of at least 0"));
         }
-        let mut image = background_image(scene, &who, &file)?;
+        let read = background_image(scene, &who, &file)?;
+        let (mut image, remarks) = (Arc::clone(&read.texels), read.remarks.clone());
         if scale != 1.0 {
             let mut scaled = Texels::clone(&image);
             scaled.rgb.iter_mut().flatten().for_each(|part| *part = (f64::from(*part) * scale) as f32);
@@ -41,7 +45,7 @@ impl Table for EnvironmentTable {
             return Err(SceneError::new(who, "scale", number(scale), accepted));
         }
         let (sine, cosine) = libm::sincos(turn.radians());
-        Ok(Self { image, turn: [sine, cosine] })
+        Ok(Self { image, turn: [sine, cosine], remarks })
     }
 
     fn bytes(&self) -> usize {

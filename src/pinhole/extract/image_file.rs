@@ -1,21 +1,27 @@
 //! Image files → texels in linear light.
 
+use super::exr_file::exr_texels;
 use super::image_head::{ImageHead, image_head, one_line};
+use super::texel_range::{Numbers, is_grey, normals_of_heights};
 use super::{Pyramid, linear_from_srgb};
 use crate::scene::{
-    EmbeddedFiles, FileStore, IMAGE_FILE, ModelFiles, SceneError, SceneFolder, TooLittleMemory, Undecoded,
-    check_memory, open_file, printable, printable_path,
+    EmbeddedFiles, FileStore, IMAGE_FILE, ModelFiles, SceneError, SceneFolder, TELLING_BYTES, TooLittleMemory,
+    Undecoded, check_memory, image_kind, open_file, printable, printable_path,
 };
 use bevy_ecs::prelude::*;
-use exr::prelude::{ReadChannels, ReadLayers, read};
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
+use std::borrow::Cow;
 use std::collections::BTreeSet;
-use std::io::{BufRead, BufReader, Cursor, Seek};
+use std::io::{BufRead, BufReader, Cursor};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The greatest number of texels of one image.
-const MOST_TEXELS: u64 = 1 << 24;
+/// The greatest number of texels of one image: 8192².
+const MOST_TEXELS: u64 = 1 << 26;
+/// The endings of files that may be images.
+const ENDINGS: [&str; 7] = ["png", "jpg", "jpeg", "tga", "bmp", "hdr", "exr"];
+/// What a name without such an ending is told.
+const ACCEPTED: &str = "it must be the name of a .png, .jpg, .tga, .bmp, .hdr or .exr file";
 /// The memory of a texel with its part of the pyramid above it, in bytes.
 const BYTES_A_TEXEL: u64 = 16;
 
@@ -42,59 +48,25 @@ impl Texels {
     }
 }
 
-/// The range of values that an image may hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Numbers {
-    /// Reflectances, from 0 to 1.
-    Reflectances,
-    /// Radiance: finite, at least 0.
-    Radiance,
-    /// Normals: from 0 to 1, blue more than a half.
-    Normals,
-    /// Numbers that are no light, such as roughness: from 0 to 1.
-    Factors,
-    /// Emission: finite, at least 0.
-    Emission,
-}
-
-impl Numbers {
-    fn endings(self) -> (&'static [&'static str], &'static str) {
-        match self {
-            Self::Reflectances | Self::Normals | Self::Factors | Self::Emission => {
-                (&["png", "jpg", "jpeg", "hdr", "exr"], "it must be the name of a .png, .jpg, .hdr or .exr file")
-            }
-            Self::Radiance => (&["hdr", "exr"], "it must be the name of a .hdr or .exr file"),
-        }
-    }
-
-    fn accepts(self, texel: [f32; 3]) -> bool {
-        let within = |part: &f32| match self {
-            Self::Reflectances | Self::Normals | Self::Factors => (0.0..=1.0).contains(part),
-            Self::Radiance | Self::Emission => (0.0..f32::INFINITY).contains(part),
-        };
-        texel.iter().all(within) && (self != Self::Normals || texel[2] > 0.5)
-    }
-
-    fn range(self) -> &'static str {
-        match self {
-            Self::Reflectances => "from 0 to 1, for a surface gives back no more than it gets",
-            Self::Radiance | Self::Emission => "finite and at least 0",
-            Self::Factors => "from 0 to 1",
-            Self::Normals => "from 0 to 1, and blue more than a half, for a normal points out of the surface",
-        }
-    }
+/// An image without a pyramid, and what was done to its texels, one sentence each.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RemarkedTexels {
+    /// The texels.
+    pub texels: Arc<Texels>,
+    /// What there is to say.
+    pub remarks: Vec<String>,
 }
 
 /// The images of textures, which are reflectances, those of environments, which are radiance, and maps.
 static TEXTURES: FileStore<Pyramid> = FileStore::new();
-static BACKGROUNDS: FileStore<Texels> = FileStore::new();
-static NORMAL_MAPS: FileStore<Texels> = FileStore::new();
+static BACKGROUNDS: FileStore<RemarkedTexels> = FileStore::new();
+static NORMAL_MAPS: FileStore<RemarkedTexels> = FileStore::new();
 static FACTORS: FileStore<Pyramid> = FileStore::new();
 static EMISSIONS: FileStore<Pyramid> = FileStore::new();
 
 /// The image of a texture, with its pyramid.
 ///
-/// Errors: another file name extension, a file that is missing, unreadable or too large, a texel out of range.
+/// Errors: a file that is missing, unreadable, too large or no image.
 pub(super) fn texture_image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError> {
     decoded(&TEXTURES, scene, who, file, Numbers::Reflectances, with_pyramid)
 }
@@ -110,34 +82,35 @@ pub(super) fn factor_image(scene: &World, who: &str, file: &str) -> Result<Arc<P
 ///
 /// Errors: the same.
 pub(super) fn emission_image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError> {
-    decoded(&EMISSIONS, scene, who, file, Numbers::Emission, with_pyramid)
+    decoded(&EMISSIONS, scene, who, file, Numbers::Radiance, with_pyramid)
 }
 
 /// The image of an environment.
 ///
 /// Errors: the same as those of a texture.
-pub(super) fn background_image(scene: &World, who: &str, file: &str) -> Result<Arc<Texels>, SceneError> {
+pub(super) fn background_image(scene: &World, who: &str, file: &str) -> Result<Arc<RemarkedTexels>, SceneError> {
     decoded(&BACKGROUNDS, scene, who, file, Numbers::Radiance, alone)
 }
 
-/// The image of a normal map, its parts as they are in the file.
+/// The image of a normal map, its parts as they are in the file; a grey one is a map of heights, and becomes the normals
+/// of its slopes.
 ///
-/// Errors: the same, and a texel whose normal does not point out of the surface.
-pub(super) fn normal_map_image(scene: &World, who: &str, file: &str) -> Result<Arc<Texels>, SceneError> {
+/// Errors: the same.
+pub(super) fn normal_map_image(scene: &World, who: &str, file: &str) -> Result<Arc<RemarkedTexels>, SceneError> {
     decoded(&NORMAL_MAPS, scene, who, file, Numbers::Normals, alone)
 }
 
 /// An image with its pyramid, and the memory of both in bytes.
-fn with_pyramid(texels: Texels) -> (Pyramid, usize) {
-    let pyramid = Pyramid::on(texels);
+fn with_pyramid(texels: Texels, remarks: Vec<String>) -> (Pyramid, usize) {
+    let pyramid = Pyramid { remarks, ..Pyramid::on(texels) };
     let bytes = pyramid.bytes();
     (pyramid, bytes)
 }
 
 /// An image without a pyramid, and its memory in bytes.
-fn alone(texels: Texels) -> (Texels, usize) {
+fn alone(texels: Texels, remarks: Vec<String>) -> (RemarkedTexels, usize) {
     let bytes = texels.bytes();
-    (texels, bytes)
+    (RemarkedTexels { texels: texels.into(), remarks }, bytes)
 }
 
 /// A file's name as error messages show it.
@@ -151,18 +124,18 @@ fn decoded<T>(
     who: &str,
     file: &str,
     numbers: Numbers,
-    prepared: impl FnOnce(Texels) -> (T, usize),
+    prepared: impl FnOnce(Texels, Vec<String>) -> (T, usize),
 ) -> Result<Arc<T>, SceneError> {
     let refused = |accepted: String| SceneError::new(who, "file", shown_name(file), accepted);
     let path = SceneFolder::path_of(scene, file);
-    let (endings, accepted) = numbers.endings();
-    let format = format_of(&path).filter(|(ending, _)| endings.contains(ending));
-    let (_, format) = format.ok_or_else(|| refused(accepted.into()))?;
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    let is_named = ending.is_some_and(|ending| ENDINGS.contains(&&*ending));
     let decode = |bytes: &[u8]| {
-        let texels = texels(bytes, format, numbers)
-            .map_err(|problem| format!("{} cannot be read: {problem}", printable_path(&path)))?;
-        check_numbers(&texels, numbers)?;
-        Ok(prepared(texels))
+        let shown = printable_path(&path);
+        let read = texels(&path, bytes, numbers).map_err(|problem| format!("{shown} cannot be read: {problem}"));
+        let (texels, remarks) = read?;
+        let name = path.file_name().map_or_else(|| shown.clone(), |name| printable(&name.to_string_lossy(), 80));
+        Ok(prepared(texels, remarks.into_iter().map(|remark| format!("{name}: {remark}")).collect()))
     };
     if let Some(bytes) = ModelFiles::find(scene, file) {
         return store.of_bytes(Path::new(file), &bytes, decode).map_err(refused);
@@ -171,6 +144,8 @@ fn decoded<T>(
         return decode(bytes).map(|(image, _)| Arc::new(image)).map_err(refused);
     }
     store.get(&path, IMAGE_FILE, decode).map_err(|why| match why {
+        // What is an image has been read, whatever its name.
+        _ if !is_named => refused(ACCEPTED.into()),
         Undecoded::File(error) => refused(error.to_string()),
         Undecoded::Content(problem) => refused(problem),
     })
@@ -186,42 +161,25 @@ pub(super) fn check_memory_of_textures<'f>(
     let paths: BTreeSet<PathBuf> = files.map(|file| SceneFolder::path_of(scene, file)).collect();
     // An unreadable file is reported by its own name later.
     let bytes = |path: &PathBuf| -> Option<u64> {
-        let (_, format) = format_of(path)?;
         let file = open_file(path, IMAGE_FILE).ok()?;
         let length = file.metadata.len();
         let is_there = TEXTURES.holds(path, &file.metadata);
-        let head = image_head(BufReader::new(file.file), format, length).ok()?;
+        let mut reader = BufReader::new(file.file);
+        let start = reader.fill_buf().ok()?;
+        let format = image_kind(path, &start[..start.len().min(TELLING_BYTES)]).ok()?;
+        let head = image_head(reader, format, length).ok()?;
         (!is_there && head.pixels() <= MOST_TEXELS).then(|| head.pixels() * BYTES_A_TEXEL)
     };
     let needed = paths.iter().filter_map(bytes).sum();
     check_memory(needed).map_err(|too_little| (paths.len(), too_little))
 }
 
-fn format_of(path: &Path) -> Option<(&'static str, ImageFormat)> {
-    let ending = path.extension()?.to_string_lossy().to_lowercase();
-    let formats = [
-        ("png", ImageFormat::Png),
-        ("jpg", ImageFormat::Jpeg),
-        ("jpeg", ImageFormat::Jpeg),
-        ("hdr", ImageFormat::Hdr),
-        ("exr", ImageFormat::OpenExr),
-    ];
-    formats.into_iter().find(|(own, _)| *own == ending)
-}
-
-fn check_numbers(texels: &Texels, numbers: Numbers) -> Result<(), String> {
-    let wrong = |texel: &[f32; 3]| !numbers.accepts(*texel);
-    let Some(first) = texels.rgb.iter().position(wrong) else { return Ok(()) };
-    let count = texels.rgb.iter().filter(|texel| wrong(texel)).count();
-    let [r, g, b] = texels.rgb[first];
-    let (x, y) = (first % texels.width, first / texels.width);
-    let found = format!("it has {count} other texels, the first at {x}, {y}: ({r}, {g}, {b})");
-    Err(format!("each part of a texel must be {}, and {found}", numbers.range()))
-}
-
-/// Decodes the bytes of a file.
-fn texels(bytes: &[u8], format: ImageFormat, numbers: Numbers) -> Result<Texels, String> {
-    let head = image_head(Cursor::new(bytes), format, bytes.len() as u64)?;
+/// Decodes the bytes of a file, and says what was done to them.
+fn texels(path: &Path, bytes: &[u8], numbers: Numbers) -> Result<(Texels, Vec<String>), String> {
+    let format = image_kind(path, &bytes[..bytes.len().min(TELLING_BYTES)])?;
+    let mut remarks = Vec::new();
+    let bytes = if format == ImageFormat::Hdr { as_radiance(bytes) } else { Cow::Borrowed(bytes) };
+    let head = image_head(Cursor::new(&*bytes), format, bytes.len() as u64)?;
     let ImageHead { width, height, decoded } = head;
     if head.pixels() > MOST_TEXELS {
         return Err(format!("it has {width} × {height} texels, and an image may have {MOST_TEXELS}"));
@@ -229,23 +187,67 @@ fn texels(bytes: &[u8], format: ImageFormat, numbers: Numbers) -> Result<Texels,
     // For a while, the decoder's own pixels exist beside the texels.
     check_memory(head.pixels() * BYTES_A_TEXEL + 2 * decoded)
         .map_err(|too_little| format!("it has {width} × {height} texels, which {too_little}"))?;
-    match format {
-        ImageFormat::OpenExr => read_exr(Cursor::new(bytes)),
-        _ => {
-            let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
-            let mut limits = Limits::default();
-            limits.max_alloc = Some(MOST_TEXELS * 16);
-            reader.limits(limits);
-            let image = reader.decode().map_err(|error| one_line(&error))?;
-            Ok(Texels { width: image.width() as usize, height: image.height() as usize, rgb: linear(image, numbers) })
+    let mut texels = if format == ImageFormat::OpenExr {
+        let (texels, said) = exr_texels(&bytes)?;
+        remarks.extend(said);
+        texels
+    } else {
+        if format == ImageFormat::Jpeg && breaks_off(&bytes) {
+            remarks.push("it breaks off before its end, and what is missing is made up".into());
         }
+        let mut reader = ImageReader::with_format(Cursor::new(&*bytes), format);
+        let mut limits = Limits::default();
+        limits.max_alloc = Some(MOST_TEXELS * 16);
+        reader.limits(limits);
+        let image = reader.decode().map_err(|error| one_line(&error))?;
+        Texels { width: image.width() as usize, height: image.height() as usize, rgb: linear(image, numbers) }
+    };
+    if format == ImageFormat::Hdr {
+        divide_by_exposure(&bytes, &mut texels, &mut remarks);
+    }
+    if numbers == Numbers::Normals && is_grey(&texels) {
+        remarks.push("as a normal map it is grey, so it is taken for heights, whose slopes give the normals".into());
+        Numbers::Factors.bring_into_range(&mut texels);
+        return Ok((normals_of_heights(&texels), remarks));
+    }
+    remarks.extend(numbers.bring_into_range(&mut texels));
+    Ok((texels, remarks))
+}
+
+/// Whether a JPEG ends within its image: behind the last beginning of a scan there is no end of an image.
+fn breaks_off(bytes: &[u8]) -> bool {
+    let scan = bytes.windows(2).rposition(|mark| mark == [0xff, 0xda]);
+    scan.is_some_and(|scan| !bytes[scan..].windows(2).any(|mark| mark == [0xff, 0xd9]))
+}
+
+/// The first line of a Radiance file as the decoder knows it.
+const RADIANCE: &[u8] = b"#?RADIANCE\n";
+
+/// A Radiance file with that first line: other programs write their own names there, such as `#?RGBE`.
+fn as_radiance(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let end = bytes.iter().take(200).position(|byte| *byte == b'\n');
+    match end {
+        Some(end) if !bytes.starts_with(RADIANCE) => Cow::Owned([RADIANCE, &bytes[end + 1..]].concat()),
+        _ => Cow::Borrowed(bytes),
+    }
+}
+
+/// Divides by the numbers that a Radiance file says its pixels were multiplied by.
+fn divide_by_exposure(bytes: &[u8], texels: &mut Texels, remarks: &mut Vec<String>) {
+    let head = bytes.split(|byte| *byte == b'\n').take_while(|line| !line.is_empty()).take(100);
+    let exposures =
+        head.filter_map(|line| std::str::from_utf8(line.strip_prefix(b"EXPOSURE=")?).ok()?.trim().parse().ok());
+    let exposure: f64 = exposures.filter(|exposure| *exposure > 0.0 && f64::is_finite(*exposure)).product();
+    if exposure != 1.0 && exposure > 0.0 && exposure.is_finite() {
+        texels.rgb.iter_mut().flatten().for_each(|part| *part = (f64::from(*part) / exposure) as f32);
+        remarks.push(format!("its texels are divided by its EXPOSURE, {exposure}"));
     }
 }
 
 /// Converts pixels to linear light, or to numbers that are no light: integers of colours are sRGB, all else is linear;
 /// alpha is ignored.
 fn linear(image: DynamicImage, numbers: Numbers) -> Vec<[f32; 3]> {
-    let as_it_is = matches!(numbers, Numbers::Normals | Numbers::Factors);
+    let as_it_is = numbers.are_no_light();
     let decoded = |part: f64| if as_it_is { part } else { linear_from_srgb(part) };
     let bytes_a_part = image.color().bytes_per_pixel() / image.color().channel_count();
     match bytes_a_part {
@@ -259,26 +261,4 @@ fn linear(image: DynamicImage, numbers: Numbers) -> Vec<[f32; 3]> {
         }
         _ => image.into_rgb32f().pixels().map(|texel| texel.0).collect(),
     }
-}
-
-/// The channels R, G and B of the first part of an EXR that has them, at full size.
-///
-/// Errors: the library's message, on one line.
-pub fn read_exr(reader: impl BufRead + Seek) -> Result<Texels, String> {
-    let image = read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .rgb_channels(
-            |size, _| Texels { width: size.0, height: size.1, rgb: vec![[0.0; 3]; size.area()] },
-            |texels: &mut Texels, at, (r, g, b): (f32, f32, f32)| {
-                let row = at.1 * texels.width;
-                texels.rgb[row + at.0] = [r, g, b];
-            },
-        )
-        .first_valid_layer()
-        .all_attributes()
-        .non_parallel()
-        .from_buffered(reader)
-        .map_err(|error| one_line(&error))?;
-    Ok(image.layer_data.channel_data.pixels)
 }

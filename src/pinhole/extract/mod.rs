@@ -31,6 +31,7 @@ mod contact;
 mod emissive;
 mod environment;
 mod environment_light;
+mod exr_file;
 mod filter;
 mod glass;
 mod glass_body;
@@ -39,6 +40,7 @@ mod gradient;
 mod hierarchy;
 mod image_file;
 mod image_head;
+mod image_remarks;
 mod image_texture;
 mod integrator;
 mod integrator_table;
@@ -67,7 +69,9 @@ mod shapes_of;
 mod sky;
 mod spacing;
 mod srgb;
+mod texel_range;
 mod texture;
+mod tint;
 mod two_colours;
 mod uv_slope;
 mod uv_space;
@@ -89,14 +93,16 @@ pub use contact::{Contact, ContactTable, contact_evidence, glass_contact_evidenc
 pub use emissive::{EmissiveTable, emissive_evidence, one_sided_evidence};
 pub use environment::EnvironmentTable;
 pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
+pub use exr_file::read_exr;
 pub use filter::FilterTable;
 pub use glass::GlassTable;
 pub use glass_body::{GlassBody, GlassBodyTable};
 pub use glass_overlap::{absorption_evidence, deep_glass, glass_overlaps};
 pub use gradient::GradientTable;
 pub use hierarchy::{HierarchyOf, hierarchy_evidence};
-pub use image_file::{Texels, read_exr};
+pub use image_file::{RemarkedTexels, Texels};
 pub use image_head::{ImageHead, image_head, one_line};
+pub use image_remarks::image_remarks;
 pub use image_texture::ImageTable;
 pub use integrator::{
     ChosenIntegrator, followed_evidence, integrator_of, light_sampling_evidence, mis_evidence, needed_if,
@@ -147,6 +153,7 @@ pub use texture::{
     NO_TEXTURE, ShapeSpaces, Texture, TextureMap, TextureMapping, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,
     texture_evidence, texture_of_kind,
 };
+pub use tint::{TintTable, surface_colour_evidence, tint_evidence, vertex_colour_evidence};
 pub use two_colours::{CheckerTable, StripesTable, TwoColours};
 pub use uv_slope::UvSlopes;
 pub use uv_space::UvSpaceTable;
@@ -186,6 +193,7 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<CheckerTable>,
     answer::<StripesTable>,
     answer::<ImageTable>,
+    answer::<TintTable>,
     answer::<NormalMapTable>,
     answer::<MetallicRoughnessTable>,
     answer::<EmissionMapTable>,

@@ -1,5 +1,5 @@
 use super::check::{kind_and_name, number, positive_length};
-use super::image_file::{Texels, normal_map_image};
+use super::image_file::{RemarkedTexels, normal_map_image};
 use super::material::material_kind_evidence;
 use super::texture::rows_of_kind;
 use crate::material::material_entities;
@@ -18,7 +18,7 @@ pub struct NormalMapTable {
     /// The row of each material's map; [`NO_TEXTURE`](super::NO_TEXTURE) where it has none.
     pub of_material: Vec<u32>,
     /// The images, each part from 0 to 1; an image used by several materials is in memory once.
-    pub image: Vec<Arc<Texels>>,
+    pub image: Vec<Arc<RemarkedTexels>>,
     /// The factor of the parts along the surface.
     pub scale: Vec<f64>,
     /// The side of the image in units of uv.
@@ -58,7 +58,8 @@ impl Table for NormalMapTable {
     }
 
     fn bytes(&self) -> usize {
-        let images: BTreeMap<_, usize> = self.image.iter().map(|image| (Arc::as_ptr(image), image.bytes())).collect();
+        let images: BTreeMap<_, usize> =
+            self.image.iter().map(|image| (Arc::as_ptr(image), image.texels.bytes())).collect();
         self.of_material.len() * 4 + images.into_values().sum::<usize>()
     }
 }

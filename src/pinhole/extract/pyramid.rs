@@ -9,6 +9,8 @@ pub struct Pyramid {
     pub levels: Vec<Texels>,
     /// The largest red, green and blue among the image's texels.
     pub brightest: [f32; 3],
+    /// What was done to the file's texels, one sentence each.
+    pub remarks: Vec<String>,
 }
 
 impl Pyramid {
@@ -20,7 +22,7 @@ impl Pyramid {
             let next = halved(below);
             levels.push(next);
         }
-        Self { levels, brightest }
+        Self { levels, brightest, remarks: Vec::new() }
     }
 
     /// The memory of its texels, in bytes.

@@ -53,6 +53,8 @@ pub enum TileSystems {
     Colour,
     /// Textures are evaluated for their own rows, in any order.
     Texture,
+    /// Colours are multiplied by what the mesh and the material make of them.
+    Tint,
     /// The radiance of rays that hit nothing.
     Background,
     /// Layers of the film are recorded, before the path is traced further.
@@ -115,6 +117,7 @@ impl TileSystems {
         Self::Footprint,
         Self::Colour,
         Self::Texture,
+        Self::Tint,
         Self::Background,
         Self::Layers,
         Self::Media,

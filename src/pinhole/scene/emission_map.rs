@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct EmissionMap {
-    /// A .png or .jpg file in sRGB, or a .hdr or .exr of linear values, finite and at least 0; its path is relative to the
+    /// A .png, .jpg, .tga or .bmp file in sRGB, or a .hdr or .exr of linear values, finite and at least 0; its path is relative to the
     /// scene file's folder, or to the current folder if there is no scene file.
     pub file: String,
     /// The width and height of the image in units of uv, above 0; its upper left corner is at (0, 0).

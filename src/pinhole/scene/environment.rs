@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Environment {
-    /// A .hdr or .exr file of linear radiance; its path is relative to the scene file's folder, or to the current
+    /// A .hdr or .exr file of linear radiance, or a .png, .jpg, .tga or .bmp in sRGB; its path is relative to the scene file's folder, or to the current
     /// folder if there is no scene file.
     pub file: String,
     /// Its rotation about +y, by the right-hand rule: 90° brings the image's centre from −z to −x.

@@ -13,8 +13,8 @@ pub const IMAGE_FILE: FileKind = FileKind { name: "an image", most: 1 << 30 };
 #[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ImageTexture {
-    /// A .png or .jpg file in sRGB, or a .hdr or .exr of linear values from 0 to 1; its path is relative to the scene file's
-    /// folder, or to the current folder if there is no scene file.
+    /// A .png, .jpg, .tga or .bmp file in sRGB, or a .hdr or .exr of linear values from 0 to 1; its path is relative to the
+    /// scene file's folder, or to the current folder if there is no scene file.
     pub file: String,
     /// The width of the image, in units of uv or of the shape's space, above 0.
     ///

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MetallicRoughnessMap {
-    /// A .png, .jpg, .hdr or .exr file of values from 0 to 1; its path is relative to the scene file's folder, or to the
+    /// A .png, .jpg, .tga, .bmp, .hdr or .exr file of values from 0 to 1; its path is relative to the scene file's folder, or to the
     /// current folder if there is no scene file.
     pub file: String,
     /// The width and height of the image in units of uv, above 0; its upper left corner is at (0, 0).

@@ -39,6 +39,7 @@ mod filter;
 mod fisheye;
 mod folder;
 mod gradient;
+mod image_kind;
 mod image_texture;
 mod integrator;
 mod layers;
@@ -68,6 +69,7 @@ mod sphere;
 mod spot_light;
 mod stripes;
 mod texture;
+mod tint;
 mod torus;
 mod triangle;
 
@@ -110,6 +112,8 @@ pub use folder::{EmbeddedFiles, SceneFolder};
 #[doc(no_inline)]
 pub use glam::DQuat;
 pub use gradient::Gradient;
+#[doc(hidden)]
+pub use image_kind::{KINDS_READ, TELLING_BYTES, image_kind};
 #[doc(hidden)]
 pub use image_texture::IMAGE_FILE;
 pub use image_texture::ImageTexture;
@@ -162,5 +166,7 @@ pub use spot_light::SpotLight;
 pub use stripes::Stripes;
 #[doc(hidden)]
 pub use texture::{TextureBy, UvTransform, Wrap, WrapMode};
+#[doc(hidden)]
+pub use tint::Tint;
 pub use torus::Torus;
 pub use triangle::Triangle;

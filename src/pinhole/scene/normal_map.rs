@@ -11,8 +11,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct NormalMap {
-    /// A .png, .jpg, .hdr or .exr file of values from 0 to 1, blue more than a half; its path is relative to the scene file's
-    /// folder, or to the current folder if there is no scene file.
+    /// A .png, .jpg, .tga, .bmp, .hdr or .exr file of values from 0 to 1, blue more than a half; its path is relative to the
+    /// scene file's folder, or to the current folder if there is no scene file.
+    ///
+    /// A grey image is a map of heights instead, white 1/50 of the image's width above black, and the normals are those of
+    /// its slopes.
     pub file: String,
     /// The factor of the parts to the right and up: more makes the relief steeper, 0 leaves the normals as they are.
     pub scale: f64,

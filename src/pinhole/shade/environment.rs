@@ -217,8 +217,8 @@ mod tests {
     fn rotation_is_right_handed() {
         let image = image(64, 32, smooth);
         let (sine, cosine) = libm::sincos(PI / 2.0);
-        let straight = EnvironmentTable { image: image.clone().into(), turn: [0.0, 1.0] };
-        let turned = EnvironmentTable { image: image.into(), turn: [sine, cosine] };
+        let straight = EnvironmentTable { image: image.clone().into(), turn: [0.0, 1.0], remarks: Vec::new() };
+        let turned = EnvironmentTable { image: image.into(), turn: [sine, cosine], remarks: Vec::new() };
         for (there, here) in [(DVec3::NEG_Z, DVec3::NEG_X), (DVec3::NEG_X, DVec3::Z), (DVec3::X, DVec3::NEG_Z)] {
             let (expected, found) = (environment_radiance(&straight, there), environment_radiance(&turned, here));
             for (expected, found) in expected.into_iter().zip(found) {

@@ -37,6 +37,7 @@ mod row_slopes;
 mod shadow;
 mod surface_colour;
 mod texture_point;
+mod tint;
 mod transmissive_rows;
 mod unintersected;
 mod unlit;
@@ -105,6 +106,8 @@ pub use shadow::{
 pub use surface_colour::{colour_stage, colour_surfaces};
 #[doc(hidden)]
 pub use texture_point::{TexturePoint, TexturePoints, compute_texture_points, face_from_space, texture_point_stage};
+#[doc(hidden)]
+pub use tint::{tint_stage, tint_surfaces};
 #[doc(hidden)]
 pub use transmissive_rows::{TransmissiveRows, list_transmissive_rows, transmissive_rows_stage};
 #[doc(hidden)]

@@ -87,7 +87,7 @@ pub fn map_normals(
             if let Some((matrix, offset)) = maps.transform[map] {
                 at = matrix * at + offset;
             }
-            let [x, y, z] = bilinear(&maps.image[map], at, maps.wrap[map]).map(|part| 2.0 * part - 1.0);
+            let [x, y, z] = bilinear(&maps.image[map].texels, at, maps.wrap[map]).map(|part| 2.0 * part - 1.0);
             let local = DVec3::new(x * maps.scale[map], y * maps.scale[map], z);
             if local.x == 0.0 && local.y == 0.0 {
                 continue;

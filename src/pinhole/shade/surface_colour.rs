@@ -1,5 +1,5 @@
 use super::SurfaceColours;
-use crate::extract::{MaterialTable, texture_evidence};
+use crate::extract::{MaterialTable, surface_colour_evidence};
 use crate::intersect::{MaterialRows, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems};
 use bevy_ecs::prelude::*;
@@ -31,5 +31,5 @@ impl SurfaceColours {
 
 /// The stage that runs [`colour_surfaces`]; the texture stages overwrite its colours.
 pub fn colour_stage() -> Stage {
-    Stage::new("Look up surface colours", TileSystems::Colour, colour_surfaces).when(texture_evidence)
+    Stage::new("Look up surface colours", TileSystems::Colour, colour_surfaces).when(surface_colour_evidence)
 }

@@ -32,6 +32,16 @@ impl PlacedMesh {
         let (towards, cosine) = (-hit.direction, -normal.dot(hit.direction));
         Some(if cosine < GRAZING { (normal + (GRAZING - cosine) * towards).normalize() } else { normal })
     }
+
+    /// The colour where a ray hits it, interpolated from those of the vertices, linear Rec. 709; none where it has none.
+    pub fn vertex_colour(&self, hit: &RayHit) -> Option<[f64; 3]> {
+        let colours = self.geometry.colours.as_ref()?;
+        let vertices = self.geometry.triangles[hit.primitive as usize];
+        let colours = vertices.map(|vertex| DVec3::from(colours[vertex as usize].map(f64::from)));
+        let ([origin, direction], _) = self.own_ray([hit.origin, hit.direction]);
+        let triangle_hit = TriangleHit::of(origin, direction, &self.triangle(hit.primitive));
+        Some(triangle_hit.interpolate(&colours).clamp(DVec3::ZERO, DVec3::ONE).to_array())
+    }
 }
 
 /// (B − A) × (C − A), from exact differences.

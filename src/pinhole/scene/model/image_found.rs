@@ -1,43 +1,25 @@
 //! The image files that a model names: where they are, and whether they can be read.
 
-use crate::scene::{IMAGE_FILE, open_file};
+use crate::scene::{IMAGE_FILE, TELLING_BYTES, image_kind, open_file};
 use image::{ImageFormat, ImageReader};
 use std::fs;
 use std::io::{BufReader, Read, Seek};
 use std::path::{Path, PathBuf};
 
 /// The greatest number of texels of an image that extraction accepts.
-const MOST_TEXELS: u64 = 1 << 24;
-
-/// What begins a file of a kind of image, and its name; those of the first kinds are read.
-const BEGINNINGS: &[(&[u8], &str)] = &[
-    (b"\x89PNG\r\n\x1a\n", "PNG"),
-    (b"\xff\xd8\xff", "JPEG"),
-    (b"#?", "HDR"),
-    (b"\x76\x2f\x31\x01", "EXR"),
-    (b"BM", "BMP"),
-    (b"DDS ", "DDS"),
-    (b"GIF8", "GIF"),
-    (b"II*\0", "TIFF"),
-    (b"MM\0*", "TIFF"),
-    (b"RIFF", "WebP"),
-    (b"8BPS", "PSD"),
-    (b"\xabKTX", "KTX"),
-];
-const READ: [&str; 4] = ["PNG", "JPEG", "HDR", "EXR"];
+const MOST_TEXELS: u64 = 1 << 26;
 
 /// The ending of an image's name by its first bytes, if it is of a kind that is read.
 pub fn ending_of(bytes: &[u8]) -> &'static str {
-    match kind_of(bytes) {
-        Some("JPEG") => "jpg",
-        Some("HDR") => "hdr",
-        Some("EXR") => "exr",
+    let start = &bytes[..bytes.len().min(TELLING_BYTES)];
+    match image_kind(Path::new(""), start) {
+        Ok(ImageFormat::Jpeg) => "jpg",
+        Ok(ImageFormat::Hdr) => "hdr",
+        Ok(ImageFormat::OpenExr) => "exr",
+        Ok(ImageFormat::Bmp) => "bmp",
+        Ok(ImageFormat::Tga) => "tga",
         _ => "png",
     }
-}
-
-fn kind_of(bytes: &[u8]) -> Option<&'static str> {
-    BEGINNINGS.iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, kind)| *kind)
 }
 
 /// Where the file is that a model in this folder names: there, with backslashes for slashes, in another case of letters,
@@ -68,28 +50,26 @@ fn in_other_case(path: &Path) -> Option<PathBuf> {
 pub fn check_file(path: &Path) -> Result<(), String> {
     let open = || open_file(path, IMAGE_FILE).map_err(|error| error.to_string());
     let mut start = Vec::new();
-    open()?.file.take(16).read_to_end(&mut start).map_err(|error| error.to_string())?;
-    check(&start, || Ok(BufReader::new(open()?.file)))
+    open()?.file.take(TELLING_BYTES as u64).read_to_end(&mut start).map_err(|error| error.to_string())?;
+    check(path, &start, || Ok(BufReader::new(open()?.file)))
 }
 
 /// The same of an image in memory.
 ///
 /// Errors: why it cannot be.
 pub fn check_bytes(bytes: &[u8]) -> Result<(), String> {
-    check(bytes, || Ok(std::io::Cursor::new(bytes)))
+    check(Path::new(""), &bytes[..bytes.len().min(TELLING_BYTES)], || Ok(std::io::Cursor::new(bytes)))
 }
 
-fn check<R: std::io::BufRead + Seek>(start: &[u8], open: impl FnOnce() -> Result<R, String>) -> Result<(), String> {
-    let kind = kind_of(start);
-    let format = match kind {
-        Some("PNG") => ImageFormat::Png,
-        Some("JPEG") => ImageFormat::Jpeg,
-        Some("HDR") => ImageFormat::Hdr,
-        // Its head is read where it is used.
-        Some("EXR") => return Ok(()),
-        Some(other) => return Err(format!("it is in {other}, and {} are read", READ.join(", "))),
-        None if start.is_empty() => return Err("it is empty".into()),
-        None => return Err(format!("it is of no kind that is known, and {} are read", READ.join(", "))),
+fn check<R: std::io::BufRead + Seek>(
+    path: &Path,
+    start: &[u8],
+    open: impl FnOnce() -> Result<R, String>,
+) -> Result<(), String> {
+    let format = match image_kind(path, start)? {
+        // Their heads are read where they are used.
+        ImageFormat::Hdr | ImageFormat::OpenExr => return Ok(()),
+        format => format,
     };
     let damaged = "it is damaged";
     let (width, height) =

@@ -48,8 +48,15 @@ fn transmits(own: &ModelMaterial, is_closed: impl FnOnce() -> bool) -> Transmits
 /// Spawns a material of a model, and counts what of it is left out.
 pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize, notes: &mut MaterialNotes) -> Entity {
     let Some(own) = model.model.materials.get(material).cloned() else {
-        let grey = Principled { base_colour: Rgb::grey(0.8), metallic: 0.0, roughness: 0.5, ..Principled::default() };
-        return scene.spawn((grey, Name::new("default material"))).id();
+        let tint = model.tint_of(material, false);
+        // White under the colours of vertices.
+        let base_colour = Rgb::grey(if tint.is_some() { 1.0 } else { 0.8 });
+        let grey = Principled { base_colour, metallic: 0.0, roughness: 0.5, ..Principled::default() };
+        let entity = scene.spawn((grey, Name::new("default material"))).id();
+        if let Some(tint) = tint {
+            scene.entity_mut(entity).insert(tint);
+        }
+        return entity;
     };
     let [r, g, b] = own.base_colour;
     let base_colour = Rgb::new(r, g, b);
@@ -109,7 +116,11 @@ pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize, not
     if transmits != Transmits::Opaque {
         return entity;
     }
-    if let Some((file, wrap, transform, filter)) = named(scene, own.base_colour_texture) {
+    let base_colour_map = named(scene, own.base_colour_texture);
+    if let Some(tint) = model.tint_of(material, base_colour_map.is_some()) {
+        scene.entity_mut(entity).insert(tint);
+    }
+    if let Some((file, wrap, transform, filter)) = base_colour_map {
         scene.entity_mut(entity).insert(ImageTexture { file, size: 1.0, by: TextureBy::Uv, wrap, transform, filter });
     }
     if let Some((file, wrap, transform, filter)) = named(scene, own.metallic_roughness_texture) {

@@ -12,6 +12,7 @@ mod mesh;
 mod model_scene;
 mod open_model;
 mod placing;
+mod tint_of;
 
 pub use in_memory::{MeshInMemory, meshes_in_memory};
 pub use load::load_meshes;

@@ -1,7 +1,8 @@
 use super::closed::is_closed;
 use super::image_found::{check_bytes, check_file, ending_of, found_beside};
 use crate::scene::{
-    EmbeddedFiles, FileKind, FileStore, MeshGeometry, SceneFolder, Undecoded, printable, printable_path, read_file,
+    EmbeddedFiles, FileKind, FileStore, MeshGeometry, SceneFolder, Undecoded, check_memory, printable, printable_path,
+    read_file,
 };
 use bevy_ecs::prelude::*;
 use pinhole_models::{ImageSource, Model, read_model};
@@ -11,6 +12,9 @@ use std::sync::{Arc, OnceLock};
 
 /// The kind of file that a mesh names.
 pub const MODEL_FILE: FileKind = FileKind { name: "a model", most: 4 << 30 };
+
+/// What an instance of a mesh takes in a scene with all that is made of it, in bytes.
+const BYTES_A_PART: u64 = 4096;
 
 /// Models that have been read.
 static MODELS: FileStore<OpenModel> = FileStore::new();
@@ -68,6 +72,9 @@ fn read(path: &Path, bytes: &[u8]) -> Result<(OpenModel, usize), String> {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let model = read_model(&name, bytes, &beside)
         .map_err(|problem| format!("{} cannot be read: {problem}", printable_path(path)))?;
+    let parts = model.instances.len() as u64;
+    check_memory(parts * BYTES_A_PART)
+        .map_err(|too_little| format!("{} has {parts} parts, which {too_little}", printable_path(path)))?;
     let geometry: Vec<MeshGeometry> = model.meshes.iter().map(|mesh| MeshGeometry::new(Arc::clone(mesh))).collect();
     let images = model.images.iter().map(|image| match &image.source {
         ImageSource::Bytes(bytes) => bytes.len(),
