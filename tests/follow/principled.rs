@@ -45,7 +45,7 @@ fn a_principled_dielectric_reflects_by_its_index() {
 
 /// A thousand materials that are equally rough take little more than one.
 #[test]
-fn equal_roughnesses_share_what_is_tabulated() {
+fn the_energies_of_equal_roughnesses_are_there_once() {
     let bytes = |roughness: &dyn Fn(u32) -> f64| {
         let mut world = World::new();
         for number in 0..100 {

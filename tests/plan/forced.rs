@@ -100,6 +100,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         "Count tests",
         "Keep the surfaces that rays leave",
         "List rows: glass",
+        "List rows: thin glass",
     ];
     assert_eq!(untried, never.each_ref(), "tried too little");
 }
@@ -162,6 +163,8 @@ fn on_frosted_glass() -> World {
     let mut world = scenes::caustics::traced(|| scenes::caustics::caustics(true))();
     let frosted = RoughGlass { roughness: 0.3, ..RoughGlass::default() };
     world.spawn((Name::new("frosted ball"), Sphere { radius: 0.35 }, Placement::at(0.3, 0.45, 1.5), frosted));
+    let bubble = (Sphere { radius: 0.4 }, Placement::at(-0.7, 0.5, 0.9), ThinGlass::default());
+    world.spawn((Name::new("bubble"), bubble));
     world.spawn((Name::new("pebble"), Sphere { radius: 0.3 }, Placement::at(-1.5, 0.35, 1.4), Principled::default()));
     world
 }

@@ -133,7 +133,7 @@ pub const MEANING: &[Case] = &[
     (
         "no material",
         "[@, ^(name: \"a\", sphere: ())]",
-        &["material is missing", "a matte, phong, ", " or principled, a material or an emissive"],
+        &["material is missing", "a matte, phong, ", "principled or thin_glass, a material or an emissive"],
     ),
     (
         "a disabled camera",

@@ -26,6 +26,8 @@ pub fn specular(setup: Setup) -> World {
     let drink = Glass { ior: 1.33, absorption: absorbing(0.1, 0.5, 0.9), priority: 0 };
     let size = DVec3::new(0.9, 0.8, 0.7) * setup.scale;
     world.spawn((Name::new("drink"), Cuboid { size }, at(0.9, 0.5, 0.4), drink));
+    let pane = ThinGlass { colour: Rgb::new(0.9, 0.6, 0.3), ..ThinGlass::default() };
+    world.spawn((Name::new("bubble"), sphere(0.25), at(1.0, 0.27, 1.6), pane));
     world.spawn((Name::new("lamp"), setup.light(40.0, true), at(2.51, 4.02, 3.03)));
     world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
     lit_by_lights_alone(world)

@@ -22,7 +22,7 @@ pub struct PrincipledTable {
     pub alpha: Vec<f64>,
     /// The reflectance of the dielectric at normal incidence, from 0 to 1.
     pub dielectric: Vec<f64>,
-    /// The row of each α's energies, which equal ones share.
+    /// The row of each α's energies, which are there once for equal ones.
     energy_of: Vec<u32>,
     energy: Vec<EnergyTable>,
     /// The energies of all roughnesses, if an image gives any material its own.
@@ -40,7 +40,7 @@ struct Surface<E> {
 }
 
 impl PrincipledTable {
-    /// Adds a material; equal roughnesses share their energies, whose rows are in `known`.
+    /// Adds a material; the energies of equal roughnesses are there once, and their rows in `known`.
     fn push(&mut self, own: &Principled, known: &mut HashMap<u64, u32>) {
         let alpha = alpha_of(own.roughness);
         let energy_of = *known.entry(alpha.to_bits()).or_insert_with(|| {
