@@ -1,8 +1,8 @@
 //! Every chapter against its snapshots: what it computes, stage by stage, is what it computed when they were kept.
 //!
 //! One chapter: `cargo test --test chapters 05`.
-//! What they compute otherwise now waits beside what is kept: `cargo run --release -- review` shows it, and
-//! `cargo run --release -- review accept all` keeps it.
+//! What they compute otherwise now waits beside what is kept: `cargo run -- review` shows it, and
+//! `cargo run -- review accept all` keeps it.
 
 #[path = "chapters/files.rs"]
 mod files;

@@ -84,7 +84,7 @@ fn a_render_tells_what_ran_and_its_hints_work_as_typed() {
         assert!(said.contains(words), "no \"{words}\" in\n{said}");
     }
     let hints: Vec<&str> =
-        said.lines().filter_map(|line| line.split_once("cargo run --release -- ")).map(|(_, hint)| hint).collect();
+        said.lines().filter_map(|line| line.split_once("cargo run -- ")).map(|(_, hint)| hint).collect();
     let hints: Vec<&str> = hints.iter().map(|hint| hint.trim_end_matches(" says why")).collect();
     assert_eq!(hints.len(), 2, "{said}");
     for hint in hints {
@@ -107,7 +107,7 @@ fn as_typed(command: &str) -> Vec<&str> {
 fn every_example_in_the_help_works_as_typed() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let help = text(&run(folder.path(), &["--help"]).stdout);
-    let examples: Vec<&str> = help.lines().filter_map(|line| line.strip_prefix("  cargo run --release -- ")).collect();
+    let examples: Vec<&str> = help.lines().filter_map(|line| line.strip_prefix("  cargo run -- ")).collect();
     assert!(examples.len() >= 5, "{help}");
     for example in examples {
         let tried = run(folder.path(), &as_typed(example));

@@ -4,6 +4,8 @@
 //! `PINHOLE_TEST_SAMPLES=16 cargo test --release --test renderer follow -- --nocapture` takes 16 times as many and says
 //! what it tells apart.
 
+#[path = "follow/accepted.rs"]
+mod accepted;
 #[path = "follow/broken.rs"]
 mod broken;
 #[path = "follow/bsdfs.rs"]
@@ -14,6 +16,8 @@ mod caustics;
 mod distant;
 #[path = "follow/far.rs"]
 mod far;
+#[path = "follow/foretold.rs"]
+mod foretold;
 #[path = "follow/frusta.rs"]
 mod frusta;
 #[path = "follow/inside.rs"]

@@ -3,6 +3,7 @@
 mod book;
 mod book_numbers;
 mod conventions;
+mod conventions_lens;
 mod costs;
 mod curves;
 mod entity_per_ray;

@@ -9,6 +9,8 @@ mod adaptive;
 mod killed;
 #[path = "long_renders/layers.rs"]
 mod layers;
+#[path = "long_renders/rare_light.rs"]
+mod rare_light;
 #[path = "long_renders/sources.rs"]
 mod sources;
 #[path = "long_renders/stopped.rs"]

@@ -3,6 +3,7 @@
 mod bad_input;
 mod command_line;
 mod compare;
+mod first_day;
 mod long_renders;
 mod report_command;
 mod scene_files;

@@ -6,6 +6,8 @@ use std::sync::OnceLock;
 
 /// How the book and the README start the program.
 const BY_CARGO: &str = "cargo run --release --";
+/// How the program of `cargo test` is started, which is there as soon as the tests are.
+const DEBUG_BY_CARGO: &str = "cargo run --";
 
 static CALLED: OnceLock<String> = OnceLock::new();
 
@@ -24,14 +26,12 @@ pub fn remember() {
 
 /// Cargo sets `CARGO` for what it runs, and every other program inherits it, so the place of the program counts as well.
 fn name(cargo: bool, exe: &Path, started: &OsStr) -> String {
-    let built = exe
-        .ancestors()
-        .skip(1)
-        .take(2)
-        .filter_map(Path::file_name)
-        .any(|folder| ["debug", "release"].iter().any(|profile| folder == *profile));
-    if cargo && built {
+    let is_in = |profile: &str| exe.ancestors().skip(1).take(2).filter_map(Path::file_name).any(|own| own == profile);
+    if cargo && is_in("release") {
         return BY_CARGO.into();
+    }
+    if cargo && is_in("debug") {
+        return DEBUG_BY_CARGO.into();
     }
     let file = Path::new(started).file_name().map(OsStr::to_string_lossy);
     file.map_or_else(|| "pinhole".into(), |file| quoted(&file))
@@ -51,7 +51,7 @@ mod tests {
     fn the_program_is_called_as_it_was_started() {
         let of = |cargo: bool, exe: &str, started: &str| name(cargo, Path::new(exe), started.as_ref());
         assert_eq!(of(true, "/a/target/release/pinhole", "target/release/pinhole"), BY_CARGO);
-        assert_eq!(of(true, "/a/b/debug/pinhole", "b/debug/pinhole"), BY_CARGO);
+        assert_eq!(of(true, "/a/b/debug/pinhole", "b/debug/pinhole"), DEBUG_BY_CARGO);
         assert_eq!(of(false, "/a/target/release/pinhole", "target/release/pinhole"), "pinhole");
         assert_eq!(of(true, "/home/a/.cargo/bin/pinhole", "pinhole"), "pinhole");
         assert_eq!(of(false, "/usr/bin/rays", "/usr/bin/rays"), "rays");

@@ -4,12 +4,12 @@ use super::format::{Format, number_or_word, print_json, shown};
 use super::interrupt::Waiting;
 use super::subject::Subject;
 use bevy_ecs::prelude::World;
-use pinhole::extract::{angle_of_tan_half, validate};
+use pinhole::extract::{LensTable, angle_of_tan_half, camera_entity, validate};
 use pinhole::film::{check_place, write_png};
-use pinhole::look::convention::{Mistake, PlacedCamera, Program, back, lines, round_trip};
+use pinhole::look::convention::{Mistake, PlacedCamera, Program, back, lines_with_lens, round_trip};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, render};
-use pinhole::scene::printable_path;
+use pinhole::scene::{Lens, printable_path};
 use pinhole::{Chapter, Overrides};
 use serde_json::{Value, json};
 use std::io::Write;
@@ -29,18 +29,28 @@ pub fn print_conventions(
     match (asked.mistake, asked.round_trips) {
         (Some(mistake), _) => render_mistake(&subject, scene, mistake, asked, format, out),
         (None, Some(cameras)) => print_round_trips(cameras, format, out),
-        (None, None) => print_lines(&subject, &PlacedCamera::of(&scene)?, format, out),
+        (None, None) => {
+            let census = &Census::of(&scene);
+            let has_lens = scene.get::<Lens>(camera_entity(census)?).is_some();
+            let lens = if has_lens { Some(census.table::<LensTable>().map_err(pinhole::Error::from)?) } else { None };
+            print_lines(&subject, (&PlacedCamera::of(&scene)?, lens.as_deref()), format, out)
+        }
     }
 }
 
-fn print_lines(subject: &Subject<'_>, camera: &PlacedCamera, format: Format, out: &mut dyn Write) -> Result {
+fn print_lines(
+    subject: &Subject<'_>,
+    (camera, lens): (&PlacedCamera, Option<&LensTable>),
+    format: Format,
+    out: &mut dyn Write,
+) -> Result {
     if format.is_json() {
-        return print_json(&as_json(subject.name(), camera), out);
+        return print_json(&as_json(subject.name(), camera, lens), out);
     }
     writeln!(out, "camera of {}, {} x {} pixels", subject.name(), camera.image.width, camera.image.height)?;
     for program in Program::ALL {
         writeln!(out, "\n{program}")?;
-        for line in lines(program, camera) {
+        for line in lines_with_lens(program, camera, lens) {
             writeln!(out, "    {line}")?;
         }
         let [whole, place] = back(program);
@@ -50,11 +60,11 @@ fn print_lines(subject: &Subject<'_>, camera: &PlacedCamera, format: Format, out
 }
 
 /// The camera in numbers, and each program's lines as they are typed.
-fn as_json(scene: &str, camera: &PlacedCamera) -> Value {
+fn as_json(scene: &str, camera: &PlacedCamera, lens: Option<&LensTable>) -> Value {
     let program = |program: Program| {
         let [field_of_view, placement] = back(program);
         let back = json!({ "field_of_view": field_of_view, "placement": placement });
-        json!({ "program": program.to_string(), "lines": lines(program, camera), "back": back })
+        json!({ "program": program.to_string(), "lines": lines_with_lens(program, camera, lens), "back": back })
     };
     let [eye, target, up] = [camera.look.eye, camera.look.target, camera.look.up].map(|point| point.to_array());
     json!({

@@ -3,6 +3,8 @@ use super::error::{Error, Result};
 use super::find;
 use super::format::{Format, number_or_word, print_json, shown};
 use super::interrupt::{Waiting, interrupted};
+use super::progress::say;
+use super::span::told;
 use pinhole::film::{check_place, write_whole};
 use pinhole::scene::printable_path;
 use pinhole::{Chapter, Overrides};
@@ -12,7 +14,12 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
+/// From so many inputs a case it is said beforehand that all groups take long.
+const MANY_RAYS: u64 = 20_000;
+/// No two lines of progress follow each other sooner than this.
+const SOONEST: Duration = Duration::from_secs(5);
 /// The chapter whose scene the page's pictures show.
 const SHOWN: &str = "05_pinhole";
 
@@ -23,7 +30,22 @@ pub fn print_extremes(chapters: &[Chapter], asked: &TryExtremes, format: Format,
     asked.page.as_deref().map_or(Ok(()), check_place)?;
     let groups = asked.group.map_or(Group::ALL.to_vec(), |group| vec![group]);
     let mut cases: Vec<Case> = Vec::new();
-    for group in groups {
+    let (began, mut told_at) = (Instant::now(), Duration::ZERO);
+    if groups.len() > 1 && asked.rays >= MANY_RAYS {
+        say(&format!(
+            "note: {} groups with {} inputs a case may take a quarter of an hour; --rays 2000, or the name of a group, is \
+             there sooner",
+            groups.len(),
+            asked.rays
+        ));
+    }
+    for (done, &group) in groups.iter().enumerate() {
+        let passed = began.elapsed();
+        if done > 0 && passed.saturating_sub(told_at) >= SOONEST {
+            told_at = passed;
+            let left = passed.mul_f64((groups.len() - done) as f64 / done as f64);
+            say(&format!("{done} of {} groups after {}, about {} left", groups.len(), told(passed), told(left)));
+        }
         if !format.is_json() {
             writeln!(out, "{}", group.heading())?;
         }
@@ -45,14 +67,14 @@ pub fn print_extremes(chapters: &[Chapter], asked: &TryExtremes, format: Format,
     }
     let held = cases.iter().filter(|case| case.held()).count();
     if format.is_json() {
-        let told = TrialsRecord {
+        let record = TrialsRecord {
             tried: cases.len(),
             held,
             unbroken_methods: unbroken(&cases),
             cases: cases.iter().map(CaseRecord::of).collect(),
             files: asked.page.iter().map(|file| shown(file)).collect(),
         };
-        print_json(&told, out)?;
+        print_json(&record, out)?;
     } else {
         for method in unbroken(&cases) {
             writeln!(out, "no case here breaks \"{method}\"")?;

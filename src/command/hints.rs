@@ -10,10 +10,17 @@ pub fn plan(subject: &Subject<'_>, options: &RenderOptions) -> String {
     }
 }
 
-/// A command to go on with, which works as it stands: one pixel of what was rendered, in numbers.
-pub fn next(subject: &Subject<'_>, options: &RenderOptions, width: u32, height: u32) -> Option<String> {
+/// A command to go on with, which works as it stands: one pixel of what was rendered, in numbers; a lit one, where one is
+/// known.
+pub fn next(
+    subject: &Subject<'_>,
+    options: &RenderOptions,
+    [width, height]: [u32; 2],
+    lit_pixel: Option<[u32; 2]>,
+) -> Option<String> {
     let name = name(subject)?;
-    let pixel = format!("{},{}", width / 2, height * 3 / 5);
+    let [x, y] = lit_pixel.unwrap_or([width / 2, height * 3 / 5]);
+    let pixel = format!("{x},{y}");
     let size = if options.scene.sets_resolution() { format!(" --size {width}x{height}") } else { String::new() };
     Some(called(&format!("trace {name} --pixel {pixel}{size}{}", options.scene.typed_settings())))
 }

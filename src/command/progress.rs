@@ -150,7 +150,8 @@ impl Pace {
     }
 }
 
-fn say(line: &str) {
+/// Writes a line to standard error, whether it can be or not.
+pub fn say(line: &str) {
     let _ = writeln!(stderr(), "{line}");
 }
 

@@ -13,13 +13,13 @@ use super::status;
 use super::streams::Streams;
 use super::subject::Subject;
 use super::summary::Summary;
-use super::warnings::warnings;
+use super::warnings::{too_dark, warnings};
 use pinhole::Chapter;
 use pinhole::extract::{
     ChosenIntegrator, LayerTable, adaptive_of, camera_entity, image_remarks, integrator_of, validate,
 };
 use pinhole::film::{check_place, png_bytes, write_whole};
-use pinhole::look::{Preflight, RenderStats, preflight};
+use pinhole::look::{Foretold, Preflight, RenderStats, foretell};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::{FileKind, Integrator, ModelNotes, Resolution, Sampling, read_file};
@@ -225,7 +225,7 @@ fn render_with(
         let remarks = image_remarks(census)?;
         remarks.iter().try_for_each(|remark| streams.note(&format!("note: {remark}")))?;
     }
-    let said = before_rendering(census, options, (&render, began), json, streams)?;
+    let Foretold { warnings: said, lit_pixel } = before_rendering(census, options, (&render, began), json, streams)?;
 
     let files = Files::new(targets, census, &render.plan, mine);
     let waiting = waiting(watched.as_deref(), options, &render, streams);
@@ -241,7 +241,10 @@ fn render_with(
     files.send(&rendered.film, streams.out)?;
 
     let checkpoint = files.targets.checkpoint().filter(|file| outcome.is_some() && file.exists());
-    let warnings = warnings(subject, options, &rendered.film, &rendered.plan)?;
+    let is_dark_foretold =
+        said.iter().any(|warning| warning.starts_with("the picture will") && warning.contains("black"));
+    let mut warnings = warnings(subject, options, &rendered.film, &rendered.plan)?;
+    warnings.extend(too_dark(&rendered.film, &rendered.plan).filter(|_| !is_dark_foretold));
     let told = files.targets.told(checkpoint.as_deref());
     if !json {
         warnings.iter().try_for_each(|warning| streams.note(&format!("warning: {warning}")))?;
@@ -261,7 +264,7 @@ fn render_with(
         target: adaptive_of(census)?.map(|adaptive| adaptive.error),
         files: told,
         plan: hints::plan(subject, options),
-        next: hints::next(subject, options, rendered.film.width, rendered.film.height),
+        next: hints::next(subject, options, [rendered.film.width, rendered.film.height], lit_pixel),
     };
     if json {
         let written = files.targets.pictures.iter().chain(&checkpoint).map(|file| file.display().to_string());
@@ -287,12 +290,12 @@ fn before_rendering(
     (render, began): (&RenderInProgress, Instant),
     json: bool,
     streams: &mut Streams<'_>,
-) -> Result<Vec<String>> {
+) -> Result<Foretold> {
     let (threads, ends_in_time) = (options.threads.map(usize::from), options.time.is_some());
     let asked = Preflight { threads, ends_in_time, ..Preflight::default() }.since(began);
-    let said = preflight(scene, (&render.plan, render.tables()), asked)?;
+    let said = foretell(scene, (&render.plan, render.tables()), asked)?;
     if !json {
-        said.iter().try_for_each(|warning| streams.note(&format!("before rendering: {warning}")))?;
+        said.warnings.iter().try_for_each(|warning| streams.note(&format!("before rendering: {warning}")))?;
     }
     Ok(said)
 }

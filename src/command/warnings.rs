@@ -5,6 +5,7 @@ use super::options::RenderOptions;
 use super::subject::Subject;
 use pinhole::extract::{ImageFrame, PerspectiveProjection, SMALLEST_PIXEL, camera_entity};
 use pinhole::film::{Film, column_of_layer};
+use pinhole::look::looks_black;
 use pinhole::plan::{Census, Plan, Table};
 use pinhole::scene::PerspectiveCamera;
 
@@ -25,6 +26,19 @@ fn too_much_light(film: &Film) -> Option<String> {
     (pixels > 0).then(|| {
         format!("{pixels} pixels gathered more light than 32-bit floats hold; they show {:e} instead", f32::MAX)
     })
+}
+
+/// How dark a picture is that looks black all over; none where it shows a column in place of light.
+pub fn too_dark(film: &Film, plan: &Plan) -> Option<String> {
+    if plan.view.is_some() {
+        return None;
+    }
+    let pixels = (0..film.height).flat_map(|y| (0..film.width).map(move |x| film.mean(x, y)));
+    let brightest = pixels.flatten().fold(0.0, f32::max);
+    if brightest == 0.0 {
+        return Some("the picture is black: the radiance of every pixel is 0".into());
+    }
+    looks_black(f64::from(brightest)).map(|how| format!("the picture looks black: {how}"))
 }
 
 fn rejected(film: &Film) -> Option<String> {

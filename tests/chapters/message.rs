@@ -109,10 +109,10 @@ fn pixel(before: &Snapshots, now: &Snapshots, picture: Option<&PictureDifference
     }
 }
 
-/// The commands that show, keep and undo; without a review where insta was told to let nothing wait.
+/// The commands that show, keep and undo, by the program that this test has just built; without a review where insta was told to let nothing wait.
 pub fn what_to_do(chapter: &str, [x, y]: [u32; 2], waits: bool) -> String {
     let (width, height) = (SIZE.width, SIZE.height);
-    let trace = format!("cargo run --release -- trace {chapter} --pixel {x},{y} --size {width}x{height}");
+    let trace = format!("cargo run -- trace {chapter} --pixel {x},{y} --size {width}x{height}");
     if !waits {
         // Insta was told to write nothing: INSTA_UPDATE=no, or CI is set.
         return format!(
@@ -124,10 +124,10 @@ pub fn what_to_do(chapter: &str, [x, y]: [u32; 2], waits: bool) -> String {
     }
     format!(
         "\n\
-        to look      cargo run --release -- review {chapter}\n             {trace}\n\
-        to keep      cargo run --release -- review accept {chapter}\n\
+        to look      cargo run -- review {chapter}\n             {trace}\n\
+        to keep      cargo run -- review accept {chapter}\n\
         to go back   undo your edit, which `git diff` shows, then\n             \
-                     cargo run --release -- review reject {chapter}\n"
+                     cargo run -- review reject {chapter}\n"
     )
 }
 
@@ -156,9 +156,9 @@ mod tests {
     fn what_to_do_names_a_review_only_where_something_waits() {
         let text = what_to_do("05_pinhole", [3, 4], true);
         for command in ["review 05_pinhole", "trace 05_pinhole --pixel 3,4 --size 96x54", "review accept 05_pinhole"] {
-            assert!(text.contains(&format!("cargo run --release -- {command}\n")), "{text}");
+            assert!(text.contains(&format!("cargo run -- {command}\n")), "{text}");
         }
-        assert!(text.ends_with("cargo run --release -- review reject 05_pinhole\n"), "{text}");
+        assert!(text.ends_with("cargo run -- review reject 05_pinhole\n"), "{text}");
         let text = what_to_do("05_pinhole", [3, 4], false);
         assert!(!text.contains("review") && text.contains("INSTA_UPDATE=always"), "{text}");
     }

@@ -36,7 +36,7 @@ const ROWS: &[Row] = &[
     ("angles scene.ron", 0, &["scene.ron: 480 x 270 pixels", "vertical"], &[]),
     ("conventions scene.ron", 0, &["camera of scene.ron, 480 x 270 pixels", "Blender"], &[]),
     ("list", 0, &["10_light_and_shadow  ", "05_pinhole           "], &[]),
-    ("help list", 0, &["Usage: cargo run --release -- list"], &[]),
+    ("help list", 0, &["Usage: cargo run -- list"], &[]),
     ("--version", 0, &["pinhole 0."], &[]),
     ("render 77", 2, &[], &["there is no chapter 77; the chapters go from 1 to 35", "list` shows all"]),
     ("77", 2, &[], &["the chapters go from 1 to 35"]),

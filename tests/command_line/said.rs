@@ -99,7 +99,7 @@ fn the_program_is_called_as_it_was_started() {
         }
         text(&command.args(["render", "5", "--size", "16x9"]).output().expect("it starts").stdout)
     };
-    assert!(by(true).contains("try next: cargo run --release -- trace 05_pinhole"), "{}", by(true));
+    assert!(by(true).contains("try next: cargo run -- trace 05_pinhole"), "{}", by(true));
     let name = std::path::Path::new(env!("CARGO_BIN_EXE_pinhole")).file_name().expect("a name").to_string_lossy();
     assert!(by(false).contains(&format!("try next: {name} trace 05_pinhole")), "{}", by(false));
 }

@@ -1,4 +1,5 @@
 use super::TriangleTable;
+use super::accepted_shapes::shapes_with_inside;
 use super::check::kind_and_name;
 use super::closed_mesh::{OpenMesh, open_mesh};
 use super::material::used_material;
@@ -55,8 +56,7 @@ fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
             continue;
         }
         let value = format!("the glass {}", called(scene, material));
-        let accepted =
-            "glass needs a shape with an interior: a sphere, a cuboid, a plane, a closed mesh or triangles that close";
+        let accepted = format!("glass needs a shape with an interior: {}", shapes_with_inside());
         return Err(SceneError::new(kind_and_name(scene, listed.word, shape), "material", value, accepted));
     }
     check_meshes(scene)

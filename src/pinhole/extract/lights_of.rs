@@ -90,6 +90,8 @@ pub struct LightKind {
     pub(super) entities: fn(&Census<'_>) -> Arc<[Entity]>,
     /// Extracts its table, which checks its components.
     pub(super) check: fn(&Census<'_>) -> Result<(), SceneError>,
+    /// Whether one of its lights is not black.
+    shines: fn(&Census<'_>) -> Result<bool, SceneError>,
     /// Those of its lights that cast shadows.
     pub(super) sources: fn(&Census<'_>) -> Result<Vec<AnyLight>, SceneError>,
 }
@@ -103,6 +105,10 @@ impl LightKind {
             casts_shadows: |entity| entity.get::<L::Component>().is_some_and(SceneLight::casts_shadows),
             entities: |scene| scene.entities::<With<L::Component>>(),
             check: |scene| scene.table::<LightsOf<L>>().map(drop),
+            shines: |scene| {
+                let lights = scene.table::<LightsOf<L>>()?;
+                Ok(lights.row.iter().any(|light| luminance(light.power(1.0)) > 0.0))
+            },
             sources: |scene| {
                 let lights = scene.table::<LightsOf<L>>()?;
                 let shadowed =
@@ -149,6 +155,14 @@ pub fn many_lights_evidence<L: ListedLight>(scene: &Census<'_>) -> Evidence {
 pub fn delta_light_rays(scene: &Census<'_>) -> usize {
     let of_kind = |lights: usize| if lights > MOST_SUMMED { 1 } else { lights };
     light_kinds().iter().map(|kind| of_kind((kind.entities)(scene).len())).sum()
+}
+
+/// Whether a light without an area is not black.
+///
+/// Errors: a light that is not accepted.
+pub fn delta_light_shines(scene: &Census<'_>) -> Result<bool, SceneError> {
+    let present = |kind: &&LightKind| !(kind.entities)(scene).is_empty();
+    light_kinds().iter().filter(present).try_fold(false, |shines, kind| Ok(shines || (kind.shines)(scene)?))
 }
 
 /// Evidence of a light without an area that passes a test.

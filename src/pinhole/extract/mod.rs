@@ -20,6 +20,7 @@
 //! # Ok::<(), pinhole::scene::SceneError>(())
 //! ```
 
+mod accepted_shapes;
 mod adaptive;
 mod area_light;
 mod background;
@@ -83,6 +84,7 @@ pub use crate::cameras::{
 };
 pub use crate::filters::{FilterCells, Span, cells_of, filter_area, filter_value, radius_of, sign_change};
 pub use crate::lights::luminance;
+pub use accepted_shapes::{sampled_shapes, shapes_with_inside};
 pub use adaptive::adaptive_of;
 pub use area_light::{AreaLightTable, MeshLights, area_light_evidence, many_area_lights_evidence};
 pub use background::BackgroundTable;
@@ -119,7 +121,7 @@ pub use light_tracing::{
 };
 pub use lights_of::{
     DirectionalLightTable, LightKind, LightsOf, PointLightTable, SpotLightTable, delta_light_evidence,
-    delta_light_rays, light_kinds, lights_evidence, many_lights_evidence, point_evidence,
+    delta_light_rays, delta_light_shines, light_kinds, lights_evidence, many_lights_evidence, point_evidence,
 };
 pub use material::{
     bsdf_evidence, glass_evidence, glossy_evidence, lit_from_behind_evidence, material_evidence,

@@ -21,13 +21,17 @@ pub struct ListedKind {
     /// Its component in messages.
     pub word: &'static str,
     /// Which placements make this shape of its component, if not all do.
-    uneven: Option<bool>,
+    pub(super) uneven: Option<bool>,
+    /// Whether some of the component's examples, and whether all of them, can be made of glass.
+    pub(super) examples_with_inside: fn() -> [bool; 2],
+    /// Whether some of them, and whether all of them, are sampled where they emit.
+    pub(super) examples_sampled: fn() -> [bool; 2],
     /// Whether an entity can be made of glass.
     pub has_inside: fn(&Census<'_>, Entity) -> bool,
     /// Whether several usually make up one surface.
     pub is_part: bool,
     /// Whether it consists of several primitives.
-    has_primitives: bool,
+    pub(super) has_primitives: bool,
     /// Its table.
     pub table: TableKind,
     /// Evidence that the scene contains one that keeps still.
@@ -47,7 +51,7 @@ pub struct ListedKind {
     /// The box around a row; none where it is infinite.
     pub(super) bounds: fn(&Census<'_>, usize) -> Result<Option<Bounds>, SceneError>,
     /// The sphere around a row; none where it is infinite.
-    pub(super) bounding_sphere: fn(&Census<'_>, usize) -> Result<Option<(DVec3, f64)>, SceneError>,
+    pub bounding_sphere: fn(&Census<'_>, usize) -> Result<Option<(DVec3, f64)>, SceneError>,
     /// The number of the first shape with a point in its inside.
     pub around: fn(&Census<'_>, DVec3) -> Result<Option<u32>, SceneError>,
     /// The linear map from world space to an entity's uv space.
@@ -59,6 +63,8 @@ pub struct ListedKind {
 impl ListedKind {
     fn of<S: Listed>() -> Self {
         Self {
+            examples_with_inside: || some_and_all(&S::Component::examples(), S::has_inside),
+            examples_sampled: || some_and_all(&S::Component::examples(), S::is_sampled),
             kind: S::KIND,
             component: S::Component::NAME,
             word: S::Component::WORD,
@@ -105,6 +111,11 @@ impl ListedKind {
     fn is_first(&self) -> bool {
         self.uneven != Some(true)
     }
+}
+
+/// Whether some components pass a test, and whether all of them do.
+fn some_and_all<C>(components: &[C], is: fn(&C) -> bool) -> [bool; 2] {
+    [components.iter().any(is), components.iter().all(is)]
 }
 
 /// All registered shapes, in the order of the list.

@@ -1,7 +1,7 @@
 //! Surfaces that emit light and that strategies for direct light do not agree about, or cannot sample.
 
 use crate::Result;
-use crate::extract::{AreaLightTable, EmissiveTable, NO_ROW, ShapeTable, integrator_of, shape_name};
+use crate::extract::{AreaLightTable, EmissiveTable, NO_ROW, ShapeTable, integrator_of, sampled_shapes, shape_name};
 use crate::plan::{Census, Table, counted};
 use crate::scene::LightStrategy;
 use std::collections::HashMap;
@@ -44,7 +44,8 @@ fn unsampled(scene: &Census<'_>) -> Result<Option<String>> {
     Ok(Some(if does.samples_diffuse {
         format!(
             "light sampling cannot sample {which}, so BSDF sampling finds their light, as with LightStrategy::Bsdf; \
-             more samples, or a sphere, disk, rectangle, cuboid or triangles instead, lessen its noise"
+             more samples, or {} instead, lessen its noise",
+            sampled_shapes()
         )
     } else {
         format!(

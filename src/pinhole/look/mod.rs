@@ -20,23 +20,31 @@
 #[doc(hidden)]
 pub mod convention;
 
+mod black;
 mod emitters;
 mod inside;
+mod missing;
 mod mistake;
 mod pilot;
+mod pilot_cost;
+mod pilot_hook;
 mod preflight;
+mod radians;
 mod slow;
 mod stats;
+mod tiny;
 mod trace;
 mod unseen;
 mod view;
 
 #[doc(hidden)]
+pub use black::looks_black;
+#[doc(hidden)]
 pub use mistake::{MISTAKES, Mistake};
 #[doc(hidden)]
 pub use pilot::{Pilot, pilot};
 #[doc(hidden)]
-pub use preflight::{Preflight, preflight};
+pub use preflight::{Foretold, Preflight, foretell, preflight};
 #[doc(hidden)]
 pub use slow::{Effort, slow};
 #[doc(hidden)]

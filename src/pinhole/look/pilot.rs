@@ -1,31 +1,36 @@
+use super::black::NEARLY_ALL;
+use super::pilot_cost::Cost;
+use super::pilot_hook::{Counted, counting_hook};
 use crate::Result;
-use crate::extract::ImageFrame;
+use crate::extract::{ImageFrame, MaterialTable, NO_ROW, SamplingTable, ShapeTable, specular_evidence};
 use crate::follow::LIGHT_PATHS;
-use crate::intersect::{Hits, NO_SHAPE};
-use crate::plan::{Census, Column, ColumnKind, ExtractedTable, Plan, Stage};
-use crate::rays::{Depth, Tile};
-use crate::render::{Hook, probe_light_paths, probe_tiles, usual_tile_side};
-use crate::shade::{LightRays, Radiance, ShadowHits};
-use bevy_ecs::prelude::*;
-use std::collections::BTreeMap;
-use std::sync::Arc;
-use std::time::{Duration, Instant};
+use crate::intersect::NO_SHAPE;
+use crate::plan::{Census, Column, ExtractedTable, Plan};
+use crate::rays::Tile;
+use crate::render::{probe_light_paths, probe_tiles, usual_tile_side};
+use crate::shade::Radiance;
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::Duration;
 
 /// The greatest number of small tiles along each axis of the image, and the side of each in pixels.
 const TILES: [u32; 2] = [12, 8];
 const SIDE: u32 = 8;
 /// Half of the smallest step of an 8-bit PNG near black, as radiance.
-const DARK: f32 = 1.5e-4;
-/// After this many bounces few rays are left, and they say little about what is wrong with a scene.
-const MAX_DEPTH: u32 = 4;
+pub(super) const DARK: f32 = 1.5e-4;
+/// Every small tile is traced at most so many times.
+const MOST_ROUNDS: usize = 16;
 
 /// What a few rays, traced before a picture is rendered, hit and returned.
 #[derive(Clone, Debug, Default)]
 pub struct Pilot {
-    /// Camera rays in tiles that were finished; all fields but the last seven refer to these.
+    /// Camera rays in tiles that were finished; all fields but the last eight refer to these.
     pub rays: usize,
+    /// Camera rays that were intersected with shapes; where no light is in the scene, the plan may leave that out.
+    pub intersected: usize,
     /// Camera rays that hit a shape.
     pub hits: usize,
+    /// Camera rays whose first hit is on a mirror or on glass.
+    pub specular_first: usize,
     /// Camera rays that returned no light that a PNG would show.
     pub black: usize,
     /// Camera rays whose radiance is above white in each of red, green and blue.
@@ -34,9 +39,25 @@ pub struct Pilot {
     pub to_lights: usize,
     /// How many shadow rays each shape blocks, by the shape's number.
     pub blocked: BTreeMap<u32, usize>,
-    /// Average cost of a camera ray with all the rays that follow from it, in seconds of one thread; a lower bound
-    /// where tiles were given up.
-    pub seconds_a_ray: f64,
+    /// Rays beyond the first surface, and how many of them hit nothing.
+    pub beyond: usize,
+    /// How many of these hit nothing.
+    pub escaped: usize,
+    /// How many small tiles were finished at least once.
+    pub seen_tiles: usize,
+    /// The light of each small tile, in the order in which they are traced.
+    pub light: Vec<TileLight>,
+    /// The shapes that the rays of the last tile hit first.
+    last_first: Vec<u32>,
+    /// The numbers of shapes that camera rays hit first.
+    pub shapes: BTreeSet<u32>,
+    /// A pixel near the middle of the picture whose camera ray hits a shape and returns more light than most that do.
+    pub lit_pixel: Option<[u32; 2]>,
+    /// Average cost of a camera ray with all the rays that follow from it, in processor seconds of one thread; none where
+    /// that is not known.
+    pub seconds_a_ray: Option<f64>,
+    /// Whether the cost is a lower bound, since tiles were given up.
+    pub is_least: bool,
     /// How many rays follow a camera ray on average, shadow rays not counted.
     pub followed_by: f64,
     /// Camera rays, including those in tiles that were given up.
@@ -45,75 +66,169 @@ pub struct Pilot {
     pub deepest: u32,
     /// Small tiles of the image that were to be traced.
     pub tiles: usize,
-    /// Average cost of a light path in seconds of one thread, a lower bound where they were given up; 0 without light
-    /// tracing.
-    pub seconds_a_light_path: f64,
+    /// Average cost of a light path in processor seconds of one thread, a lower bound where they were given up; 0 without
+    /// light tracing, none where it is not known.
+    pub seconds_a_light_path: Option<f64>,
     /// How many segments a light path has on average beyond its first.
     pub light_followed_by: f64,
 }
 
-/// What a hook has counted in one tile so far.
-#[derive(Resource, Clone, Debug, Default)]
-struct Counted {
-    hits: usize,
-    /// Shadow rays at each bounce.
-    to_lights: BTreeMap<u32, usize>,
-    /// At each bounce, how many shadow rays each shape blocks.
-    blocked: BTreeMap<u32, BTreeMap<u32, usize>>,
-    /// The current bounce, counted from 0, and its number of rays.
-    bounce: (u32, usize),
-    /// The number of rays of all earlier bounces.
-    before: usize,
+/// The light that came back along the rays of a small tile.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TileLight {
+    /// Its rays.
+    pub rays: usize,
+    /// Those that returned light that a PNG would show.
+    pub lit: usize,
+    /// The sum of the greatest component of the radiance of each.
+    pub sum: f64,
 }
 
-/// Traces one sample per pixel of some small tiles, spread evenly over the image, until all are done or the time is up;
-/// then a batch of light paths, where the plan has any, in a quarter of the time.
+/// Traces a sample per pixel of some small tiles, spread evenly over the image, and further samples where these do not
+/// say enough, until that is done or the time is up; then a batch of light paths, where the plan has any, in a quarter of
+/// the time.
 ///
-/// Errors: a camera without a valid resolution.
+/// Errors: a camera without a valid resolution, or whatever else the scene's tables are refused for.
 pub fn pilot(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), patience: Duration) -> Result<Pilot> {
     let image = *scene.table::<ImageFrame>()?;
+    let samples = scene.table::<SamplingTable>()?.samples;
     let side = SIDE.min(usual_tile_side(scene, prepared.0));
     let small_tiles = small_tiles(image, side);
-    let mut pilot = Pilot { tiles: small_tiles.len(), ..Pilot::default() };
-    let (mut time, mut all, started) = (0.0, 0, Instant::now());
-    probe_tiles(scene, prepared, &small_tiles, patience, &[counting_hook()], &mut |world, took| {
+    let tiles = small_tiles.len();
+    let mut pilot = Pilot { tiles, light: vec![TileLight::default(); tiles], ..Pilot::default() };
+    let is_specular = specular_shapes(scene)?;
+    let (mut cost, mut all, mut runs) = (Cost::default(), 0, 0);
+    let mut candidates = Vec::new();
+    probe_tiles(scene, prepared, (&small_tiles, samples), patience, &[counting_hook()], &mut |world, run| {
         let counted = world.remove_resource::<Counted>().unwrap_or_default();
-        let mut tiles = world.query::<(&Tile, Option<&Radiance>)>();
-        let Ok((tile, radiance)) = tiles.single(world) else { return };
-        let rays = tile.rows();
-        all += counted.before + counted.bounce.1;
+        let mut in_world = world.query::<(&Tile, Option<&Radiance>)>();
+        let Ok((tile, radiance)) = in_world.single(world) else { return false };
+        let (rays, number) = (tile.rows(), runs % tiles);
+        runs += 1;
+        all += counted.rays();
         pilot.tried += rays;
-        match took {
-            Some(took) => time += took.as_secs_f64(),
-            None => return pilot.deepest = pilot.deepest.max(counted.bounce.0),
+        cost.add(rays, run, runs == 1);
+        if !run.whole {
+            pilot.deepest = pilot.deepest.max(counted.bounces.keys().next_back().copied().unwrap_or(0));
+            return runs < tiles;
         }
-        pilot.rays += rays;
-        pilot.hits += counted.hits;
-        pilot.to_lights += counted.to_lights.values().sum::<usize>();
-        for (shape, count) in counted.blocked.into_values().flatten() {
-            *pilot.blocked.entry(shape).or_default() += count;
-        }
-        // Where no light is in the scene, the column is missing or has no rows.
-        let Some(radiance) = radiance.filter(|radiance| radiance.rows() == rays) else {
-            pilot.black += rays;
-            return;
+        pilot.seen_tiles += usize::from(pilot.light[number].rays == 0);
+        pilot.count(counted, &is_specular, rays);
+        let light = |row: usize| match radiance.filter(|radiance| radiance.rows() == rays) {
+            // Where no light is in the scene, the column is missing or has no rows.
+            None => [0.0; 3],
+            Some(radiance) => {
+                let (r, g, b) = radiance.slices();
+                [r[row], g[row], b[row]]
+            }
         };
-        let (r, g, b) = radiance.slices();
-        pilot.black += (0..radiance.rows()).filter(|&row| r[row].max(g[row]).max(b[row]) < DARK).count();
-        pilot.beyond_white += (0..radiance.rows()).filter(|&row| r[row].min(g[row]).min(b[row]) > 1.0).count();
+        for row in 0..rays {
+            let [r, g, b] = light(row);
+            let most = r.max(g).max(b);
+            pilot.light[number].add(most);
+            pilot.black += usize::from(!(most >= DARK));
+            pilot.beyond_white += usize::from(r.min(g).min(b) > 1.0);
+            if runs <= tiles && pilot.last_first.get(row).is_some_and(|&shape| shape != NO_SHAPE) {
+                candidates.push((tile.pixel_of(row), most));
+            }
+        }
+        runs < tiles || !(pilot.is_settled(f64::from(samples)) && cost.is_known()) && runs < MOST_ROUNDS * tiles
     });
-    if pilot.rays < pilot.tried {
-        time = started.elapsed().as_secs_f64();
-    }
-    pilot.seconds_a_ray = time / pilot.tried.max(1) as f64;
+    pilot.lit_pixel = lit_pixel(candidates, image);
+    pilot.is_least = pilot.rays < pilot.tried;
+    pilot.seconds_a_ray = cost.of_a_ray(pilot.is_least);
     pilot.followed_by = (all as f64 / pilot.tried.max(1) as f64 - 1.0).max(0.0);
+    pilot.seconds_a_light_path = Some(0.0);
     probe_light_paths(scene, prepared, patience / 4, &[counting_hook()], &mut |world, took| {
-        let counted = world.remove_resource::<Counted>().unwrap_or_default();
-        let segments = (counted.before + counted.bounce.1) as f64;
-        pilot.seconds_a_light_path = took.as_secs_f64() / f64::from(LIGHT_PATHS);
+        let segments = world.remove_resource::<Counted>().unwrap_or_default().rays() as f64;
+        pilot.seconds_a_light_path = took.map(|took| took.as_secs_f64() / f64::from(LIGHT_PATHS));
         pilot.light_followed_by = (segments / f64::from(LIGHT_PATHS) - 1.0).max(0.0);
     })?;
     Ok(pilot)
+}
+
+impl Pilot {
+    fn count(&mut self, counted: Counted, is_specular: &[bool], rays: usize) {
+        self.rays += rays;
+        self.intersected += counted.first.len();
+        let hits = || counted.first.iter().copied().filter(|&shape| shape != NO_SHAPE);
+        self.hits += hits().count();
+        self.specular_first += hits().filter(|&shape| is_specular.get(shape as usize) == Some(&true)).count();
+        self.shapes.extend(hits());
+        self.to_lights += counted.to_lights.values().sum::<usize>();
+        for (_, [rays, missed]) in counted.bounces.range(1..) {
+            self.beyond += rays;
+            self.escaped += missed;
+        }
+        for (shape, count) in counted.blocked.into_values().flatten() {
+            *self.blocked.entry(shape).or_default() += count;
+        }
+        self.last_first = counted.first;
+    }
+
+    /// The fraction of pixels that will not be black with so many samples each, as far as these rays can tell.
+    ///
+    /// Of a pixel's samples one that returns light is enough, and where none of n rays did, one of the next n may.
+    pub fn lit_fraction(&self, samples: f64) -> f64 {
+        let some = |fraction: f64| 1.0 - (1.0 - fraction).powf(samples);
+        let seen = || self.light.iter().filter(|tile| tile.rays > 0);
+        let lit: f64 = seen().map(|tile| some(tile.lit as f64 / tile.rays as f64)).sum();
+        let unseen = if samples > 1.0 { some(1.0 / self.rays.max(1) as f64) } else { 0.0 };
+        lit / seen().count().max(1) as f64 + unseen
+    }
+
+    /// The mean light of the brightest small tile.
+    pub fn brightest(&self) -> f64 {
+        self.light.iter().filter(|tile| tile.rays > 0).map(|tile| tile.sum / tile.rays as f64).fold(0.0, f64::max)
+    }
+
+    /// Whether no camera ray hits a shape, as far as that was asked.
+    pub fn hits_nothing(&self) -> bool {
+        self.hits == 0 && self.intersected == self.rays
+    }
+
+    /// Whether rays were traced in all small tiles.
+    pub fn is_everywhere(&self) -> bool {
+        self.seen_tiles == self.tiles
+    }
+
+    /// Whether further samples would not change what is said of how many pixels are black.
+    fn is_settled(&self, samples: f64) -> bool {
+        let few = 1.0 - NEARLY_ALL;
+        let lit_tiles = self.light.iter().filter(|tile| tile.lit > 0).count() as f64;
+        samples <= 1.0 || self.lit_fraction(samples) <= few || lit_tiles > 2.0 * few * self.tiles as f64
+    }
+}
+
+impl TileLight {
+    fn add(&mut self, most: f32) {
+        self.rays += 1;
+        self.lit += usize::from(most >= DARK);
+        self.sum += f64::from(if most.is_finite() { most } else { 0.0 });
+    }
+}
+
+/// Which shapes are mirrors or glass, by their numbers.
+fn specular_shapes(scene: &Census<'_>) -> Result<Vec<bool>> {
+    if !specular_evidence(scene).needed {
+        return Ok(Vec::new());
+    }
+    let (shapes, materials) = (scene.table::<ShapeTable>()?, scene.table::<MaterialTable>()?);
+    let is_specular = |&row: &u32| row != NO_ROW && materials.kind[row as usize].is_specular();
+    Ok(shapes.material.iter().map(is_specular).collect())
+}
+
+/// Of the pixels whose rays hit a shape and return at least as much light as the median of those that return any, the one
+/// nearest to the middle.
+fn lit_pixel(mut found: Vec<([u32; 2], f32)>, image: ImageFrame) -> Option<[u32; 2]> {
+    found.retain(|(_, light)| *light >= DARK);
+    found.sort_by(|one, other| one.1.total_cmp(&other.1));
+    let off = |[x, y]: [u32; 2]| {
+        let [x, y] = [2 * i64::from(x) - i64::from(image.width), 2 * i64::from(y) - i64::from(image.height)];
+        x * x + y * y
+    };
+    let brighter = found.iter().skip(found.len() / 2).map(|(pixel, _)| *pixel);
+    brighter.min_by_key(|&pixel| (off(pixel), pixel))
 }
 
 /// Small tiles, each in the middle of its part of the image, or the whole of a small image; ordered such that any first
@@ -140,56 +255,6 @@ fn small_tiles(image: ImageFrame, side: u32) -> Vec<Tile> {
 /// reversed).
 fn turn([x, y]: [usize; 2]) -> usize {
     (0..8).map(|bit| (x >> (7 - bit) & 1 | (y >> (7 - bit) & 1) << 1) << (2 * bit)).sum()
-}
-
-/// Counts what camera rays hit and, during the first bounces, which shapes block shadow rays.
-///
-/// Several stages write each of the two columns, so the last count of a bounce is the final one.
-fn counting_hook() -> Hook {
-    Arc::new(|_, stage: &Stage, _| {
-        let [writes_hits, writes_shadows] =
-            [ColumnKind::of::<Hits>(), ColumnKind::of::<ShadowHits>()].map(|column| stage.writes.contains(&column));
-        let count = move |world: &mut World,
-                          tiles: &mut QueryState<
-            (&Depth, Option<&Hits>, Option<(&LightRays, &ShadowHits)>),
-            With<Tile>,
-        >| {
-            if !(writes_hits || writes_shadows) {
-                return;
-            }
-            let mut counted = world.remove_resource::<Counted>().unwrap_or_default();
-            let (mut hits, mut rows, mut to_lights, mut blocked) = (0, 0, 0, BTreeMap::new());
-            let mut depth = 0;
-            for (own, hit, light) in tiles.iter(world) {
-                depth = own.0;
-                if let Some(hit) = hit {
-                    rows += hit.rows();
-                    hits += hit.shape.iter().filter(|&&shape| shape != NO_SHAPE).count();
-                }
-                if let Some((rays, shadows)) = light {
-                    to_lights += rays.rows();
-                    for &shape in shadows.shape.iter().filter(|&&shape| shape != NO_SHAPE) {
-                        *blocked.entry(shape).or_default() += 1;
-                    }
-                }
-            }
-            if writes_hits && depth == 0 {
-                counted.hits = hits;
-            }
-            if writes_hits {
-                if counted.bounce.0 != depth {
-                    counted.before += counted.bounce.1;
-                }
-                counted.bounce = (depth, rows);
-            }
-            if writes_shadows && depth < MAX_DEPTH {
-                counted.to_lights.insert(depth, to_lights);
-                counted.blocked.insert(depth, blocked);
-            }
-            world.insert_resource(counted);
-        };
-        count.into_configs()
-    })
 }
 
 #[cfg(test)]

@@ -1,20 +1,17 @@
+use super::black::black;
 use super::emitters::emitters;
 use super::inside::shape_around_camera;
+use super::missing::missing_paths;
 use super::pilot::{Pilot, pilot};
+use super::radians::radians;
 use super::slow::{Effort, many_bounces, many_light_bounces, never_done, slow, why_slow};
+use super::tiny::tiny_shapes;
 use super::unseen::unseen;
-use crate::extract::{
-    ImageFrame, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, distant_start_evidence,
-    emissive_evidence, followed_evidence, integrator_of, light_sampling_evidence, point_evidence,
-    shadowed_distant_evidence, shadowed_point_evidence, shape_name, specular_evidence, traced_evidence,
-};
-use crate::plan::{Census, Evidence, ExtractedTable, Plan};
-use crate::scene::Environment;
+use crate::extract::{ImageFrame, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, traced_evidence};
+use crate::plan::{Census, ExtractedTable, Plan};
 use crate::{Error, Result};
 use std::time::{Duration, Instant};
 
-/// The fraction of rays from which a picture is called black.
-const NEARLY_ALL: f64 = 0.95;
 /// The fraction of rays above white from which a warning about clipped highlights is given.
 const MANY: f64 = 0.25;
 
@@ -53,15 +50,32 @@ pub fn preflight(
     prepared: (&Plan, &[ExtractedTable]),
     conditions: Preflight,
 ) -> Result<Vec<String>> {
+    foretell(scene, prepared, conditions).map(|foretold| foretold.warnings)
+}
+
+/// What is said before a render.
+#[derive(Clone, Debug, Default)]
+pub struct Foretold {
+    /// A sentence each.
+    pub warnings: Vec<String>,
+    /// A pixel near the middle of the picture that shows a lit surface; none where no test ray found one.
+    pub lit_pixel: Option<[u32; 2]>,
+}
+
+/// The same as [`preflight`], with a pixel that is worth a trace.
+///
+/// Errors: whatever the render would refuse.
+pub fn foretell(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), conditions: Preflight) -> Result<Foretold> {
     if prepared.0.view.is_some() {
-        return Ok(Vec::new());
+        return Ok(Foretold::default());
     }
     let pilot = pilot(scene, prepared, conditions.patience.unwrap_or(PATIENCE))?;
     let shapes = scene.table::<ShapeTable>().map_err(Error::from)?;
     let (effort, max_depth) = (effort(scene, conditions)?, scene.table::<IntegratorTable>()?.max_depth);
-    let mut warnings = Vec::new();
+    let mut warnings = radians(scene);
     if pilot.rays > 0 {
-        warnings.extend(by_pilot(scene, &pilot, &shapes));
+        warnings.extend(by_pilot(scene, &pilot, &shapes, samples_each(scene)?)?);
+        warnings.extend(tiny_shapes(scene, &pilot, &shapes)?);
         warnings.extend(many_bounces(&pilot, max_depth));
         warnings.extend(many_light_bounces(&pilot, max_depth));
     } else {
@@ -70,85 +84,31 @@ pub fn preflight(
     warnings.extend(shape_around_camera(scene, &shapes)?);
     warnings.extend(unseen(scene));
     warnings.extend(emitters(scene)?);
-    warnings.extend(missing_paths(scene));
-    if pilot.rays > 0 {
-        warnings.extend(slow(pilot.seconds_a_ray + effort.light_paths * pilot.seconds_a_light_path, effort));
+    warnings.extend(missing_paths(scene, &pilot));
+    if let (true, Some(ray), Some(path)) = (pilot.rays > 0, pilot.seconds_a_ray, pilot.seconds_a_light_path) {
+        warnings.extend(slow(ray + effort.light_paths * path, pilot.is_least, effort));
     }
-    Ok(warnings)
+    Ok(Foretold { warnings, lit_pixel: pilot.lit_pixel })
 }
 
 /// What a few test rays say about the picture.
-fn by_pilot(scene: &Census<'_>, pilot: &Pilot, shapes: &ShapeTable) -> Vec<String> {
-    let fraction = |count: usize| count as f64 / pilot.rays.max(1) as f64;
+fn by_pilot(scene: &Census<'_>, pilot: &Pilot, shapes: &ShapeTable, samples: f64) -> Result<Vec<String>> {
     let mut warnings = Vec::new();
     // The pilot's radiance does not include light traced from lights.
-    let traced = traced_evidence(scene).needed;
-    if fraction(pilot.black) >= NEARLY_ALL && !traced {
-        warnings.push(format!("the picture will probably be black: {}", why_black(scene, pilot)));
-    } else if pilot.hits == 0 && !shapes.kind.is_empty() {
+    let dark = if traced_evidence(scene).needed { None } else { black(scene, pilot, samples)? };
+    if dark.is_none() && pilot.hits_nothing() && !shapes.kind.is_empty() && pilot.is_everywhere() {
         warnings.push(format!("none of {} test rays, spread over the picture, hits a shape", pilot.rays));
     }
-    let percent = 100.0 * fraction(pilot.beyond_white);
-    if fraction(pilot.beyond_white) >= MANY {
+    warnings.extend(dark);
+    let beyond_white = pilot.beyond_white as f64 / pilot.rays.max(1) as f64;
+    if beyond_white >= MANY && pilot.is_everywhere() {
         warnings.push(format!(
-            "{percent:.0} % of the test rays return more than white, which a PNG clips: the EXR keeps it, and \
-             dimmer lights avoid it"
+            "{:.0} % of the test rays return more than white, which a PNG clips: the EXR keeps it, and dimmer lights \
+             avoid it",
+            100.0 * beyond_white
         ));
     }
-    warnings
-}
-
-fn why_black(scene: &Census<'_>, pilot: &Pilot) -> String {
-    let (points, areas) = (point_evidence(scene), emissive_evidence(scene).or(environment_evidence(scene)));
-    let sampled = points.needed || light_sampling_evidence(scene).needed;
-    let lights = points.or(areas);
-    let blocked: usize = pilot.blocked.values().sum();
-    let does = integrator_of(scene).integrator.transport();
-    if let Some(distance) = does.occlusion {
-        return format!("within {distance} units, something hides the sky from everything that the camera sees");
-    }
-    if !lights.needed {
-        return "there is no light, no surface that emits light, and no background with a colour".into();
-    }
-    if pilot.hits == 0 {
-        return format!("none of {} rays hits a shape, and there is no background with a colour", pilot.rays);
-    }
-    if does.max_depth == 1 {
-        return format!(
-            "at max_depth 1 a path has one segment, from a light to the camera, so that what emits nothing is black ({}); \
-             max_depth 2 illuminates it",
-            lights.reason
-        );
-    }
-    if !sampled && does.samples_diffuse {
-        let (found, rays) = (pilot.rays - pilot.black, pilot.rays);
-        return format!(
-            "{found} of {rays} rays hit a light at random ({}); LightStrategy::Mis samples lights as well",
-            lights.reason
-        );
-    }
-    if !sampled {
-        return format!(
-            "no light here is sampled with shadow rays, and the others illuminate nothing ({})",
-            lights.reason
-        );
-    }
-    if pilot.to_lights == 0 {
-        return format!(
-            "everything that the camera sees faces away from every light, or is not in any light's beam ({})",
-            lights.reason
-        );
-    }
-    if blocked == pilot.to_lights {
-        let most = pilot.blocked.iter().max_by_key(|(_, count)| **count);
-        let name = most.map_or_else(String::new, |(&shape, _)| shape_name(scene, shape as usize));
-        return format!("all {blocked} shadow rays are blocked, most of them by the {name}");
-    }
-    format!("so little light arrives ({}) that nearly all of it is too dark to be seen", lights.reason)
-}
-
-fn environment_evidence(scene: &Census<'_>) -> Evidence {
-    Evidence::of::<Environment>(scene, "environment")
+    Ok(warnings)
 }
 
 /// The number of samples to take, and of paths from lights for each; none where the render ends after a given time.
@@ -156,35 +116,11 @@ fn effort(scene: &Census<'_>, conditions: Preflight) -> Result<Effort> {
     let image = scene.table::<ImageFrame>()?;
     let pixels = f64::from(image.width) * f64::from(image.height);
     let paths = if traced_evidence(scene).needed { scene.table::<LightTracingTable>()?.paths } else { 0.0 };
-    let samples = f64::from(scene.table::<SamplingTable>()?.samples);
+    let samples = samples_each(scene)?;
     let threads = conditions.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
     Ok(Effort { samples: (!conditions.ends_in_time).then_some(samples * pixels), light_paths: paths, threads })
 }
 
-/// The paths of light that the integrator cannot sample in this scene at all.
-fn missing_paths(scene: &Census<'_>) -> Vec<String> {
-    let (points, bends) = (point_evidence(scene), specular_evidence(scene));
-    if !(points.needed && bends.needed && followed_evidence(scene).needed) {
-        return Vec::new();
-    }
-    let distant = shadowed_distant_evidence(scene);
-    let starts_outside = !distant.needed || distant_start_evidence(scene).needed;
-    let started = shadowed_point_evidence(scene);
-    let started = if distant.needed && starts_outside { started.or(distant.clone()) } else { started };
-    let mut warnings = Vec::new();
-    if started.needed && !traced_evidence(scene).needed {
-        warnings.push(format!(
-            "light that arrives through mirrors or glass ({}) from a light without an area ({}) is missing on matte \
-             surfaces, since no sampled ray can hit a point; LightTracing on the camera, beside paths, finds it from the light",
-            bends.reason, started.reason
-        ));
-    }
-    if !starts_outside {
-        warnings.push(format!(
-            "no paths start on lights without a position ({}) where a mirror or glass is infinite: their light through \
-             it is missing; a disk, a rectangle or a cuboid in its place is not",
-            distant.reason
-        ));
-    }
-    warnings
+fn samples_each(scene: &Census<'_>) -> Result<f64> {
+    Ok(f64::from(scene.table::<SamplingTable>()?.samples))
 }

@@ -20,14 +20,15 @@ pub struct Effort {
 }
 
 /// A warning that a picture will take very long, estimated from the cost of one camera ray and all that follows from
-/// it.
-pub fn slow(seconds_a_ray: f64, effort: Effort) -> Option<String> {
+/// it in processor seconds: what else the machine does makes it longer still.
+pub fn slow(seconds_a_ray: f64, is_least: bool, effort: Effort) -> Option<String> {
     let samples = effort.samples?;
     let seconds = samples * seconds_a_ray / effort.threads.max(1) as f64;
     (seconds >= LONG).then(|| {
         format!(
-            "the picture will take about {}: {} samples at {} each, on {}; --time 5m stops after five minutes \
-             with the picture as it is by then, and --resume continues from there",
+            "the picture will take {} {}, if nothing else runs: {} samples at {} each, on {}; --time 5m stops after five \
+             minutes with the picture as it is by then, and --resume continues from there",
+            if is_least { "more than" } else { "about" },
             long_span(seconds),
             many(samples),
             short_span(seconds_a_ray),
@@ -62,16 +63,13 @@ pub fn many_light_bounces(pilot: &Pilot, max_depth: u32) -> Option<String> {
 
 /// A warning that none of the small tiles that were traced was finished.
 pub fn never_done(pilot: &Pilot, why: &str, effort: Effort) -> String {
-    let seconds = pilot.seconds_a_ray;
-    let picture = effort.samples.map(|samples| samples * seconds / effort.threads.max(1) as f64);
-    let picture = picture.filter(|&picture| picture >= LONG).map(long_span);
-    let picture = picture.map_or_else(String::new, |span| format!(", so the picture will take more than {span}"));
-    format!(
-        "none of {} test rays was finished when the time for them was up: a ray takes more than {}{picture}; \
-         {why}",
-        pilot.tried,
-        short_span(seconds)
-    )
+    let least = pilot.seconds_a_ray.map_or_else(String::new, |seconds| {
+        let picture = effort.samples.map(|samples| samples * seconds / effort.threads.max(1) as f64);
+        let picture = picture.filter(|&picture| picture >= LONG).map(long_span);
+        let picture = picture.map_or_else(String::new, |span| format!(", so the picture will take more than {span}"));
+        format!(": a ray takes more than {}{picture}", short_span(seconds))
+    });
+    format!("none of {} test rays was finished when the time for them was up{least}; {why}", pilot.tried)
 }
 
 /// The reason why a ray takes long in this scene.
@@ -121,12 +119,15 @@ mod tests {
 
     #[test]
     fn long_renders_are_announced() {
-        let of =
-            |samples, seconds, threads| slow(seconds, Effort { samples: Some(samples), light_paths: 0.0, threads });
+        let of = |samples, seconds, threads| {
+            slow(seconds, false, Effort { samples: Some(samples), light_paths: 0.0, threads })
+        };
         assert_eq!(of(1e8, 1e-5, 2), None, "500 s");
-        assert_eq!(slow(1e9, Effort { samples: None, light_paths: 0.0, threads: 1 }), None, "the time is given");
+        assert_eq!(slow(1e9, false, Effort { samples: None, light_paths: 0.0, threads: 1 }), None, "the time is given");
         let warning = of(1.2e8, 1e-5, 2).expect("600 s");
-        assert!(warning.starts_with("the picture will take about 10 minutes: 120 million samples at 10.0 µs each"));
+        assert!(warning.starts_with(
+            "the picture will take about 10 minutes, if nothing else runs: 120 million samples at 10.0 µs each"
+        ));
         assert!(warning.contains(", on 2 threads; --time 5m"), "{warning}");
         for (samples, seconds, threads, words) in [
             (1e6, 7.1e-3, 1, ["about 118 minutes", "1 million samples", "7.1 ms", "on 1 thread;"]),

@@ -1,4 +1,5 @@
-use crate::film::Film;
+use crate::film::{Film, FilmTile};
+use std::ops::RangeInclusive;
 
 /// The constant added to the square of a pixel's radiance before its squared error is divided by it, as in relMSE.
 pub const EPSILON: f64 = 1e-2;
@@ -17,34 +18,108 @@ pub fn samples_for(variance: f64, mean_square: f64, error: f64) -> u32 {
 /// The number of new samples for each pixel, tile by tile, decided from a film of pilot samples and from nothing else.
 ///
 /// A pixel whose few samples happen to agree underestimates its noise, so its variance is taken to be no smaller than
-/// the mean of the variances of the 3 × 3 pixels around it.
+/// the mean of the variances of the 3 × 3 pixels around it, and one event more than they saw is added (see [`Noise`]).
+/// Where these pixels saw nothing vary, the event is one of those that the rest of the picture saw, and such a pixel gets
+/// no more samples than the others on average, so that dark parts of a picture at most double its cost.
 /// The pilot samples are independent of the new ones, so the mean of the new ones stays unbiased whatever is decided
 /// from the pilot (Kirk and Arvo, "Unbiased sampling techniques for image synthesis", 1991).
 pub fn planned_samples(pilot: &Film, error: f64) -> Vec<Vec<u32>> {
-    let of_pixel = |x: u32, y: u32| {
-        let (tile, row) = pilot.place(x, y);
-        mean_of(pilot.moments.get(tile).map_or([0.0; 3], |own| own.variance(&pilot.tiles[tile], row)))
-    };
-    let pooled = |x: u32, y: u32| {
-        let columns = x.saturating_sub(1)..=(x + 1).min(pilot.width - 1);
-        let lines = y.saturating_sub(1)..=(y + 1).min(pilot.height - 1);
-        let (mut sum, mut pixels) = (0.0, 0.0);
-        for y in lines {
-            for x in columns.clone() {
-                sum += of_pixel(x, y);
-                pixels += 1.0;
-            }
-        }
-        of_pixel(x, y).max(sum / pixels)
-    };
-    let of_tile = |tile: &crate::film::FilmTile| {
-        let of_row = |row: usize| {
+    let mut all = Noise::default();
+    let mut first = Vec::new();
+    for tile in &pilot.tiles {
+        for row in 0..tile.tile.rows() {
             let [x, y] = tile.tile.pixel_of(row);
-            samples_for(pooled(x, y), mean_square(tile.shown_f64(row)), error)
+            let (own, around) = (Noise::of(pilot, x..=x, y..=y), Noise::around(pilot, x, y));
+            all.add(&own);
+            let known = own.variance().max(around.variance()) + around.one_event(around.event_size());
+            first.push((known, around));
+        }
+    }
+    let planned =
+        |tile: &FilmTile, row: usize, variance: f64| samples_for(variance, mean_square(tile.shown_f64(row)), error);
+    let rows = || pilot.tiles.iter().flat_map(|tile| (0..tile.tile.rows()).map(move |row| (tile, row)));
+    let total: f64 = rows().zip(&first).map(|((tile, row), (known, _))| f64::from(planned(tile, row, *known))).sum();
+    let most = (total / all.pixels).ceil() as u32;
+    let mut first = first.into_iter();
+    let of_tile = |tile: &FilmTile| {
+        let of_row = |row: usize| {
+            let (known, around) = first.next().unwrap_or_default();
+            match (all.event_size(), around.event_size()) {
+                (Some(size), None) => planned(tile, row, around.one_event(Some(size))).min(most),
+                // Nothing was seen to vary anywhere: all samples together have just missed light like that of a white wall.
+                (None, _) => planned(tile, row, all.one_event(Some(1.0))),
+                _ => planned(tile, row, known),
+            }
         };
         (0..tile.tile.rows()).map(of_row).collect()
     };
     pilot.tiles.iter().map(of_tile).collect()
+}
+
+/// What the pilot samples of some pixels say together about their noise.
+///
+/// Light that arrives rarely comes in events: where one of radiance M comes in a fraction p of the samples, the mean is
+/// L = p M and the variance V = p M² for small p, so that M = V / L.
+/// In m samples k events are seen, and k M² / m estimates V.
+/// With that, a pixel at which k = 0 would be given next to no samples, however bright what it missed; and as E[1 / k] is
+/// more than 1 / E[k], the error would be above the one asked for on average.
+/// One event more, (k + 1) M² / m, ends both, for E[1 / (k + 1)] = (1 − e^−λ) / λ < 1 / λ where k is Poisson distributed
+/// with the mean λ.
+#[derive(Clone, Copy, Debug, Default)]
+struct Noise {
+    pixels: f64,
+    samples: f64,
+    /// The sum of the pixels' variances.
+    variances: f64,
+    /// The sum of the same, each times the size of its events.
+    sized: f64,
+}
+
+impl Noise {
+    fn of(pilot: &Film, columns: RangeInclusive<u32>, lines: RangeInclusive<u32>) -> Self {
+        let mut noise = Self::default();
+        for y in lines {
+            for x in columns.clone() {
+                let (tile, row) = pilot.place(x, y);
+                let film = &pilot.tiles[tile];
+                let variance = mean_of(pilot.moments.get(tile).map_or([0.0; 3], |own| own.variance(film, row)));
+                let light = mean_of(film.shown_f64(row)).abs();
+                noise.pixels += 1.0;
+                noise.samples += f64::from(film.count[row]);
+                noise.variances += variance;
+                noise.sized += if light > 0.0 { variance * (variance / light) } else { 0.0 };
+            }
+        }
+        noise
+    }
+
+    /// That of the 3 × 3 pixels around one, as far as they are in the picture.
+    fn around(pilot: &Film, x: u32, y: u32) -> Self {
+        let columns = x.saturating_sub(1)..=(x + 1).min(pilot.width - 1);
+        Self::of(pilot, columns, y.saturating_sub(1)..=(y + 1).min(pilot.height - 1))
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.pixels += other.pixels;
+        self.samples += other.samples;
+        self.variances += other.variances;
+        self.sized += other.sized;
+    }
+
+    /// The mean of the pixels' variances.
+    fn variance(&self) -> f64 {
+        self.variances / self.pixels.max(1.0)
+    }
+
+    /// The radiance of the events that the variance comes from; none where nothing varies.
+    fn event_size(&self) -> Option<f64> {
+        (self.variances > 0.0).then(|| self.sized / self.variances)
+    }
+
+    /// The variance that one event of this size adds.
+    fn one_event(&self, size: Option<f64>) -> f64 {
+        size.map_or(0.0, |size| size * size / self.samples.max(1.0))
+    }
 }
 
 fn mean_of(parts: [f64; 3]) -> f64 {

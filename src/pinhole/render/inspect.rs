@@ -81,23 +81,25 @@ fn film_of(tile: Tile) -> Film {
 /// Runs the kept stages on small tiles of the image, one after another in one small world, for the first sample of each
 /// of their pixels; hooks follow each stage.
 ///
-/// After each tile `look` gets the world and the time that the tile took; none where the tile was given up.
+/// After each tile `look` gets the world and how the run went, and says whether to go on: with the next tile, after the
+/// last one with the next sample of the first, and again with the first sample where the camera takes no more.
 /// All tiles together take no longer than `patience`, and each at most a fraction of the time that is left, so that a
 /// tile whose paths do not end leaves time for others.
 pub fn probe_tiles(
     scene: &Census<'_>,
     (plan, tables): (&Plan, &[ExtractedTable]),
-    tiles: &[Tile],
+    (tiles, samples): (&[Tile], u32),
     patience: Duration,
     hooks: &[Hook],
-    look: &mut dyn FnMut(&mut World, Option<Duration>),
+    look: &mut dyn FnMut(&mut World, ProbeRun) -> bool,
 ) {
     const FRACTION: u32 = 4;
     const TOO_SHORT: Duration = Duration::from_millis(2);
     let end = Instant::now() + patience;
     let mut frame = RenderWorld::new(plan, tables, 1, &Execution::default(), hooks);
-    for &place in tiles {
-        let started = Instant::now();
+    let all = (0..samples.max(1)).cycle().flat_map(|sample| tiles.iter().map(move |&tile| (tile, sample)));
+    for (place, sample) in all {
+        let (started, before) = (Instant::now(), thread_time());
         let left = end.saturating_duration_since(started);
         if left < TOO_SHORT {
             return;
@@ -105,11 +107,32 @@ pub fn probe_tiles(
         let mut film = film_for(scene, plan, film_of(place));
         let tile = frame.tiles[0];
         film_parts(&mut film).for_each(|mut part| frame.swap_part(tile, &mut part));
-        frame.activate(tile, &Run::FIRST, None);
+        frame.activate(tile, &Run::of_all(sample), None);
         frame.stop_at(Stop::at_deadline(started + left / FRACTION));
         let whole = frame.run();
-        look(&mut frame.world, whole.then(|| started.elapsed()));
+        let time = before.and_then(|before| Some(thread_time()?.saturating_sub(before)));
+        if !look(&mut frame.world, ProbeRun { whole, time }) {
+            return;
+        }
     }
+}
+
+/// How a run over a small tile went.
+#[derive(Clone, Copy, Debug)]
+pub struct ProbeRun {
+    /// Whether it was completed; if not, it was given up.
+    pub whole: bool,
+    /// The processor time that it took, which does not depend on what else the machine does; none where it is not known.
+    pub time: Option<Duration>,
+}
+
+/// The processor time of this thread so far; none on systems that do not measure it.
+pub(super) fn thread_time() -> Option<Duration> {
+    #[cfg(any(unix, windows))]
+    let time = cpu_time::ThreadTime::try_now().ok().map(|time| time.as_duration());
+    #[cfg(not(any(unix, windows)))]
+    let time = None;
+    time
 }
 
 /// The side of a full tile, in pixels, with the default execution.

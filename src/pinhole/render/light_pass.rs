@@ -1,5 +1,6 @@
 use super::Execution;
 use super::clock::{Lap, laps_of};
+use super::inspect::thread_time;
 use super::render_world::{Hook, RenderWorld};
 use crate::extract::{FilterTable, ImageFrame, LightTracingTable, SamplingTable};
 use crate::film::{Film, SplatFilter};
@@ -140,7 +141,7 @@ impl LightPass {
 }
 
 /// Runs the first batch of light paths for no longer than `patience`, with hooks after each stage; `look` gets the world
-/// and how long the batch took, or was run until it was abandoned.
+/// and the processor time that the batch took, or ran until it was abandoned; none where it is not known.
 ///
 /// Returns whether the plan has such a pass.
 pub fn probe_light_paths(
@@ -148,7 +149,7 @@ pub fn probe_light_paths(
     (plan, tables): (&Plan, &[ExtractedTable]),
     patience: Duration,
     hooks: &[Hook],
-    look: &mut dyn FnMut(&mut World, Duration),
+    look: &mut dyn FnMut(&mut World, Option<Duration>),
 ) -> Result<bool, SceneError> {
     if !has_light_pass(plan) {
         return Ok(false);
@@ -156,10 +157,10 @@ pub fn probe_light_paths(
     let sampling = scene.table::<SamplingTable>()?.for_light_paths();
     let mut made = RenderWorld::of_pass(RowKind::LightPath, plan, tables, 1, &Execution::default(), hooks);
     made.world.insert_resource(Shared::new(sampling));
-    let started = Instant::now();
-    made.stop_at(Stop::at_deadline(started + patience));
+    let before = thread_time();
+    made.stop_at(Stop::at_deadline(Instant::now() + patience));
     run_batch(&mut made, 0, &mut Splats::default());
-    look(&mut made.world, started.elapsed());
+    look(&mut made.world, before.and_then(|before| Some(thread_time()?.saturating_sub(before))));
     Ok(true)
 }
 

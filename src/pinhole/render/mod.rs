@@ -49,7 +49,7 @@ pub use execution::{Watch, Worlds};
 pub use in_progress::RenderInProgress;
 #[doc(hidden)]
 pub use inspect::{
-    Inspection, first_bounce_only, inspect, inspect_pixel, inspect_stages, probe_tiles, usual_tile_side,
+    Inspection, ProbeRun, first_bounce_only, inspect, inspect_pixel, inspect_stages, probe_tiles, usual_tile_side,
 };
 #[doc(hidden)]
 pub use key::film_key;

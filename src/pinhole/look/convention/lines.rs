@@ -10,7 +10,7 @@ pub fn lines(program: Program, camera: &PlacedCamera) -> Vec<String> {
     let [eye, target, up] = [camera.look.eye, camera.look.target, camera.look.up].map(|point| parts(point, ", "));
     match program {
         Program::OneWeekend => vec![
-            format!("cam.image_width = {width}; cam.aspect_ratio = {width}.0 / {height}.0;"),
+            format!("cam.image_width = {width}; cam.aspect_ratio = {width}.0 / {};", rows_divisor(width, height)),
             format!("cam.vfov = {opening};"),
             format!("cam.lookfrom = point3({eye}); cam.lookat = point3({target});"),
             format!("cam.vup = vec3({up});"),
@@ -40,6 +40,13 @@ pub fn lines(program: Program, camera: &PlacedCamera) -> Vec<String> {
         Program::OpenCv => open_cv(&theirs, &opening, camera),
         Program::Blender => blender(&theirs, &opening, camera),
     }
+}
+
+/// What *One Weekend* has to divide the width by, so that its `int(image_width / aspect_ratio)` is the height: the height
+/// itself, or half a row more where the quotients round to less than it.
+fn rows_divisor(width: u32, height: u32) -> String {
+    let [across, down] = [width, height].map(f64::from);
+    if (across / (across / down)) as u32 == height { format!("{height}.0") } else { format!("{height}.5") }
 }
 
 /// How to write a camera from another program in pinhole: its field of view, then its placement.

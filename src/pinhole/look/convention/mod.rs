@@ -5,12 +5,14 @@
 //! Space: each program's own world and camera axes; they differ from pinhole's by permutations and signs only, so
 //! nothing is rounded.
 
+mod lens_lines;
 mod lines;
 mod mistake;
 mod placed;
 mod program;
 mod round_trip;
 
+pub use lens_lines::lines_with_lens;
 pub use lines::{back, lines};
 pub use mistake::Mistake;
 pub use placed::PlacedCamera;
