@@ -187,14 +187,14 @@ fn stage(bodies: &[Body], seen: Seen, height: f64, floor_first: bool) -> World {
     let perspective = PerspectiveCamera { fov, ..PerspectiveCamera::default() };
     let mut camera = world.entity_mut(camera);
     match seen {
-        Seen::Parallel => drop(camera.insert(OrthographicCamera { view_height: SEEN })),
-        Seen::Perspective => drop(camera.insert(perspective)),
+        Seen::Parallel => camera.insert(OrthographicCamera { view_height: SEEN }),
+        Seen::Perspective => camera.insert(perspective),
         Seen::Lens => {
             let aperture = Aperture::Radius { radius: 0.002 };
-            drop(camera.insert((perspective, Lens { aperture, focus_distance: height, ..Lens::default() })));
+            camera.insert((perspective, Lens { aperture, focus_distance: height, ..Lens::default() }))
         }
-        Seen::Fisheye => drop(camera.insert(FisheyeCamera { fov, axis: FovAxis::Diagonal })),
-    }
+        Seen::Fisheye => camera.insert(FisheyeCamera { fov, axis: FovAxis::Diagonal }),
+    };
     let floor = |world: &mut World| {
         world.spawn((Name::new("floor"), Rectangle { width: 1.0, depth: 1.0 }, Matte { colour: Rgb::grey(COLOUR) }));
     };
