@@ -351,3 +351,32 @@ fn emission_that_no_stage_on_offer_adds_is_refused() {
     assert!(refused >= 3 && rendered >= 5, "{refused} {rendered}");
     eprintln!("emission: {refused} chapters say that nothing adds it, {rendered} plans with lights add it");
 }
+
+/// Glass that is thinner than single precision keeps apart, and narrow gaps, are said; what only touches is not.
+#[test]
+fn what_precision_cannot_keep_apart_is_said() {
+    let scene = |bodies: &dyn Fn(&mut World)| {
+        let mut world = World::new();
+        let look = LookAt { eye: DVec3::new(0.0, 3.0, 20.0), target: DVec3::ZERO, ..LookAt::default() };
+        world.spawn((Name::new("camera"), PerspectiveCamera::default(), look, Integrator::PATH));
+        world.spawn(Background { colour: Rgb::grey(0.5) });
+        bodies(&mut world);
+        let told = said(&world).expect("a scene that can be rendered");
+        told.into_iter().filter(|sentence| sentence.contains("single precision")).collect::<Vec<_>>()
+    };
+    let pane = |thin: f64| {
+        scene(&move |world| {
+            world.spawn((Name::new("pane"), Cuboid { size: DVec3::new(1.0, thin, 1.0) }, Glass::default()));
+        })
+    };
+    let shell = |radius: f64| {
+        scene(&move |world| {
+            world.spawn((Name::new("ball"), Sphere { radius: 1.0 }, Matte::default()));
+            world.spawn((Name::new("shell"), Sphere { radius }, Glass::default()));
+        })
+    };
+    let [thin, narrow] = [pane(1e-6), shell(1.0 + 1e-6)];
+    assert!(thin.len() == 1 && thin[0].contains("cuboid \"pane\" is 1.0e-6 thin"), "{thin:?}");
+    assert!(narrow.len() == 1 && narrow[0].contains("\"shell\"") && narrow[0].contains("1.0e-6 apart"), "{narrow:?}");
+    assert_eq!([pane(1e-2), shell(1.01), shell(1.0)], [const { Vec::<String>::new() }; 3]);
+}

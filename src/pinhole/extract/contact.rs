@@ -16,6 +16,9 @@ use std::sync::Arc;
 /// spawned from one of them starts up to 1.5 bounds from it, and the search for others goes to two.
 const APART: f64 = 4.0;
 
+/// A gap that is smaller than this fraction of the numbers from which it is computed is none.
+const TOUCHING: f64 = 1.0 / (1_u64 << 44) as f64;
+
 /// A shape that may touch glass, or is of glass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
@@ -135,6 +138,29 @@ fn evidence_of(scene: &Census<'_>, none: &str, such: impl Fn(u32) -> bool) -> Ev
     let [of, with] = [one, other].map(|shape| entities.get(shape).map_or_else(String::new, |&e| called(scene, e)));
     let reason = if one == other { format!("thin glass: {of}") } else { format!("{of} may touch {with}") };
     Evidence { needed: true, reason, count: 1 + found.count() }
+}
+
+/// What single precision cannot keep apart in a scene although it is apart: glass that is very thin, and balls with a
+/// narrow gap between them; of either kind the first in spawn order, by their numbers, and how far apart they are, in
+/// scene units.
+pub fn unresolved(scene: &Census<'_>) -> Result<Vec<([usize; 2], f64)>, SceneError> {
+    let (mut thin, mut gap) = (None, None);
+    for &[one, other] in &contact_pairs(scene)?.touching {
+        let (a, b) = (body_of(scene, one)?, body_of(scene, other)?);
+        match (&a, &b) {
+            _ if one == other => thin = thin.or(Some(([one, other], a.thickness()))),
+            (Body::Sphere(a, ()), Body::Sphere(b, ())) => {
+                let apart = (a.centre - b.centre).length();
+                let between = (apart - (a.radius + b.radius)).abs().min((apart - (a.radius - b.radius).abs()).abs());
+                // Rounding alone leaves as much between balls that touch.
+                if between > TOUCHING * (a.radius + b.radius + l1_norm(a.centre)) {
+                    gap = gap.or(Some(([one, other], between)));
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(thin.into_iter().chain(gap).collect())
 }
 
 /// Pairs of shapes, the first of them of glass, whose surfaces may coincide within rounding.

@@ -91,7 +91,7 @@ pub use background::BackgroundTable;
 pub use camera::{CameraAxes, camera_spread, eye};
 pub use camera_entity::{CAMERA_KINDS, CameraKind, camera_entity, camera_kind};
 pub use camera_join::CameraJoinTable;
-pub use contact::{Contact, ContactTable, contact_evidence, glass_contact_evidence};
+pub use contact::{Contact, ContactTable, contact_evidence, glass_contact_evidence, unresolved};
 pub use emissive::{EmissiveTable, emissive_evidence, one_sided_evidence};
 pub use environment::EnvironmentTable;
 pub use environment_light::{EnvironmentLightTable, environment_light_evidence};

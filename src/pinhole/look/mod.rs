@@ -32,6 +32,7 @@ mod preflight;
 mod radians;
 mod slow;
 mod stats;
+mod thin;
 mod tiny;
 mod trace;
 mod unseen;

@@ -1,0 +1,25 @@
+use crate::Result;
+use crate::extract::{contact_evidence, shape_name, unresolved};
+use crate::plan::Census;
+
+/// Warnings of glass that is thinner, or nearer to another surface, than single precision can keep apart.
+pub fn unresolved_glass(scene: &Census<'_>) -> Result<Vec<String>> {
+    if !contact_evidence(scene).needed {
+        return Ok(Vec::new());
+    }
+    let warning = |([one, other], apart): ([usize; 2], f64)| {
+        let [name, of] = [one, other].map(|shape| shape_name(scene, shape));
+        if one == other {
+            format!(
+                "the {name} is {apart:.1e} thin, less than single precision keeps apart at its distance from the camera: \
+                 both of its sides reflect, but it absorbs nothing, and on something opaque it is not there"
+            )
+        } else {
+            format!(
+                "the {name} and the {of} are {apart:.1e} apart, less than single precision keeps apart at their distance \
+                 from the camera: they are taken to touch"
+            )
+        }
+    };
+    Ok(unresolved(scene)?.into_iter().map(warning).collect())
+}
