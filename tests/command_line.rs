@@ -1,7 +1,17 @@
 //! The program as a reader comes to know it: what they type first, what they see, what is on disk afterwards.
 
+#[path = "command_line/exported.rs"]
+mod exported;
+#[cfg(unix)]
+#[path = "command_line/lost.rs"]
+mod lost;
 #[path = "command_line/meant.rs"]
 mod meant;
+#[path = "command_line/model.rs"]
+pub mod model;
+#[cfg(unix)]
+#[path = "command_line/names.rs"]
+mod names_shown;
 #[path = "command_line/said.rs"]
 mod said;
 

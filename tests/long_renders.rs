@@ -5,6 +5,10 @@ use pinhole::plan::Census;
 
 #[path = "long_renders/adaptive.rs"]
 mod adaptive;
+#[path = "long_renders/kept.rs"]
+mod kept;
+#[path = "long_renders/kill.rs"]
+mod kill;
 #[path = "long_renders/killed.rs"]
 mod killed;
 #[path = "long_renders/layers.rs"]

@@ -59,7 +59,7 @@ const ORDER: &[(&str, &[&str])] = &[
         ],
     ),
     ("lab", &["png_url", "repository", "naive", "measure", "figure", "review", "report", "exercise"]),
-    ("live", &["answer", "guard", "http", "view"]),
+    ("live", &["answer", "guard", "peer", "http", "view"]),
     ("", &["exercises", "questions", "figures", "command"]),
 ];
 

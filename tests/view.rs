@@ -4,8 +4,12 @@
 mod attacks;
 #[path = "view/browser.rs"]
 mod browser;
+#[path = "view/kept.rs"]
+mod kept;
 #[path = "view/page.rs"]
 mod page;
+#[path = "view/scanner.rs"]
+mod scanner;
 
 use std::ffi::OsString;
 use std::fs;

@@ -1,5 +1,6 @@
 //! What a reader typed to start the program, so that hints can be typed the same way.
 
+use super::visible::is_hidden;
 use std::ffi::OsStr;
 use std::path::Path;
 use std::sync::OnceLock;
@@ -39,7 +40,7 @@ fn name(cargo: bool, exe: &Path, started: &OsStr) -> String {
 
 /// A word that a shell takes as it stands.
 pub fn quoted(word: &str) -> String {
-    let word: String = word.chars().filter(|letter| !letter.is_control()).collect();
+    let word: String = word.chars().filter(|letter| !is_hidden(*letter)).collect();
     shlex::try_quote(&word).map_or_else(|_| String::new(), |quoted| quoted.into_owned())
 }
 

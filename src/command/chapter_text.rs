@@ -1,14 +1,16 @@
 //! The text of a chapter's scene, whose values can be set.
 
 use super::error::{Error, Result};
-use super::export_images::name_images_whole;
+use super::export_images::{held_image, name_images_whole, place_beside};
 use super::export_meshes::name_models;
 use super::subject::own_view;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{camera_entity, integrator_of};
+use pinhole::models::glb_of;
 use pinhole::plan::Census;
 use pinhole::scene::{
-    EmbeddedFiles, Mesh, MeshInMemory, MeshInstance, SceneError, SceneFile, UnreadMesh, meshes_in_memory, scene_text,
+    EmbeddedFiles, MODEL_FILE, Mesh, MeshInMemory, MeshInstance, ModelFiles, SceneError, SceneFile, UnreadMesh,
+    meshes_in_memory, scene_text,
 };
 use pinhole::{Chapter, Overrides};
 use std::path::Path;
@@ -20,18 +22,43 @@ pub struct Held {
     /// Meshes, each with the name that the text has for it.
     pub meshes: Vec<MeshInMemory>,
     /// Images with their names.
-    pub files: Vec<(String, &'static [u8])>,
+    pub files: Vec<(String, Arc<[u8]>)>,
     embedded: Option<EmbeddedFiles>,
+    of_models: Option<ModelFiles>,
 }
 
 /// The text of a scene, and what it names that no file holds.
 pub fn text_of(mut world: World) -> (std::result::Result<String, SceneError>, Held) {
     name_models(&mut world, None);
+    let meshes = meshes_in_memory(&world);
+    text_with(world, meshes)
+}
+
+/// The same for a text beside which the meshes are to be written, under names that begin with a stem and are those of no
+/// other files.
+pub fn text_beside(mut world: World, folder: &Path, stem: &str) -> (std::result::Result<String, SceneError>, Held) {
+    name_models(&mut world, None);
+    let mut meshes = meshes_in_memory(&world);
+    for mesh in &mut meshes {
+        let name = format!("{stem}-{}", mesh.file);
+        let free = glb_of(&mesh.geometry)
+            .and_then(|bytes| place_beside(folder, Path::new(&name), &bytes, MODEL_FILE))
+            .map_or(name, |(free, _)| free);
+        for &instance in &mesh.instances {
+            world.entity_mut(instance).insert(Mesh { file: free.clone() });
+        }
+        mesh.file = free;
+    }
+    text_with(world, meshes)
+}
+
+fn text_with(mut world: World, meshes: Vec<MeshInMemory>) -> (std::result::Result<String, SceneError>, Held) {
     let only_here = name_images_whole(&mut world);
     let embedded = world.get_resource::<EmbeddedFiles>().copied();
-    let bytes_of = |name: String| Some((name.clone(), EmbeddedFiles::find(&world, &name)?));
+    let of_models = world.get_resource::<ModelFiles>().cloned();
+    let bytes_of = |name: String| Some((name.clone(), held_image(&world, &name)?));
     let files = only_here.into_iter().filter_map(bytes_of).collect();
-    (scene_text(&world), Held { meshes: meshes_in_memory(&world), files, embedded })
+    (scene_text(&world), Held { meshes, files, embedded, of_models })
 }
 
 impl Held {
@@ -39,6 +66,9 @@ impl Held {
     pub fn fill_in(&self, world: &mut World) {
         if let Some(embedded) = self.embedded {
             world.insert_resource(embedded);
+        }
+        if let Some(of_models) = &self.of_models {
+            world.insert_resource(of_models.clone());
         }
         let unread: Vec<(Entity, String)> = world
             .query_filtered::<(Entity, &Mesh), With<UnreadMesh>>()

@@ -5,7 +5,7 @@ use super::interrupt::Waiting;
 use super::subject::Subject;
 use bevy_ecs::prelude::World;
 use pinhole::extract::{LensTable, angle_of_tan_half, camera_entity, validate};
-use pinhole::film::{check_place, write_png};
+use pinhole::film::{Replaces, check_place, write_png};
 use pinhole::look::convention::{Mistake, PlacedCamera, Program, back, lines_with_lens, round_trip};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, render};
@@ -107,12 +107,13 @@ fn render_mistake(
     let in_out = || Path::new("out").join(format!("{}_{mistake}.png", subject.stem()));
     let file = asked.output.clone().unwrap_or_else(in_out);
     if file.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("png")) {
-        return Err(Error::CommandLine(format!("cannot write {}: the name must end in .png", file.display())));
+        return Err(Error::CommandLine(format!("cannot write {}: the name must end in .png", printable_path(&file))));
     }
-    check_place(&file)?;
+    let place = Replaces::if_named(asked.output.is_some()).at(&file);
+    check_place(place)?;
     mistake.commit(&mut scene)?;
     let rendered = render(&scene, &subject.stages(), &Execution::default(), &Waiting::new(0, true))?;
-    write_png(&rendered.film, rendered.curve(), &file)?;
+    write_png(&rendered.film, rendered.curve(), place)?;
     if format.is_json() {
         let (mistake, made_by) = (mistake.to_string(), mistake.made_by());
         return print_json(&json!({ "mistake": mistake, "made_by": made_by, "files": [shown(&file)] }), out);

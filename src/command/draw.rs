@@ -1,7 +1,7 @@
 use super::arguments::DrawImage;
 use super::error::{Error, Result};
 use super::format::{Format, print_json, print_written};
-use pinhole::film::write_whole;
+use super::own_file::write_file;
 use pinhole_lab::figure::{DRAWN_IMAGES, DrawnImage};
 use serde_json::json;
 use std::io::Write;
@@ -26,6 +26,6 @@ pub fn draw_image(asked: &DrawImage, format: Format, out: &mut dyn Write) -> Res
     };
     let file = asked.output.clone().unwrap_or_else(|| Path::new("out").join(image.file));
     let bytes = image.bytes()?;
-    write_whole(&file, |file| file.write_all(&bytes))?;
+    write_file(asked.output.is_some(), &file, &bytes)?;
     print_written(&file, format, out)
 }

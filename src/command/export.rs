@@ -3,11 +3,13 @@ use super::called::{called, quoted};
 use super::error::{Error, Result};
 use super::export_images::{carry_images, name_images_whole};
 use super::export_meshes::{name_models, write_meshes};
+use super::export_model::take_models_apart;
 use super::find::is_scene_file;
 use super::format::{Format, print_json, shown};
 use super::subject::{Subject, own_view};
-use pinhole::film::write_whole;
-use pinhole::scene::{meshes_in_memory, printable_path, scene_text};
+use super::visible::visible;
+use pinhole::film::{Replaces, check_place, write_whole};
+use pinhole::scene::{meshes_in_memory, printable, printable_path, scene_text};
 use pinhole::{Chapter, Overrides};
 use serde_json::json;
 use std::io::Write;
@@ -19,6 +21,8 @@ use std::path::Path;
 /// of its own it leaves out, and says so.
 /// Images that lie elsewhere are copied beside the file, and meshes that a chapter makes are written there, so that its
 /// folder can be moved.
+/// A model file is taken apart where a file is named: its meshes, materials and images then lie beside the scene file, and
+/// every value can be edited; printed, the scene names the model file.
 ///
 /// Errors: a file of that name is there already, for it may have been edited; its name cannot stand in a comment; an image
 /// cannot be copied, or a mesh not be written.
@@ -28,7 +32,7 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &m
     let note = own_view(&mut world).map_or(String::new(), |column| {
         format!(
             "// {} shows `{column}`, a column of its own, which no scene file has: here is its picture.\n",
-            subject.name()
+            subject.shown()
         )
     });
     let Some(file) = &asked.output else {
@@ -37,9 +41,11 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &m
         only_here.extend(meshes_in_memory(&world).into_iter().map(|mesh| mesh.file));
         let embedded: String = only_here
             .iter()
-            .map(|name| format!("// {name} is in the program only: -o FILE puts a copy beside the file.\n"))
+            .map(|name| {
+                format!("// {} is in the program only: -o FILE puts a copy beside the file.\n", printable(name, 200))
+            })
             .collect();
-        let text = format!("{}{note}{embedded}{}", head("scene.ron"), scene_text(&world)?);
+        let text = format!("{}{note}{embedded}{}", head("scene.ron"), visible(&scene_text(&world)?));
         if format.is_json() {
             return print_json(&json!({ "scene": subject.name(), "scene_file": text }), out);
         }
@@ -54,20 +60,26 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &m
     if !is_scene_file(file) {
         return refused("the name must end in .ron");
     }
-    if file.is_file() {
+    if file.symlink_metadata().is_ok() {
         return refused("it is there already and may have been edited; move it away, or choose another name");
+    }
+    check_place(Replaces::Nothing.at(file))?;
+    let mut whole = String::new();
+    if let Subject::Model { .. } = subject {
+        let said = take_models_apart(&mut world);
+        whole = said.iter().map(|said| format!("// {}.\n", printable(said, 300))).collect();
     }
     // Whatever no file can hold is refused before anything is written.
     scene_text(&world)?;
     let mut beside = carry_images(&mut world, file)?;
     beside.extend(write_meshes(&mut world, file)?);
-    let text = format!("{}{note}{}", head(&shown), scene_text(&world)?);
-    write_whole(file, |file| file.write_all(text.as_bytes()))?;
+    let text = format!("{}{note}{whole}{}", head(&shown), visible(&scene_text(&world)?));
+    write_whole(Replaces::Nothing.at(file), |file| file.write_all(text.as_bytes()))?;
     if format.is_json() {
         let files: Vec<String> = std::iter::once(file).chain(beside.iter()).map(|file| self::shown(file)).collect();
         return print_json(&json!({ "files": files }), out);
     }
-    writeln!(out, "wrote {shown}")?;
+    writeln!(out, "wrote {}", printable_path(file))?;
     for file in beside {
         writeln!(out, "wrote {}, which it names", printable_path(&file))?;
     }

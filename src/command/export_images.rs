@@ -1,16 +1,17 @@
 //! The images of a scene that is exported: carried along beside the file, or named by their whole paths.
 
 use super::error::{Error, Result};
-use bevy_ecs::prelude::World;
-use pinhole::film::write_whole;
+use bevy_ecs::prelude::*;
+use pinhole::film::{Replaces, write_whole};
 use pinhole::scene::{
-    EmbeddedFiles, EmissionMap, Environment, FileKind, IMAGE_FILE, ImageTexture, MetallicRoughnessMap, NormalMap,
-    SceneFolder, read_file,
+    EmbeddedFiles, EmissionMap, Environment, FileKind, IMAGE_FILE, ImageTexture, MeshPart, MetallicRoughnessMap,
+    ModelFiles, NormalMap, SceneFolder, printable_path, read_file,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Puts a copy of every image beside the file that will name it, unless it lies there or below already.
 ///
@@ -21,7 +22,7 @@ pub fn carry_images(world: &mut World, file: &Path) -> Result<Vec<PathBuf>> {
     let (mut made, mut new_names) = (Vec::new(), BTreeMap::new());
     for name in named_images(world) {
         let path = SceneFolder::path_of(world, &name);
-        let embedded = EmbeddedFiles::find(world, &name);
+        let embedded = held_image(world, &name);
         let kept = if embedded.is_none() { name_below(folder, &path) } else { None };
         let new_name = match kept {
             Some(kept) => kept,
@@ -31,7 +32,7 @@ pub fn carry_images(world: &mut World, file: &Path) -> Result<Vec<PathBuf>> {
                 let (free, is_new) =
                     place_beside(folder, &path, &bytes, IMAGE_FILE).ok_or_else(|| refused(file, &name, &OTHERS))?;
                 if is_new {
-                    write_whole(&folder.join(&free), |file| file.write_all(&bytes))?;
+                    write_whole(Replaces::Nothing.at(&folder.join(&free)), |file| file.write_all(&bytes))?;
                     made.push(folder.join(&free));
                 }
                 free
@@ -50,7 +51,8 @@ pub fn name_images_whole(world: &mut World) -> Vec<String> {
     let (mut without, mut new_names) = (Vec::new(), BTreeMap::new());
     for name in named_images(world) {
         let path = SceneFolder::path_of(world, &name);
-        if EmbeddedFiles::find(world, &name).is_some() && !path.is_file() {
+        let is_compiled_in = EmbeddedFiles::find(world, &name).is_some() && !path.is_file();
+        if is_compiled_in || ModelFiles::find(world, &name).is_some() {
             without.push(name);
         } else {
             let whole = std::path::absolute(&path).unwrap_or(path);
@@ -61,13 +63,27 @@ pub fn name_images_whole(world: &mut World) -> Vec<String> {
     without
 }
 
+/// The bytes of an image that is compiled in, or lies within a model file.
+pub fn held_image(world: &World, name: &str) -> Option<Arc<[u8]>> {
+    ModelFiles::find(world, name).or_else(|| EmbeddedFiles::find(world, name).map(Arc::from))
+}
+
+/// The images that the text of a scene names: not those of materials that stay in a model file.
 fn named_images(world: &mut World) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
-    names.extend(world.query::<&ImageTexture>().iter(world).map(|image| image.file.clone()));
-    names.extend(world.query::<&NormalMap>().iter(world).map(|map| map.file.clone()));
-    names.extend(world.query::<&MetallicRoughnessMap>().iter(world).map(|map| map.file.clone()));
-    names.extend(world.query::<&EmissionMap>().iter(world).map(|map| map.file.clone()));
-    names.extend(world.query::<&Environment>().iter(world).map(|environment| environment.file.clone()));
+    for entity in world.query::<EntityRef<'_>>().iter(world) {
+        if entity.get::<MeshPart>().is_some_and(|part| part.0 != entity.id()) {
+            continue;
+        }
+        let maps = [
+            entity.get::<ImageTexture>().map(|image| &image.file),
+            entity.get::<NormalMap>().map(|map| &map.file),
+            entity.get::<MetallicRoughnessMap>().map(|map| &map.file),
+            entity.get::<EmissionMap>().map(|map| &map.file),
+            entity.get::<Environment>().map(|environment| &environment.file),
+        ];
+        names.extend(maps.into_iter().flatten().cloned());
+    }
     names
 }
 
@@ -97,7 +113,8 @@ pub fn place_beside(folder: &Path, path: &Path, bytes: &[u8], kind: FileKind) ->
     for number in 1..1000 {
         let name = if number == 1 { format!("{stem}.{ending}") } else { format!("{stem}-{number}.{ending}") };
         let place = folder.join(&name);
-        if place.symlink_metadata().is_err() {
+        // What cannot be examined is there.
+        if place.symlink_metadata().is_err_and(|why| why.kind() == io::ErrorKind::NotFound) {
             return Some((name, true));
         }
         if read_file(&place, kind).is_ok_and(|there| there == bytes) {
@@ -108,5 +125,5 @@ pub fn place_beside(folder: &Path, path: &Path, bytes: &[u8], kind: FileKind) ->
 }
 
 fn refused(file: &Path, name: &str, why: &dyn Display) -> Error {
-    Error::usage(format!("cannot write {}: the image {name:?} cannot be copied beside it: {why}", file.display()))
+    Error::usage(format!("cannot write {}: the image {name:?} cannot be copied beside it: {why}", printable_path(file)))
 }

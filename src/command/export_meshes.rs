@@ -4,9 +4,9 @@
 use super::error::{Error, Result};
 use super::export_images::{OTHERS, name_below, place_beside};
 use bevy_ecs::prelude::World;
-use pinhole::film::write_whole;
+use pinhole::film::{Replaces, write_whole};
 use pinhole::models::glb_of;
-use pinhole::scene::{MODEL_FILE, Mesh, SceneFolder, meshes_in_memory};
+use pinhole::scene::{MODEL_FILE, Mesh, SceneFolder, meshes_in_memory, printable_path};
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -21,11 +21,11 @@ pub fn write_meshes(world: &mut World, file: &Path) -> Result<Vec<PathBuf>> {
     let mut made = Vec::new();
     for mesh in meshes_in_memory(world) {
         let own = Path::new(&mesh.file);
-        let refused = |why: &str| Error::usage(format!("cannot write {}: {}: {why}", file.display(), mesh.file));
+        let refused = |why: &str| Error::usage(format!("cannot write {}: {}: {why}", printable_path(file), mesh.file));
         let bytes = glb_of(&mesh.geometry).ok_or_else(|| refused("a .glb file has at most 4 GiB"))?;
         let (free, is_new) = place_beside(folder, own, &bytes, MODEL_FILE).ok_or_else(|| refused(OTHERS))?;
         if is_new {
-            write_whole(&folder.join(&free), |file| file.write_all(&bytes))?;
+            write_whole(Replaces::Nothing.at(&folder.join(&free)), |file| file.write_all(&bytes))?;
             made.push(folder.join(&free));
         }
         for instance in mesh.instances {

@@ -1,9 +1,10 @@
 use super::arguments::DrawFigure;
 use super::error::{Error, Result};
 use super::format::{Format, print_json, print_written};
+use super::own_file::write_file;
 use crate::figures;
 use pinhole::Chapter;
-use pinhole::film::write_whole;
+use pinhole::scene::printable_path;
 use pinhole_lab::figure::{Figure, draw};
 use serde_json::{Value, json};
 use std::io::Write;
@@ -27,7 +28,7 @@ pub fn draw_figure(chapters: &[Chapter], asked: &DrawFigure, format: Format, out
     };
     let file = svg_place(asked.output.as_ref(), name)?;
     let drawing = draw(&figures::all(), chapters, name)?;
-    write_whole(&file, |file| file.write_all(drawing.text.as_bytes()))?;
+    write_file(asked.output.is_some(), &file, drawing.text.as_bytes())?;
     print_written(&file, format, out)
 }
 
@@ -38,6 +39,8 @@ pub fn svg_place(asked: Option<&PathBuf>, name: &str) -> Result<PathBuf> {
     let file = asked.cloned().unwrap_or_else(|| Path::new("out").join(format!("{name}.svg")));
     match file.extension() {
         Some(ending) if ending.eq_ignore_ascii_case("svg") => Ok(file),
-        _ => Err(Error::usage(format!("cannot write a drawing to {}: its name must end in .svg", file.display()))),
+        _ => {
+            Err(Error::usage(format!("cannot write a drawing to {}: its name must end in .svg", printable_path(&file))))
+        }
     }
 }

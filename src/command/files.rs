@@ -2,7 +2,9 @@ use super::error::{Error, Result};
 use super::options::RenderOptions;
 use super::subject::Subject;
 use pinhole::extract::shape_names;
-use pinhole::film::{Curve, Film, FilmLayers, png_bytes, write_exr, write_layered_exr, write_png};
+use pinhole::film::{
+    Curve, Film, FilmLayers, Replaces, Target, check_place, png_bytes, write_exr, write_layered_exr, write_png,
+};
 use pinhole::plan::{Census, Plan};
 use pinhole::scene::printable_path;
 use pinhole_lab::exercise::Mine;
@@ -16,6 +18,8 @@ pub struct Targets {
     pub pictures: Vec<PathBuf>,
     /// Whether a PNG goes to standard output.
     pub standard_output: bool,
+    /// Whether the reader has named them, so that they replace what is there.
+    pub named: bool,
 }
 
 impl Targets {
@@ -26,22 +30,33 @@ impl Targets {
             let naive = options.naive.map(|method| method.name.to_owned());
             let stem = [Some(subject.stem()), naive, column].into_iter().flatten().collect::<Vec<_>>().join("_");
             let pictures = ["png", "exr"].map(|ending| Path::new("out").join(format!("{stem}.{ending}"))).to_vec();
-            return Ok(Self { pictures, standard_output: false });
+            return Ok(Self { pictures, ..Self::default() });
         }
-        let mut targets = Self::default();
+        let mut targets = Self { named: !options.output_is_chosen, ..Self::default() };
         for file in &options.output {
             if file.as_os_str() == "-" {
                 targets.standard_output = true;
             } else if !is(file, "png") && !is(file, "exr") {
                 return Err(Error::CommandLine(format!(
                     "cannot write {}: the name must end in .png, for a picture to look at, or .exr, for its light in full",
-                    file.display()
+                    printable_path(file)
                 )));
             } else if !targets.pictures.contains(file) {
                 targets.pictures.push(file.clone());
             }
         }
         Ok(targets)
+    }
+
+    /// Checks that all of them can be written.
+    ///
+    /// Errors: the first that cannot, and why.
+    pub fn check(&self) -> pinhole::Result {
+        self.pictures.iter().try_for_each(|picture| check_place(self.place(picture)))
+    }
+
+    fn place<'p>(&self, picture: &'p Path) -> Target<'p> {
+        Replaces::if_named(self.named).at(picture)
     }
 
     /// Whether one of them holds layers.
@@ -94,18 +109,22 @@ impl Files {
         Self { targets, names, curve, mine }
     }
 
-    /// Writes the files anew, each whole.
+    /// Writes the files anew, each whole, and each whether or not another can be written.
+    ///
+    /// Errors: the first that there was.
     pub fn write(&self, film: &Film) -> pinhole::Result {
-        self.targets.pictures.iter().try_for_each(|picture| self.write_one(film, picture))
+        let written = self.targets.pictures.iter().map(|picture| self.write_one(film, picture));
+        written.fold(Ok(()), pinhole::Result::and)
     }
 
     /// Writes one of them.
     pub fn write_one(&self, film: &Film, picture: &Path) -> pinhole::Result {
         self.mine.as_ref().map_or(Ok(()), Mine::answers)?;
+        let place = self.targets.place(picture);
         match (is(picture, "exr"), film.layers.is_empty()) {
-            (false, _) => write_png(film, self.curve, picture)?,
-            (true, true) => write_exr(film, picture)?,
-            (true, false) => write_layered_exr(film, &self.names, picture)?,
+            (false, _) => write_png(film, self.curve, place)?,
+            (true, true) => write_exr(film, place)?,
+            (true, false) => write_layered_exr(film, &self.names, place)?,
         }
         Ok(())
     }
@@ -133,7 +152,7 @@ mod tests {
     fn files_that_differ_in_their_ending_are_told_once() {
         let told = |files: &[&str], checkpoint: Option<&str>, standard_output: bool| {
             let pictures = files.iter().map(PathBuf::from).collect();
-            Targets { pictures, standard_output }.told(checkpoint.map(Path::new))
+            Targets { pictures, standard_output, named: true }.told(checkpoint.map(Path::new))
         };
         assert_eq!(told(&["out/a.png", "out/a.exr"], None, false), "out/a.png and .exr");
         assert_eq!(told(&["a.png", "a.exr"], Some("a.checkpoint"), false), "a.png, .exr and .checkpoint");

@@ -1,6 +1,7 @@
 use super::called::{called, quoted};
 use super::options::RenderOptions;
 use super::subject::Subject;
+use super::visible::is_hidden;
 
 /// The command that says which stages a render's scene needs, and why the others were left out.
 pub fn plan(subject: &Subject<'_>, options: &RenderOptions) -> String {
@@ -25,10 +26,11 @@ pub fn next(
     Some(called(&format!("trace {name} --pixel {pixel}{size}{}", options.scene.typed_settings())))
 }
 
-/// What names a subject again, for a shell; nothing does for what came through a pipe.
+/// What names a subject again, for a shell; nothing does for what came through a pipe, or cannot be shown.
 fn name(subject: &Subject<'_>) -> Option<String> {
     match subject.name() {
         "-" => None,
+        name if name.contains(is_hidden) => None,
         name => Some(quoted(name)),
     }
 }

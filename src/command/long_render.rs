@@ -1,21 +1,38 @@
-use super::error::Result;
+use super::error::{Error, Result};
 use super::files::Files;
-use super::interrupt::{EndsByItself, Waiting};
+use super::interrupt::{EndsByItself, Waiting, interrupted};
 use super::options::RenderOptions;
 use pinhole::extract::adaptive_of;
-use pinhole::film::{Film, check_place, read_checkpoint, write_checkpoint};
+use pinhole::film::{
+    CheckpointAt, Film, Replaces, SamplesKept, checkpoint_at, checkpoint_place, keep_checkpoint, read_checkpoint,
+    remove_own,
+};
 use pinhole::plan::Census;
-use pinhole::render::{Limits, Outcome, RenderInProgress, film_key, render_in_passes};
-use std::fs;
-use std::io::ErrorKind;
-use std::path::Path;
+use pinhole::render::{Limits, Outcome, RenderInProgress, film_key, render_in_passes, samples_after};
+use pinhole::scene::printable_path;
+use std::path::{Path, PathBuf};
+use std::thread;
 use std::time::Duration;
 
 /// A render that took less leaves no checkpoint: it is as quickly made again.
 const WORTH_KEEPING: Duration = Duration::from_secs(2);
+/// How long to wait before each further try to write what could not be written at the end, in milliseconds.
+const TRIES: [u64; 5] = [250, 500, 1000, 2000, 4000];
+/// How many of them a reader who has pressed Ctrl-C waits for.
+const TRIES_WHEN_STOPPED: usize = 2;
+
+/// What came of a long render.
+pub struct LongRender {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// The checkpoint that it left.
+    pub checkpoint: Option<PathBuf>,
+}
 
 /// Renders a camera's samples in passes, and writes the picture and a checkpoint between them; `say` gets what is to be
-/// told before the first.
+/// told meanwhile.
+///
+/// A file that cannot be written ends nothing: it is written again after the next pass, and at the end some more times.
 ///
 /// Errors: what a render or a file is refused for, or a stop by Ctrl-C, after which all is written.
 pub fn render_long(
@@ -25,58 +42,226 @@ pub fn render_long(
     files: &Files,
     waiting: &Waiting,
     say: &mut dyn FnMut(&str) -> Result,
-) -> Result<Outcome> {
-    let (key, checkpoint) = (film_key(scene, &render.plan), files.targets.checkpoint());
-    checkpoint.iter().try_for_each(|checkpoint| check_place(checkpoint))?;
+) -> Result<LongRender> {
+    let (key, first) = (film_key(scene, &render.plan), files.targets.checkpoint());
     let limits = Limits { time: options.time, write_every: options.write_every, adaptive: adaptive_of(scene)? };
-    if let (true, Some(checkpoint)) = (options.resume, &checkpoint) {
-        say(&resume(render, key, limits.adaptive.is_some(), checkpoint)?)?;
+    let mut found = None;
+    if let Some(first) = &first {
+        let place = checkpoint_place(first, key);
+        found = place.as_ref().and_then(|(_, kept)| *kept);
+        if options.resume {
+            say(&resume(render, key, limits.adaptive.is_some(), (first, place))?)?;
+        } else if let Some(said) = said_of(first, place) {
+            say(&said)?;
+        }
     }
-    let mut keep = |film: &Film| {
-        files.write(film)?;
-        checkpoint.iter().try_for_each(|checkpoint| write_checkpoint(film, key, checkpoint))
-    };
+    let mut kept = Kept { files, key, first: first.as_deref(), wrote: None, last: None };
     let ends_by_itself = EndsByItself::begin();
-    let outcome = render_in_passes(render, &limits, waiting, &mut keep);
+    let outcome = render_in_passes(render, &limits, waiting, &mut |film| kept.between_passes(film, say));
     waiting.done();
     let outcome = outcome?;
-    let Some(checkpoint) = &checkpoint else {
-        return if outcome.stopped { Err(pinhole::Error::Interrupted.into()) } else { Ok(outcome) };
-    };
-    if outcome.stopped {
-        keep(&render.film)?;
-        let reached = match outcome.samples {
-            0 => "stopped before every pixel had its first sample".to_string(),
-            samples => format!("stopped after {samples} of {} samples a pixel", render.sampling.samples),
+    if first.is_none() {
+        return match outcome.stopped {
+            true => Err(pinhole::Error::Interrupted.into()),
+            false => {
+                files.write(&render.film)?;
+                Ok(LongRender { outcome, checkpoint: None })
+            }
         };
-        return Err(pinhole::Error::Stopped(format!(
-            "{reached}; {} hold what there is, and the same command with --resume continues",
-            files.targets.told(Some(checkpoint))
-        ))
-        .into());
     }
+    let worth_keeping = outcome.time >= WORTH_KEEPING || options.write_every.is_some() || options.resume;
+    let keeps = outcome.stopped || worth_keeping || found.is_some();
+    let written = kept.at_the_end(&render.film, keeps, outcome.stopped, say)?;
     drop(ends_by_itself);
-    files.write(&render.film)?;
-    if outcome.time >= WORTH_KEEPING || options.write_every.is_some() || options.resume {
-        write_checkpoint(&render.film, key, checkpoint)?;
-    } else if let Err(refused) = fs::remove_file(checkpoint)
-        && refused.kind() != ErrorKind::NotFound
-    {
-        return Err(pinhole::Error::Write { path: checkpoint.clone(), source: refused }.into());
+    if outcome.stopped {
+        return Err(stopped(&outcome, render.sampling.samples, files, &written));
     }
-    Ok(outcome)
+    written.pictures.map_err(|refused| match &written.checkpoint {
+        Some(Ok((checkpoint, _))) => Error::usage(format!(
+            "{refused}; all samples are in {}, and the same command with --resume writes the picture from there",
+            printable_path(checkpoint)
+        )),
+        _ => refused.into(),
+    })?;
+    let checkpoint = match written.checkpoint {
+        Some(Ok((checkpoint, true))) => Some(checkpoint),
+        Some(Ok((_, false))) | None => None,
+        Some(Err(refused)) => {
+            say(&format!("warning: {refused}; the picture is complete, but nothing continues from it"))?;
+            None
+        }
+    };
+    if !keeps {
+        kept.remove(&render.film)?;
+    }
+    Ok(LongRender { outcome, checkpoint })
+}
+
+/// What is kept of a render on the way.
+struct Kept<'f> {
+    files: &'f Files,
+    key: u64,
+    /// The first name for the checkpoint.
+    first: Option<&'f Path>,
+    /// The checkpoint that was written.
+    wrote: Option<PathBuf>,
+    /// What failed last, so that it is told once.
+    last: Option<String>,
+}
+
+/// What was written at the end.
+struct Written {
+    pictures: pinhole::Result,
+    /// The checkpoint and whether it was written, or holds more than this render.
+    checkpoint: Option<pinhole::Result<(PathBuf, bool)>>,
+}
+
+impl Kept<'_> {
+    /// Writes picture and checkpoint, each whether or not the other can be.
+    fn between_passes(&mut self, film: &Film, say: &mut dyn FnMut(&str) -> Result) -> pinhole::Result {
+        let pictures = self.files.write(film);
+        let checkpoint = self.checkpoint(film);
+        for refused in [pictures.err(), checkpoint.and_then(std::result::Result::err)].into_iter().flatten() {
+            if !is_of_a_file(&refused) {
+                return Err(refused);
+            }
+            let told = refused.to_string();
+            if self.last.as_ref() != Some(&told) {
+                // Who cannot be told goes without.
+                let _ = say(&format!("warning: {told}; the render goes on, and it is written again later"));
+                self.last = Some(told);
+            }
+        }
+        Ok(())
+    }
+
+    fn checkpoint(&mut self, film: &Film) -> Option<pinhole::Result<(PathBuf, bool)>> {
+        let kept = keep_checkpoint(film, self.key, self.first?);
+        if let Ok((path, true)) = &kept {
+            self.wrote = Some(path.clone());
+        }
+        Some(kept)
+    }
+
+    /// Writes what there is, and tries again for a while where that fails.
+    fn at_the_end(
+        &mut self,
+        film: &Film,
+        keeps: bool,
+        stopped: bool,
+        say: &mut dyn FnMut(&str) -> Result,
+    ) -> Result<Written> {
+        let mut pictures = self.files.write(film);
+        let mut checkpoint = (keeps || pictures.is_err()).then(|| self.checkpoint(film)).flatten();
+        let tries = if stopped { &TRIES[..TRIES_WHEN_STOPPED] } else { &TRIES };
+        for pause in tries {
+            let failed = pictures.as_ref().err().or(checkpoint.as_ref().and_then(|kept| kept.as_ref().err()));
+            let Some(refused) = failed.filter(|refused| is_of_a_file(refused)) else { break };
+            let told = refused.to_string();
+            if self.last.as_ref() != Some(&told) {
+                say(&format!("warning: {told}; trying again"))?;
+                self.last = Some(told);
+            }
+            if !stopped && interrupted() {
+                break;
+            }
+            thread::sleep(Duration::from_millis(*pause));
+            if pictures.is_err() {
+                pictures = self.files.write(film);
+            }
+            if let Some(Err(_)) = &checkpoint {
+                checkpoint = self.checkpoint(film);
+            }
+        }
+        Ok(Written { pictures, checkpoint })
+    }
+
+    /// Removes a checkpoint that is not worth keeping, if this render wrote it.
+    fn remove(&self, film: &Film) -> Result {
+        let own = SamplesKept::of(film);
+        let is_own = |path: &Path| matches!(checkpoint_at(path, self.key), CheckpointAt::Own(kept) if kept <= own);
+        if let Some(path) = &self.wrote {
+            remove_own(Replaces::If(&is_own).at(path))?;
+        }
+        Ok(())
+    }
+}
+
+/// Whether an error is one of a file, which may pass.
+fn is_of_a_file(error: &pinhole::Error) -> bool {
+    matches!(error, pinhole::Error::Write { .. })
+}
+
+/// What a reader who has pressed Ctrl-C is told.
+fn stopped(outcome: &Outcome, of: u32, files: &Files, written: &Written) -> Error {
+    let reached = match outcome.samples {
+        0 => "stopped before every pixel had its first sample".to_string(),
+        samples => format!("stopped after {samples} of {of} samples a pixel"),
+    };
+    let continues = "the same command with --resume continues";
+    let pictures = match &written.pictures {
+        Ok(()) => format!("{} hold what there is", files.targets.told(None)),
+        Err(refused) => refused.to_string(),
+    };
+    let kept = match (&written.pictures, &written.checkpoint) {
+        (Ok(()), Some(Ok((checkpoint, true)))) => {
+            format!("{} hold what there is, and {continues}", files.targets.told(Some(checkpoint)))
+        }
+        (Err(refused), Some(Ok((checkpoint, true)))) => {
+            format!("{refused}, but {} holds what there is, and {continues}", printable_path(checkpoint))
+        }
+        (_, Some(Ok((checkpoint, false)))) => {
+            format!("{pictures}; {} holds more, and {continues} from there", printable_path(checkpoint))
+        }
+        (_, Some(Err(refused))) => format!("{pictures}; {refused}"),
+        (_, None) => pictures,
+    };
+    pinhole::Error::Stopped(format!("{reached}; {kept}")).into()
+}
+
+/// What a reader should know of the files at the checkpoint's place before a render that does not continue.
+fn said_of(first: &Path, place: Option<(PathBuf, Option<SamplesKept>)>) -> Option<String> {
+    match place {
+        Some((path, Some(kept))) if samples_after(kept.steps) > 0 => Some(format!(
+            "note: {} holds {} samples a pixel of this very render: --resume continues from there; fewer samples do not \
+             replace it",
+            printable_path(&path),
+            samples_after(kept.steps)
+        )),
+        Some((path, None)) if path != first => Some(format!(
+            "note: {} is no checkpoint of this render and stays, so this one's is {}",
+            printable_path(first),
+            printable_path(&path)
+        )),
+        None => Some(format!(
+            "note: {} and the names after it are those of other files, so this render leaves no checkpoint",
+            printable_path(first)
+        )),
+        _ => None,
+    }
 }
 
 /// Takes up what a checkpoint holds, if there is one, and says so.
-fn resume(render: &mut RenderInProgress, key: u64, adaptive: bool, checkpoint: &Path) -> Result<String> {
-    if !checkpoint.exists() {
-        return Ok(format!("there is no {} to continue from, so the render begins anew", checkpoint.display()));
-    }
-    let film = read_checkpoint(key, &render.film, adaptive, checkpoint)?;
+fn resume(
+    render: &mut RenderInProgress,
+    key: u64,
+    adaptive: bool,
+    (first, place): (&Path, Option<(PathBuf, Option<SamplesKept>)>),
+) -> Result<String> {
+    let checkpoint = match place {
+        Some((own, Some(_))) => own,
+        Some((free, None)) if free == first => {
+            let shown = printable_path(first);
+            return Ok(format!("there is no {shown} to continue from, so the render begins anew"));
+        }
+        // Reading it says what it is instead.
+        _ => first.into(),
+    };
+    let film = read_checkpoint(key, &render.film, adaptive, &checkpoint)?;
     render.take(film);
-    let samples = pinhole::render::samples_after(render.film.least_done());
+    let samples = samples_after(render.film.least_done());
     let of = if render.film.pilot { " of the pilot" } else { "" };
     let more = !render.film.pilot && render.film.planned.is_empty() && samples > render.sampling.samples;
     let kept = if more { format!(", more than the {} asked for", render.sampling.samples) } else { String::new() };
-    Ok(format!("continuing from {}, {samples} samples a pixel{of}{kept}", checkpoint.display()))
+    Ok(format!("continuing from {}, {samples} samples a pixel{of}{kept}", printable_path(&checkpoint)))
 }

@@ -17,6 +17,7 @@ mod error;
 mod export;
 mod export_images;
 mod export_meshes;
+mod export_model;
 mod extremes;
 mod figure;
 mod files;
@@ -30,6 +31,7 @@ mod long_render;
 mod measure;
 mod mutation;
 mod options;
+mod own_file;
 mod parse;
 mod plan;
 mod preflight;
@@ -45,6 +47,7 @@ mod summary;
 mod sweep;
 mod trace;
 mod view;
+mod visible;
 mod warnings;
 mod watch;
 
@@ -63,6 +66,7 @@ use std::ffi::{OsStr, OsString};
 use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
 use streams::Streams;
 use subject::Subject;
+use visible::Visible;
 
 /// What chapters ask their readers to write, each with the name of its chapter.
 pub type Exercises = fn() -> Vec<(&'static str, Exercise)>;
@@ -110,6 +114,14 @@ fn with_standard_streams(perform: impl FnOnce(&mut Streams<'_>) -> Result) -> Re
 fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], streams: &mut Streams<'_>) -> Result {
     let words = with_render(chapters, words);
     let Arguments { command, format } = parsed(program(), chapters, &words, streams.waits)?;
+    match command {
+        // These are for a shell and for another program.
+        Some(Command::Completions { shell }) => return completions::print_completions(shell, streams.out),
+        Some(Command::Live(asked)) => return live::live(chapters, &asked, streams.out),
+        _ => {}
+    }
+    let (mut out, mut notes) = (Visible(&mut *streams.out), Visible(&mut *streams.notes));
+    let streams = &mut Streams { out: &mut out, notes: &mut notes, waits: streams.waits, terminal: streams.terminal };
     let out = &mut *streams.out;
     match command {
         None => render::render_cover(chapters, format, streams),
@@ -141,7 +153,6 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
             trace::print_trace(&subject, asked.pixel, asked.sample, asked.all, &asked.options, format, out)
         }
         Some(Command::View(asked)) => view::view(chapters, &asked, format, streams),
-        Some(Command::Live(asked)) => live::live(chapters, &asked, out),
         Some(Command::Export(asked)) => export::export(chapters, &asked, format, out),
         Some(Command::ClosedForms(asked)) => closed_forms::print_closed_forms(&asked, format, out),
         Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, format, out),
@@ -153,7 +164,7 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
         Some(Command::Review(asked)) => review::review(chapters, &asked, format, out),
         Some(Command::Compare(asked)) => compare::compare(&asked, format, out),
         Some(Command::Conventions(asked)) => conventions::print_conventions(chapters, &asked, format, out),
-        Some(Command::Completions { shell }) => completions::print_completions(shell, out),
+        Some(Command::Live(_) | Command::Completions { .. }) => Ok(()),
     }
 }
 

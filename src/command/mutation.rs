@@ -2,9 +2,9 @@ use super::arguments::ReviewSnapshots;
 use super::error::{Error, Result};
 use super::find;
 use super::format::{Format, print_json, print_written, shown};
-use super::review::{keep_page, picture, told, write_page};
+use super::own_file::{check_file, write_file};
+use super::review::{keep_page, page_place, picture, told, write_page};
 use pinhole::Chapter;
-use pinhole::film::write_whole;
 use pinhole_lab::png_url;
 use pinhole_lab::review::mutation::{MUTATIONS, Mutation};
 use pinhole_lab::review::{Compared, Snapshots, compare_pictures, escape, page, picture_contrast};
@@ -27,12 +27,15 @@ pub fn mutate(
     }
     if !all {
         let mutation = Mutation::named(name)?;
+        if asked.picture.is_none() {
+            page_place(asked)?;
+        }
         let chapter = find::chapter(chapters, asked.chapter.as_deref().unwrap_or(mutation.chapter))?;
         let compared = compared(mutation, chapter, Snapshots::of(chapter)?)?;
         if let Some(which) = asked.picture {
             let file = asked.output.clone().ok_or_else(|| Error::usage("--picture needs a file: -o FILE.png"))?;
             let png = picture(&compared, which)?;
-            write_whole(&file, |file| file.write_all(&png))?;
+            write_file(true, &file, &png)?;
             return print_written(&file, format, out);
         }
         let heading = format!("A mutation, made on purpose: {}", mutation.name);
@@ -48,6 +51,10 @@ pub fn mutate(
         writeln!(out, "{}: {}", compared.name, compared.headline())?;
         return write_page(asked, &page(&heading, intro, &[compared])?, out);
     }
+    let gallery_file = asked.output.clone().unwrap_or_else(|| "out/review/mutations.svg".into());
+    if asked.gallery {
+        check_file(asked.output.is_some(), &gallery_file)?;
+    }
     let (mut mutations, mut right) = (Vec::new(), BTreeMap::<&str, Snapshots>::new());
     for mutation in MUTATIONS {
         let chapter = find::chapter(chapters, asked.chapter.as_deref().unwrap_or(mutation.chapter))?;
@@ -58,10 +65,9 @@ pub fn mutate(
         mutations.push((mutation, compared(mutation, chapter, before)?));
     }
     if asked.gallery {
-        let file = asked.output.clone().unwrap_or_else(|| "out/review/mutations.svg".into());
         let gallery = gallery(&mutations)?;
-        write_whole(&file, |file| file.write_all(gallery.as_bytes()))?;
-        return print_written(&file, format, out);
+        write_file(asked.output.is_some(), &gallery_file, gallery.as_bytes())?;
+        return print_written(&gallery_file, format, out);
     }
     table(&mutations, format, out)
 }

@@ -69,6 +69,9 @@ pub struct RenderOptions {
     /// both kinds, in out/)
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
+    /// Whether that was chosen for the reader, who has named no file
+    #[arg(skip)]
+    pub output_is_chosen: bool,
     /// Take samples for so long, such as 500ms, 10s or 2m
     #[arg(long, value_name = "TIME", value_parser = span)]
     pub time: Option<Duration>,

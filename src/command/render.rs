@@ -6,8 +6,9 @@ use super::find;
 use super::format::{Format, print_json};
 use super::hints;
 use super::interrupt::{Waiting, interrupted};
-use super::long_render::render_long;
+use super::long_render::{LongRender, render_long};
 use super::options::{RenderOptions, SceneOptions};
+use super::own_file::write_file;
 use super::progress::Progress;
 use super::status;
 use super::streams::Streams;
@@ -18,7 +19,7 @@ use pinhole::Chapter;
 use pinhole::extract::{
     ChosenIntegrator, LayerTable, adaptive_of, camera_entity, image_remarks, integrator_of, validate,
 };
-use pinhole::film::{check_place, png_bytes, write_whole};
+use pinhole::film::png_bytes;
 use pinhole::look::{Foretold, Preflight, RenderStats, foretell};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
@@ -26,7 +27,6 @@ use pinhole::scene::{FileKind, Integrator, ModelNotes, Resolution, Sampling, rea
 use pinhole_lab::exercise::{Mine, Outcome, PATIENCE, end_at_panics};
 use pinhole_lab::review::{PictureDifference, compare_pictures, picture_contrast};
 use std::borrow::Cow;
-use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 
@@ -90,7 +90,7 @@ pub fn render_mine(
     let beside = is_compared(&options, format);
     let mine_file = Path::new("out").join(format!("{number}_mine.png"));
     if options.output.is_empty() {
-        options.output = vec![mine_file.clone()];
+        (options.output, options.output_is_chosen) = (vec![mine_file.clone()], true);
     }
     let subject = Subject::Chapter(Cow::Owned(mine.chapter.clone()));
     render_with(&subject, &options, Some(mine), format, streams)?;
@@ -152,9 +152,8 @@ fn compare_with_pinhole(
     let watch = Waiting::with(Progress::hidden(), 0);
     let rendered = pinhole::render::render(&scene, &subject.stages(), &Execution::default(), &watch)?;
     let pinholes = png_bytes(&rendered.film, rendered.curve())?;
-    let write = |file: &Path, bytes: &[u8]| write_whole(file, |whole| whole.write_all(bytes));
     let own = picture("pinhole");
-    write(&own, &pinholes)?;
+    write_file(false, &own, &pinholes)?;
     let others = read_file(other, PICTURE).map_err(|error| Error::usage(error.to_string()))?;
     let apart = compare_pictures(&pinholes, &others).map_err(|error| Error::usage(error.to_string()))?;
     let PictureDifference { sizes: [[width, height], _], differing, largest, worst: [x, y], colours } = apart;
@@ -170,7 +169,7 @@ fn compare_with_pinhole(
     writeln!(streams.out, "{}, pinhole's own picture: {told}", own.display())?;
     if let (Some((bytes, words)), true) = (picture_contrast(&pinholes, &others)?, differing > 0) {
         let file = picture("difference");
-        write(&file, &bytes)?;
+        write_file(false, &file, &bytes)?;
         writeln!(streams.out, "{}: {words}", file.display())?;
     }
     Ok(())
@@ -201,7 +200,7 @@ fn render_with(
     let began = Instant::now();
     let json = options.stats || format == Format::Json;
     let targets = Targets::of(subject, options)?;
-    targets.pictures.iter().try_for_each(|file| check_place(file))?;
+    targets.check()?;
     let execution = Execution { threads: options.threads.map(usize::from), ..Execution::default() };
     let asked = options.asked(!options.quiet);
     let scene = subject.world(&asked);
@@ -229,7 +228,7 @@ fn render_with(
 
     let files = Files::new(targets, census, &render.plan, mine);
     let waiting = waiting(watched.as_deref(), options, &render, streams);
-    let outcome = if render.is_sampled() {
+    let long = if render.is_sampled() {
         Some(render_long(&mut render, census, options, &files, &waiting, &mut |note| {
             if json { Ok(()) } else { streams.note(note) }
         })?)
@@ -237,10 +236,11 @@ fn render_with(
         render_at_once(&mut render, &waiting, &files)?;
         None
     };
+    let (outcome, checkpoint) = long.map(|LongRender { outcome, checkpoint }| (outcome, checkpoint)).unzip();
     let (samples, rendered) = (render.sampling.samples, render.finish());
     files.send(&rendered.film, streams.out)?;
 
-    let checkpoint = files.targets.checkpoint().filter(|file| outcome.is_some() && file.exists());
+    let checkpoint = checkpoint.flatten();
     let is_dark_foretold =
         said.iter().any(|warning| warning.starts_with("the picture will") && warning.contains("black"));
     let mut warnings = warnings(subject, options, &rendered.film, &rendered.plan)?;
@@ -338,11 +338,12 @@ fn render_at_once(render: &mut RenderInProgress, waiting: &Waiting, files: &File
     let rendered = render.advance(render.steps(), waiting);
     waiting.done();
     rendered?;
+    let mut written = Ok(());
     for file in &files.targets.pictures {
         if interrupted() {
             return Err(pinhole::Error::Interrupted.into());
         }
-        files.write_one(&render.film, file)?;
+        written = written.and(files.write_one(&render.film, file));
     }
-    Ok(())
+    Ok(written?)
 }

@@ -3,11 +3,12 @@ use super::figure::svg_place;
 use super::format::{Format, print_json, print_written, shown};
 use super::interrupt::{EndsByItself, interrupted, stop_flag};
 use super::measure::again;
+use super::own_file::write_file;
 use super::report_arguments::ReportErrors;
 use super::subject::Subject;
 use indicatif::{ProgressBar, ProgressStyle};
 use pinhole::extract::{ImageFrame, camera_entity, integrator_of, validate};
-use pinhole::film::{check_place, write_whole};
+use pinhole::film::{Replaces, check_place};
 use pinhole::plan::{Census, Table};
 use pinhole::render::Watch;
 use pinhole::scene::{Filter, Integrator, LightStrategy, Resolution, Sampler, Sampling, scene_text};
@@ -86,7 +87,7 @@ fn show_kept(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &m
     }
     let file = svg_place(asked.output.as_ref(), &report.name)?;
     let against = if asked.samples_axis { Against::Samples } else { Against::Render };
-    write_whole(&file, |file| file.write_all(plot(&report, against).text.as_bytes()))?;
+    write_file(asked.output.is_some(), &file, plot(&report, against).text.as_bytes())?;
     print_written(&file, format, out)
 }
 
@@ -100,7 +101,7 @@ pub(super) fn measure_one(
     let subject = Subject::find(chapters, &asked.subject)?;
     let name = file_stem(&subject, &asked.against);
     let files = ["html", "json", "csv"].map(|ending| Path::new("out/report").join(format!("{name}.{ending}")));
-    files.iter().try_for_each(|file| check_place(file))?;
+    files.iter().try_for_each(|file| check_place(Replaces::Own.at(file)))?;
     let rivals = rivals(chapters, &asked.against)?;
     let size = size(&subject, asked.size)?;
     let variants = variants(&subject, &rivals, size)?;
@@ -148,7 +149,7 @@ pub(super) fn measure_one(
     let json = serde_json::to_string_pretty(&report).map_err(std::io::Error::from)?;
     let texts = [html, json, pinhole_lab::report::csv::csv(&variants, &ladder, &runs, &measured)];
     for (file, text) in files.iter().zip(&texts) {
-        write_whole(file, |file| file.write_all(text.as_bytes()))?;
+        write_file(false, file, text.as_bytes())?;
     }
     let mut written: Vec<String> = files.iter().map(|file| shown(file)).collect();
     if !format.is_json() {

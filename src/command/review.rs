@@ -3,8 +3,8 @@ use super::called::called;
 use super::error::{Error, Result};
 use super::find;
 use super::format::{Format, print_json, shown};
+use super::own_file::{check_file, write_file};
 use pinhole::Chapter;
-use pinhole::film::write_whole;
 use pinhole::scene::{Resolution, printable_path};
 use pinhole_lab::review::{
     Compared, Pending, SNAPSHOT_SIZE, Snapshots, compare_pictures, page, pending, picture_contrast,
@@ -101,10 +101,17 @@ fn compared(chapters: &[Chapter], pending: &Pending) -> Compared {
     Compared { name: name.clone(), title: title.into(), before, now, commands }
 }
 
+/// Where the page goes, if it can be written there.
+pub(super) fn page_place(asked: &ReviewSnapshots) -> Result<PathBuf> {
+    let file = asked.output.clone().unwrap_or_else(|| Path::new("out").join("review").join("index.html"));
+    check_file(asked.output.is_some(), &file)?;
+    Ok(file)
+}
+
 /// Writes the page where it was asked for.
 pub(super) fn keep_page(asked: &ReviewSnapshots, page: &str) -> Result<PathBuf> {
-    let file = asked.output.clone().unwrap_or_else(|| Path::new("out").join("review").join("index.html"));
-    write_whole(&file, |file| file.write_all(page.as_bytes()))?;
+    let file = page_place(asked)?;
+    write_file(asked.output.is_some(), &file, page.as_bytes())?;
     Ok(file)
 }
 

@@ -1,5 +1,6 @@
 use super::chapter_text::ChapterText;
 use super::error::{Error, Result};
+use super::export_model::fit_names;
 use super::find;
 use super::interrupt::interrupted;
 use bevy_ecs::prelude::*;
@@ -131,6 +132,7 @@ impl<'c> Subject<'c> {
             }
             Self::Model { model, .. } => {
                 let mut world = model.world();
+                fit_names(&mut world);
                 asked.put_on_camera(&mut world);
                 world
             }

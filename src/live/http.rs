@@ -1,6 +1,7 @@
 //! Answers a browser on this machine, by hyper: one thread, a bounded number of connections, a bounded time for each.
 
 use crate::answer::Answer;
+use crate::peer::Peer;
 use hyper::Request;
 use hyper::body::Incoming;
 use hyper::server::conn::http1;
@@ -59,7 +60,7 @@ where
     let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
     let mut open: VecDeque<(Instant, AbortHandle)> = VecDeque::new();
     loop {
-        let Ok((stream, _)) = listener.accept().await else {
+        let Ok((stream, peer)) = listener.accept().await else {
             sleep(PAUSE).await;
             continue;
         };
@@ -71,7 +72,7 @@ where
                 Err(_) => open.pop_front().into_iter().for_each(|(_, oldest)| oldest.abort()),
             }
         };
-        let conversation = timeout(patience, converse(stream, answer.clone()));
+        let conversation = timeout(patience, converse(stream, Peer(peer), answer.clone()));
         let connection = tokio::spawn(async move {
             // A reader who leaves before the answer has come is no trouble.
             let _ = conversation.await;
@@ -82,12 +83,13 @@ where
 }
 
 /// Reads one request and answers it; the connection then ends.
-async fn converse<A, F>(stream: TcpStream, answer: A) -> hyper::Result<()>
+async fn converse<A, F>(stream: TcpStream, peer: Peer, answer: A) -> hyper::Result<()>
 where
     A: Fn(Request<Incoming>) -> F,
     F: Future<Output = Answer>,
 {
-    let service = service_fn(move |request| {
+    let service = service_fn(move |mut request: Request<Incoming>| {
+        request.extensions_mut().insert(peer);
         let answer = answer(request);
         async { Ok::<_, Infallible>(answer.await.response()) }
     });

@@ -8,6 +8,7 @@
 mod answer;
 mod guard;
 mod http;
+mod peer;
 #[cfg(feature = "view")]
 mod view;
 

@@ -1,7 +1,7 @@
 /// Text from a file, fit for a message: on one line, what is not visible escaped, at most this many characters.
 pub fn printable(text: &str, most: usize) -> String {
     let letters = text.chars().take(most).flat_map(|letter| {
-        let is_visible = letter == ' ' || !(letter.is_control() || letter.is_whitespace());
+        let is_visible = letter == ' ' || !(letter.is_control() || letter.is_whitespace() || is_invisible(letter));
         let escaped = (!is_visible).then(|| letter.escape_default());
         is_visible.then_some(letter).into_iter().chain(escaped.into_iter().flatten())
     });
@@ -12,6 +12,22 @@ pub fn printable(text: &str, most: usize) -> String {
     line
 }
 
+/// Characters that are not visible themselves and change how others are shown, as in pinhole's messages.
+fn is_invisible(letter: char) -> bool {
+    matches!(
+        letter,
+        '\u{ad}'
+            | '\u{61c}'
+            | '\u{180e}'
+            | '\u{200b}'..='\u{200f}'
+            | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}'
+            | '\u{feff}'
+            | '\u{fff9}'..='\u{fffb}'
+            | '\u{e0000}'..='\u{e0fff}'
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::printable;
@@ -19,6 +35,10 @@ mod tests {
     #[test]
     fn text_stays_on_its_line_and_within_its_length() {
         assert_eq!(printable("a b\n\u{1b}c", 80), "a b\\n\\u{1b}c");
+        assert_eq!(
+            printable("\u{202e}gnp.exe\u{2028}\u{9b}31m\u{e0041}", 80),
+            "\\u{202e}gnp.exe\\u{2028}\\u{9b}31m\\u{e0041}"
+        );
         assert_eq!(printable("0123456789", 4), "0123…");
         assert_eq!(printable("Tür", 3), "Tür");
     }

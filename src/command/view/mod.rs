@@ -1,6 +1,7 @@
 //! A scene in the browser.
 
 mod browser;
+mod home;
 mod scene;
 
 use super::arguments::ViewScene;

@@ -1,9 +1,8 @@
 use pinhole::Result;
-use pinhole::film::write_whole;
+use pinhole::film::{Replaces, set_aside, write_whole};
 use pinhole::scene::{FileError, FileKind, Unopened, printable_path, read_file};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fs;
 use std::io::Write;
 use std::path::Path;
 
@@ -39,15 +38,17 @@ impl Progress {
         };
         match serde_json::from_slice(&text) {
             Ok(progress) => (progress, None),
-            Err(wrong) => (Self::default(), Some(set_aside(file, &wrong.to_string()))),
+            Err(wrong) => (Self::default(), Some(damaged(file, &wrong.to_string()))),
         }
     }
 
-    /// Writes the file whole, or leaves what was there.
+    /// Writes the file whole, or leaves what was there; what is no record of progress stays.
     ///
     /// Errors: the path and what the system said.
     pub fn write(&self, file: &Path) -> Result {
-        write_whole(file, |out| {
+        let is_progress =
+            |file: &Path| read_file(file, PROGRESS).is_ok_and(|text| serde_json::from_slice::<Self>(&text).is_ok());
+        write_whole(Replaces::If(&is_progress).at(file), |out| {
             serde_json::to_writer_pretty(&mut *out, self)?;
             writeln!(out)
         })
@@ -59,12 +60,11 @@ impl Progress {
     }
 }
 
-/// Renames a damaged file, and says what was done.
-fn set_aside(file: &Path, wrong: &str) -> String {
-    let aside = file.with_extension("damaged.json");
+/// Sets a damaged file aside, and says what was done.
+fn damaged(file: &Path, wrong: &str) -> String {
     let damaged = format!("{} is damaged ({wrong})", printable_path(file));
-    match fs::rename(file, &aside) {
-        Ok(()) => format!("{damaged}; it is set aside as {}, and counting starts anew", printable_path(&aside)),
-        Err(refused) => format!("{damaged} and cannot be set aside ({refused}); counting starts anew"),
+    match set_aside(file, "damaged.json") {
+        Ok(aside) => format!("{damaged}; it is set aside as {}, and counting starts anew", printable_path(&aside)),
+        Err(refused) => format!("{damaged} and cannot be set aside ({refused}), so no try is remembered"),
     }
 }

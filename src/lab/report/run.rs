@@ -1,12 +1,12 @@
 //! One run: its image, its times, and the file that lets a stopped report go on.
 
 use crate::measure::image_error::Numbers;
-use pinhole::film::{Film, write_whole};
-use pinhole::scene::{FNV_BASIS, FileKind, fnv, read_file};
+use pinhole::film::{Film, Replaces, remove_own, write_whole};
+use pinhole::scene::{FNV_BASIS, FileKind, fnv, open_file, read_file};
 use pinhole::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::fs;
-use std::io::Write;
+use std::io::{BufRead, Read, Write};
 use std::path::{Path, PathBuf};
 
 const RUN: FileKind = FileKind { name: "a kept run", most: 1 << 36 };
@@ -111,24 +111,40 @@ impl Shelf {
         let heading =
             Heading { made_from: self.made_from.clone(), size: image.size, times: *times, rejected: *rejected };
         let heading = serde_json::to_string(&heading).map_err(std::io::Error::from)?;
-        write_whole(&self.file(name), |file| {
+        write_whole(Replaces::If(&is_run).at(&self.file(name)), |file| {
             writeln!(file, "{heading}")?;
             image.pixels.iter().flatten().try_for_each(|part| file.write_all(&part.to_le_bytes()))
         })
     }
 
-    /// Takes the folder away once the report is written.
+    /// Takes the runs away once the report is written, and the folder if nothing else is in it.
     ///
     /// Errors: the path and what the system said.
     pub fn clear(&self) -> Result {
-        let path = Path::new(&self.folder);
-        match fs::remove_dir_all(path) {
-            Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
-                Err(Error::Write { path: path.into(), source })
+        let refused = |source| Error::Write { path: self.folder.clone(), source };
+        let entries = match fs::read_dir(&self.folder) {
+            Err(source) if source.kind() == std::io::ErrorKind::NotFound => return Ok(()),
+            entries => entries.map_err(refused)?,
+        };
+        for entry in entries {
+            let path = entry.map_err(refused)?.path();
+            if is_run(&path) {
+                remove_own(Replaces::If(&is_run).at(&path))?;
             }
-            _ => Ok(()),
         }
+        // Somebody else's file keeps its folder.
+        let _ = fs::remove_dir(&self.folder);
+        Ok(())
     }
+}
+
+/// Whether a file is one of a run, of whatever report.
+fn is_run(path: &Path) -> bool {
+    const LONGEST_HEADING: u64 = 4096;
+    let mut line = Vec::new();
+    let opened = open_file(path, RUN).ok().map(|own| std::io::BufReader::new(own.file.take(LONGEST_HEADING)));
+    let read = opened.and_then(|mut file| file.read_until(b'\n', &mut line).ok());
+    read.is_some() && serde_json::from_slice::<Heading>(&line).is_ok()
 }
 
 #[cfg(test)]

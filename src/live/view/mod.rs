@@ -1,6 +1,8 @@
 //! A scene in the browser: its page, the orders that the page sends, and the viewer that carries them out.
 
+mod attention;
 mod figure;
+mod memory;
 mod modes;
 mod orbit;
 mod order;
@@ -21,13 +23,13 @@ pub use source::{FrameSource, Progress, Shot};
 
 use crate::guard::Guard;
 use crate::http::{MOST_CONNECTIONS, PATIENCE, start};
+use attention::Attention;
 use order::{Letter, Orders};
 use serve::Desk;
 use shown::Shown;
 use std::net::TcpListener;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{Receiver, sync_channel};
 use viewer::Viewer;
 
@@ -48,10 +50,11 @@ impl View {
         let guard = Guard::new(listener.local_addr().map_err(refused)?.port()).map_err(refused)?;
         let address = guard.address();
         let (letters, received) = sync_channel(MOST_CONNECTIONS);
-        let waiting = Arc::new(AtomicBool::new(false));
+        let attention = Arc::new(Attention::default());
         let (shown, frames) = tokio::sync::watch::channel(Shown::default());
-        let viewer = Viewer::new(scene, size, shown, Arc::clone(&waiting))?;
-        let desk = Desk::new(guard, Orders::new(letters, waiting), frames);
+        let viewer = Viewer::new(scene, size, shown, Arc::clone(&attention))?;
+        attention::keep(&attention).map_err(refused)?;
+        let desk = Desk::new(guard, Orders::new(letters, attention), frames);
         start(listener, PATIENCE, move |request| desk.clone().answer(request)).map_err(refused)?;
         Ok(Self { address, viewer, letters: received })
     }

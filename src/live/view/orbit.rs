@@ -11,6 +11,10 @@ use pinhole::scene::{ChildOf, LookAt, Motion, OrthographicCamera, PerspectiveCam
 const TURN: f64 = std::f64::consts::PI;
 /// How near the view may come to straight up or down, in radians.
 const STEEPEST: f64 = 0.02;
+/// The heights of view that can be reckoned with: their squares are neither zero nor infinite.
+const REACH: std::ops::RangeInclusive<f64> = NEAREST..=1e100;
+/// The least distance between eye and target.
+const NEAREST: f64 = 1e-100;
 /// Turning the view by more than this sideways is not what an upright camera does.
 const UPRIGHT: f64 = 1e-6;
 
@@ -92,9 +96,11 @@ impl Orbit {
         (place(before) == place(after)).then_some(Self { extent, ..self })
     }
 
-    /// Whether it is anywhere at all.
-    pub fn is_finite(&self) -> bool {
-        self.eye.is_finite() && self.target.is_finite() && self.eye != self.target
+    /// Whether it is anywhere at all, and what it shows has a size that can be reckoned with.
+    pub fn is_within_reach(&self) -> bool {
+        let apart = (self.eye - self.target).length();
+        let least = NEAREST.max(f64::EPSILON * self.eye.length());
+        self.eye.is_finite() && self.target.is_finite() && apart > least && REACH.contains(&self.view_height())
     }
 
     /// Where the eye is.
@@ -180,6 +186,32 @@ mod tests {
         let height = 2.0 * libm::tan(22.5_f64.to_radians()) * 4.0;
         orbit.pan([0.0, 0.5]);
         assert!((orbit.target.y - (1.0 + height / 2.0)).abs() < 1e-12, "{orbit:?}");
+    }
+
+    #[test]
+    fn no_zoom_leads_where_none_leads_back_from() {
+        for camera in [true, false] {
+            let mut scene = scene();
+            if !camera {
+                let own = camera_entity(&scene).expect("a camera");
+                scene.entity_mut(own).remove::<PerspectiveCamera>().insert(OrthographicCamera { view_height: 3.0 });
+            }
+            let start = Orbit::of(&scene, None).expect("a camera");
+            for factor in [100.0, 0.01] {
+                let (mut orbit, mut steps) = (start, 0);
+                loop {
+                    let mut next = orbit;
+                    next.zoom(factor);
+                    if !next.is_within_reach() {
+                        break;
+                    }
+                    (orbit, steps) = (next, steps + 1);
+                }
+                assert!((5..200).contains(&steps), "{steps} steps of {factor}");
+                (0..steps).for_each(|_| orbit.zoom(1.0 / factor));
+                assert!((orbit.view_height() / start.view_height() - 1.0).abs() < 1e-3, "{factor}: {orbit:?}");
+            }
+        }
     }
 
     #[test]

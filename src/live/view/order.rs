@@ -1,8 +1,7 @@
+use super::attention::Attention;
 use crate::answer::Answer;
-use pinhole::render::Watch;
 use serde::Deserialize;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::SyncSender;
 use tokio::sync::oneshot;
 
@@ -57,33 +56,25 @@ pub(crate) type Letter = (Order, oneshot::Sender<Answer>);
 #[derive(Clone)]
 pub(crate) struct Orders {
     letters: SyncSender<Letter>,
-    waiting: Arc<AtomicBool>,
+    attention: Arc<Attention>,
 }
 
 impl Orders {
-    /// Orders that wait here until the viewer takes them; `waiting` is set while there are any.
-    pub fn new(letters: SyncSender<Letter>, waiting: Arc<AtomicBool>) -> Self {
-        Self { letters, waiting }
+    /// Orders that wait here until the viewer takes them.
+    pub fn new(letters: SyncSender<Letter>, attention: Arc<Attention>) -> Self {
+        Self { letters, attention }
+    }
+
+    /// Somebody looks at the page.
+    pub fn looked(&self) {
+        self.attention.looked();
     }
 
     /// The viewer's answer; none where too many orders wait already, or nobody answers any more.
     pub async fn answer(&self, order: Order) -> Option<Answer> {
         let (send, receive) = oneshot::channel();
         self.letters.try_send((order, send)).ok()?;
-        self.waiting.store(true, Ordering::SeqCst);
+        self.attention.order();
         receive.await.ok()
-    }
-}
-
-/// Stops a frame for an order that waits.
-pub struct UntilAnOrder<'a>(pub &'a Arc<AtomicBool>);
-
-impl Watch for UntilAnOrder<'_> {
-    fn stopped(&self) -> bool {
-        self.0.load(Ordering::SeqCst)
-    }
-
-    fn stop_flag(&self) -> Option<Arc<AtomicBool>> {
-        Some(Arc::clone(self.0))
     }
 }

@@ -2,6 +2,7 @@ use super::order::{Kind, Order, Orders};
 use super::shown::Shown;
 use crate::answer::Answer;
 use crate::guard::Guard;
+use crate::peer::is_of_another_user;
 use http_body_util::{BodyExt, Limited};
 use hyper::body::Incoming;
 use hyper::header::{self, HeaderValue};
@@ -53,8 +54,17 @@ impl Desk {
                 return Answer::plain(status, "open the address that the program printed, with the token in it");
             }
         };
+        if is_of_another_user(&request) {
+            return Answer::plain(StatusCode::FORBIDDEN, "this page is that of another user of this machine");
+        }
+        self.orders.looked();
         let (head, body) = request.into_parts();
         match head.method {
+            // Without the slash at its end, the names in the page would lead elsewhere.
+            Method::GET if path.is_empty() && !head.uri.path().ends_with('/') => Answer::of(
+                HTML,
+                format!("<!doctype html><meta http-equiv=\"refresh\" content=\"0; url={}/\">", head.uri.path()),
+            ),
             Method::GET => self.get(&path, head.uri.query().unwrap_or_default()).await,
             Method::POST if path == "order" => self.order(head.headers.get(header::CONTENT_TYPE), body).await,
             _ => Answer::plain(StatusCode::METHOD_NOT_ALLOWED, "only GET is answered here, and POST of an order"),

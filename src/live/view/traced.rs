@@ -5,7 +5,7 @@ use glam::DVec3;
 use pinhole::intersect::Surfaces;
 use pinhole::look::{Recorded, Trace};
 use pinhole::plan::{ComponentNumber, Stage};
-use pinhole::scene::{TracePixel, View};
+use pinhole::scene::{Integrator, TracePixel, View};
 use pinhole::{extract, look, plan};
 use serde::Serialize;
 use std::collections::HashMap;
@@ -32,11 +32,23 @@ struct Written {
 
 /// Traces a pixel of the picture, whether or not a column is painted instead.
 ///
+/// A path that never ends is traced as far as it is shown.
+///
 /// Errors: whatever a render would refuse.
 pub fn trace(scene: &mut World, offer: &[Stage], [x, y]: [u32; 2]) -> pinhole::Result<Trace> {
     let camera = extract::camera_entity(scene)?;
     let view = scene.entity_mut(camera).take::<View>();
+    let integrator = scene.get::<Integrator>(camera).copied();
+    if let Some(
+        Integrator::Path { max_depth, .. } | Integrator::Whitted { max_depth } | Integrator::Distribution { max_depth },
+    ) = scene.get_mut::<Integrator>(camera).as_deref_mut()
+    {
+        *max_depth = (*max_depth).min(LAST_BOUNCE + 2);
+    }
     let trace = look::trace(&plan::Census::of(scene), offer, TracePixel { x, y });
+    if let Some(integrator) = integrator {
+        scene.entity_mut(camera).insert(integrator);
+    }
     if let Some(view) = view {
         scene.entity_mut(camera).insert(view);
     }

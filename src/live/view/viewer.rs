@@ -1,6 +1,8 @@
+use super::attention::Attention;
+use super::memory::check_frames_fit;
 use super::modes::{MODES, every_stage};
 use super::orbit::Orbit;
-use super::order::{Letter, Order, UntilAnOrder};
+use super::order::{Letter, Order};
 use super::pace::Pace;
 use super::paint::paint;
 use super::scene::Scene;
@@ -11,19 +13,17 @@ use super::traced::{self, Traced};
 use crate::answer::Answer;
 use bevy_ecs::prelude::World;
 use pinhole::extract::camera_entity;
-use pinhole::plan::Stage;
-use pinhole::render::Watch;
+use pinhole::plan::{Census, Stage};
 use pinhole::scene::{Resolution, Statistics, View};
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 use tokio::sync::watch;
 
 /// How long samples are taken before the next frame is shown, so that showing them costs little.
 const BETWEEN_FRAMES: Duration = Duration::from_millis(60);
-/// How often someone looks whether the camera has come to rest.
+/// How often someone looks whether the camera has come to rest, or a page is open.
 const LOOK_AGAIN: Duration = Duration::from_millis(20);
 
 /// What a reader has chosen.
@@ -57,7 +57,7 @@ pub struct Viewer {
     error: Option<String>,
     change: u64,
     shown: watch::Sender<Shown>,
-    waiting: Arc<AtomicBool>,
+    attention: Arc<Attention>,
 }
 
 impl Viewer {
@@ -68,7 +68,7 @@ impl Viewer {
         scene: Rc<dyn Scene>,
         size: Option<pinhole::Size>,
         shown: watch::Sender<Shown>,
-        waiting: Arc<AtomicBool>,
+        attention: Arc<Attention>,
     ) -> Result<Self, String> {
         // A chapter about one space shows its column from the beginning.
         let world = scene.world();
@@ -90,7 +90,7 @@ impl Viewer {
             error: None,
             change: 0,
             shown,
-            waiting,
+            attention,
         };
         viewer.choose(choice)?;
         Ok(viewer)
@@ -99,18 +99,23 @@ impl Viewer {
     /// Renders and answers until nobody can ask any more.
     pub fn run(&mut self, letters: &Receiver<Letter>) {
         loop {
-            self.waiting.store(false, Ordering::SeqCst);
+            self.attention.taken();
             while let Ok((order, reply)) = letters.try_recv() {
                 // Who has left needs no answer.
                 let _ = reply.send(self.carry_out(order));
             }
             let coarse = self.begun.is_some_and(|size| size != self.full);
-            if !self.done || (coarse && !self.pace.is_moving()) {
+            let unfinished = !self.done || (coarse && !self.pace.is_moving());
+            if unfinished && self.attention.is_looked_at() {
                 self.frame();
                 continue;
             }
-            let next =
-                if coarse { letters.recv_timeout(LOOK_AGAIN) } else { letters.recv().map_err(RecvTimeoutError::from) };
+            // Nothing is computed while no page is open.
+            let next = if coarse || unfinished {
+                letters.recv_timeout(LOOK_AGAIN)
+            } else {
+                letters.recv().map_err(RecvTimeoutError::from)
+            };
             match next {
                 Ok((order, reply)) => _ = reply.send(self.carry_out(order)),
                 Err(RecvTimeoutError::Timeout) => {}
@@ -132,7 +137,8 @@ impl Viewer {
         (MODES[choice.mode].prepare)(&mut camera);
         let stages = stages_of(&choice);
         let offer: Vec<Stage> = stages.into_iter().filter(|stage| !choice.taken_out.contains(&stage.name)).collect();
-        let columns = paint(&mut world, &offer, choice.column.as_deref()).map_err(explain)?;
+        let (columns, plan) = paint(&mut world, &offer, choice.column.as_deref()).map_err(explain)?;
+        check_frames_fit(&Census::of(&world), &plan, full, MODES[choice.mode].denoised > 0).map_err(explain)?;
         if let Some(orbit) = &self.orbit {
             orbit.put(&mut world);
         }
@@ -160,11 +166,10 @@ impl Viewer {
         let changed = self.begun != Some(size);
         let levels = MODES[self.choice.mode].denoised;
         let shot = Shot { scene: &self.world, offer: &self.offer, changed, patience, gathers: levels > 0 };
-        let until = UntilAnOrder(&self.waiting);
-        // A frame of a camera that moves is short, and is shown before the next movement.
-        let watch: &dyn Watch = if moving { &() } else { &until };
+        // A frame of a camera that moves is short, and is shown before the next movement, unless it is not so short.
+        let watch = self.attention.watch(moving);
         (self.begun, self.done) = (Some(size), false);
-        match self.source.film(&shot, watch) {
+        match self.source.film(&shot, &watch) {
             Ok(progress) => {
                 let names = progress.plan.stages.iter().map(|stage| stage.name);
                 let costs = progress.laps.iter().map(|lap| lap.time.as_secs_f64() * 1e3);
@@ -252,8 +257,8 @@ impl Viewer {
             }
         };
         change(&mut orbit);
-        if !orbit.is_finite() {
-            return Err("the camera cannot be moved so far".into());
+        if !orbit.is_within_reach() {
+            return Err("the camera cannot be moved so far, nor so near".into());
         }
         orbit.put(&mut self.world);
         self.orbit = Some(orbit);

@@ -1,16 +1,17 @@
 //! Checkpoints: the state of a render between two runs of the program, as one file.
 //!
 //! The format is little-endian: the magic word `pinhole checkpoint`, the format's version, the key of plan and scene,
-//! the film's size and what it keeps; then, tile by tile, steps done, planned samples, sums, counts, rejected samples,
+//! how many samples there are, the film's size and what it keeps; then, tile by tile, steps done, planned samples, sums, counts, rejected samples,
 //! moments and layers; then the splats; last the CRC-32 of every number before it.
 //!
 //! The checksum detects damage but is not a signature: anyone can write a checkpoint of any picture.
 //! Therefore nothing in the file determines how much memory is allocated, and a state that no render can have produced
 //! is an error.
 
+use super::checkpoint_place::SamplesKept;
 use super::plausible::is_plausible;
-use super::{Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, Rejected, write_whole};
-use crate::scene::{FileKind, check_memory, open_file, printable_path};
+use super::{Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, Rejected, Target, write_whole};
+use crate::scene::{FileKind, Unopened, check_memory, open_file, printable_path};
 use crate::{Error, Result};
 use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
@@ -18,7 +19,7 @@ use std::path::Path;
 /// The magic word at the start of a checkpoint.
 const WORD: [u8; 20] = *b"pinhole checkpoint\r\n";
 /// The version of the format; files of other versions are not read.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 /// The file kind; the largest film with everything that it can keep stays below this size.
 const CHECKPOINT: FileKind = FileKind { name: "a checkpoint", most: 1 << 40 };
 /// How many numbers are read or written at once.
@@ -33,17 +34,44 @@ const SPLATS: u32 = 16;
 /// Writes the state of a film atomically, with the key that identifies what it is a film of.
 ///
 /// Errors: the path and the error of the operating system; a previous file at the path is then unchanged.
-pub fn write_checkpoint(film: &Film, key: u64, path: &Path) -> Result {
-    write_whole(path, |file| {
+pub fn write_checkpoint<'a>(film: &Film, key: u64, target: impl Into<Target<'a>>) -> Result {
+    write_whole(target, |file| {
         file.write_all(&WORD)?;
         let mut out = Numbers { stream: file, sum: crc32fast::Hasher::new() };
         out.write_u32(VERSION)?;
         out.write_u64(key)?;
+        let SamplesKept { phase, samples, steps } = SamplesKept::of(film);
+        out.write_u32s(&[phase, steps])?;
+        out.write_u64(samples)?;
         out.write_u32s(&shape(film))?;
         write_film(film, &mut out)?;
         let sum = out.sum.clone().finalize();
         out.write_u32(sum)
     })
+}
+
+/// The beginning of a checkpoint.
+pub(super) struct Heading {
+    /// What it is a film of.
+    pub key: u64,
+    /// How far it is.
+    pub kept: SamplesKept,
+}
+
+/// Reads the beginning of a checkpoint.
+///
+/// Errors: why the file cannot be opened; none where it is no checkpoint of this version.
+pub(super) fn heading(path: &Path) -> std::result::Result<Heading, Option<Unopened>> {
+    let mut file = open_file(path, CHECKPOINT).map_err(|error| Some(error.why))?.file;
+    let mut word = [0; WORD.len()];
+    let mut read = || {
+        file.read_exact(&mut word)?;
+        let mut numbers = Numbers { stream: &mut file, sum: crc32fast::Hasher::new() };
+        let (version, key) = (numbers.read_u32()?, numbers.read_u64()?);
+        Ok((version, Heading { key, kept: numbers.read_kept()? }))
+    };
+    let (version, heading) = read().map_err(|_: io::Error| None)?;
+    if word == WORD && version == VERSION { Ok(heading) } else { Err(None) }
 }
 
 /// Reads the state of a film with the size and contents of `film`, which belongs to the render that is to be continued;
@@ -77,6 +105,7 @@ pub fn read_checkpoint(key: u64, film: &Film, adaptive: bool, path: &Path) -> Re
              program; render without --resume to start over",
         ));
     }
+    numbers.read_kept().map_err(unread)?;
     let mut found = [0; 5];
     numbers.read_u32s(&mut found).map_err(unread)?;
     let extra = if adaptive { found[3] & (PILOT | PLANNED) } else { 0 };
@@ -121,9 +150,9 @@ fn least_length(film: &Film, planned: bool) -> u64 {
     let moments = if film.moments.is_empty() { 0 } else { 24 };
     let (splats, of_splats) = if film.splats.is_some() { (24, 16) } else { (0, 0) };
     let a_pixel = 28 + layers + moments + splats + if planned { 4 } else { 0 };
-    // The magic word, the version, the key, the size and the checksum; per tile its steps, whether it has negative
-    // sums, and how many samples were rejected and are kept.
-    WORD.len() as u64 + 4 + 8 + 20 + 4 + of_splats + 20 * film.tiles.len() as u64 + a_pixel * pixels
+    // The magic word, the version, the key, how far it is, the size and the checksum; per tile its steps, whether it has
+    // negative sums, and how many samples were rejected and are kept.
+    WORD.len() as u64 + 4 + 8 + 16 + 20 + 4 + of_splats + 20 * film.tiles.len() as u64 + a_pixel * pixels
 }
 
 fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
@@ -284,6 +313,11 @@ impl<S: Read> Numbers<S> {
         let mut bytes = [0; 8];
         self.read(&mut bytes)?;
         Ok(u64::from_le_bytes(bytes))
+    }
+
+    fn read_kept(&mut self) -> io::Result<SamplesKept> {
+        let (phase, steps) = (self.read_u32()?, self.read_u32()?);
+        Ok(SamplesKept { phase, samples: self.read_u64()?, steps })
     }
 
     fn read_u32s(&mut self, numbers: &mut [u32]) -> io::Result<()> {

@@ -1,14 +1,13 @@
-use super::{Film, write_whole};
+use super::{Film, Target, write_whole};
 use crate::Result;
-use exr::prelude::{Encoding, Image, SpecificChannels, WritableImage};
+use exr::prelude::{Encoding, Image, Layer, LayerAttributes, SpecificChannels, Text, WritableImage};
 use std::io::{self, Cursor, Seek, Write};
-use std::path::Path;
 
 /// Writes the film's mean radiance as an OpenEXR file of linear 32-bit floats.
 ///
 /// Errors: the path and the error of the operating system; no partial file is left behind.
-pub fn write_exr(film: &Film, path: &Path) -> Result {
-    write_whole(path, |file| encode(film, file))
+pub fn write_exr<'a>(film: &Film, target: impl Into<Target<'a>>) -> Result {
+    write_whole(target, |file| encode(film, file))
 }
 
 /// Encodes the film as such a file in memory.
@@ -24,6 +23,8 @@ fn encode(film: &Film, out: impl Write + Seek) -> io::Result<()> {
         (r, g, b)
     });
     let size = (film.width as usize, film.height as usize);
-    let image = Image::from_encoded_channels(size, Encoding::FAST_LOSSLESS, channels);
+    // By this the file is known as the program's own, which it may replace.
+    let attributes = LayerAttributes { software_name: Some(Text::from("pinhole")), ..LayerAttributes::default() };
+    let image = Image::from_layer(Layer::new(size, attributes, Encoding::FAST_LOSSLESS, channels));
     image.write().non_parallel().to_buffered(out).map_err(io::Error::other)
 }

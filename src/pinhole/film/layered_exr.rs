@@ -1,5 +1,5 @@
 use super::develop::finite;
-use super::{Film, write_whole};
+use super::{Film, Target, write_whole};
 use crate::Result;
 use crate::scene::LayerKind;
 use exr::meta::attribute::LineOrder;
@@ -8,7 +8,6 @@ use exr::prelude::{
     WritableImage,
 };
 use std::io;
-use std::path::Path;
 
 /// Scan lines rather than tiles, which every reader of layers supports.
 const SCAN_LINES: Encoding =
@@ -25,8 +24,8 @@ pub const ENTITY_NAMES: &str = "entityNames";
 /// `names` are the names of the shapes in the order of their numbers.
 ///
 /// Errors: the path and the error of the operating system; no partial file is left behind.
-pub fn write_layered_exr(film: &Film, names: &[String], path: &Path) -> Result {
-    write_whole(path, |file| {
+pub fn write_layered_exr<'a>(film: &Film, names: &[String], target: impl Into<Target<'a>>) -> Result {
+    write_whole(target, |file| {
         let size = (film.width as usize, film.height as usize);
         let mut attributes =
             LayerAttributes { software_name: Some(Text::from("pinhole")), ..LayerAttributes::default() };

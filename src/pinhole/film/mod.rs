@@ -17,6 +17,7 @@
 
 mod accumulate;
 mod checkpoint;
+mod checkpoint_place;
 mod denoise;
 mod develop;
 mod exr;
@@ -26,6 +27,7 @@ mod layers;
 mod moments;
 mod plausible;
 mod png;
+mod replaces;
 mod reproject;
 mod splats;
 mod tiled_film;
@@ -37,6 +39,8 @@ pub use crate::extract::linear_from_srgb;
 pub use accumulate::{add_to_film, film_stage};
 #[doc(hidden)]
 pub use checkpoint::{read_checkpoint, write_checkpoint};
+#[doc(hidden)]
+pub use checkpoint_place::{CheckpointAt, SamplesKept, checkpoint_at, checkpoint_place, keep_checkpoint};
 #[doc(hidden)]
 pub use denoise::{GUIDES, Guides, denoise, denoise_radiance};
 pub use develop::Curve;
@@ -57,9 +61,11 @@ pub use png::write_png;
 #[doc(hidden)]
 pub use png::{png_bytes, png_bytes_by, rgba_bytes, rgba_of};
 #[doc(hidden)]
+pub use replaces::{Replaces, Target, marked};
+#[doc(hidden)]
 pub use reproject::History;
 #[doc(hidden)]
 pub use splats::{FilmSplats, SplatFilter};
 pub use tiled_film::Film;
 #[doc(hidden)]
-pub use whole_file::{check_place, write_whole, writes_in_progress};
+pub use whole_file::{check_place, remove_own, set_aside, write_whole, writes_in_progress};

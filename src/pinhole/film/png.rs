@@ -1,15 +1,14 @@
 use super::develop::{SrgbBytes, straight_byte};
-use super::{Curve, Film, byte_from_linear, write_whole};
+use super::{Curve, Film, Target, byte_from_linear, write_whole};
 use crate::Result;
 use rayon::prelude::*;
 use std::io::{self, Write};
-use std::path::Path;
 
 /// Writes the film as an 8-bit RGB PNG, line by line, so that memory never holds a second image.
 ///
 /// Errors: the path and the error of the operating system; no partial file is left behind.
-pub fn write_png(film: &Film, curve: Curve, path: &Path) -> Result {
-    write_whole(path, |file| encode(film, curve, |linear| byte_from_linear(linear, curve), file))
+pub fn write_png<'a>(film: &Film, curve: Curve, target: impl Into<Target<'a>>) -> Result {
+    write_whole(target, |file| encode(film, curve, |linear| byte_from_linear(linear, curve), file))
 }
 
 /// Encodes the film as a PNG in memory.
@@ -73,6 +72,8 @@ fn encode(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8, out: impl Writ
     if curve == Curve::Srgb {
         encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     }
+    // By this the file is known as the program's own, which it may replace.
+    encoder.add_text_chunk("Software".into(), "pinhole".into())?;
     let mut png = encoder.write_header()?;
     let mut lines = png.stream_writer()?;
     let mut line = Vec::with_capacity(film.width as usize * 3);

@@ -1,3 +1,4 @@
+use super::replaces::{Replaces, Target, taken};
 use crate::scene::printable_path;
 use crate::{Error, Result};
 use std::collections::BTreeSet;
@@ -14,6 +15,8 @@ const SUFFIX: &str = ".part";
 const STALE: Duration = Duration::from_secs(3600);
 /// The largest number of symbolic links followed.
 const MOST_LINKS: usize = 40;
+/// The most files that are set aside under one name.
+const MOST_ASIDE: u32 = 99;
 
 static IN_PROGRESS: AtomicUsize = AtomicUsize::new(0);
 
@@ -44,11 +47,14 @@ impl Drop for InProgress {
 /// one.
 /// Symbolic links are followed, an existing file keeps its permissions, and missing folders are created.
 ///
-/// Errors: the path and the error of the operating system (no permission, no space, a folder of that name); a previous
-/// file is then unchanged.
-pub fn write_whole(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result {
-    let _in_progress = InProgress::begin();
-    write_beside(path, write).map_err(|source| Error::Write { path: path.into(), source })
+/// Errors: the path and the error of the operating system (no permission, no space, a folder of that name), or what is
+/// there may not be replaced; a previous file is then unchanged.
+pub fn write_whole<'a>(
+    target: impl Into<Target<'a>>,
+    write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
+) -> Result {
+    let (_in_progress, target) = (InProgress::begin(), target.into());
+    write_beside(&target, write).map_err(|source| Error::Write { path: target.path.into(), source })
 }
 
 /// Checks that a file can be written at a path, before there is anything to write.
@@ -56,15 +62,44 @@ pub fn write_whole(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io:
 /// Missing folders are created.
 ///
 /// Errors: as for [`write_whole`].
-pub fn check_place(path: &Path) -> Result {
-    let _in_progress = InProgress::begin();
-    let place = resolved(path).and_then(|path| place_beside(&path));
-    place.map(|_| ()).map_err(|source| Error::Write { path: path.into(), source })
+pub fn check_place<'a>(target: impl Into<Target<'a>>) -> Result {
+    let (_in_progress, target) = (InProgress::begin(), target.into());
+    let place = resolved(target.path).and_then(|path| place_beside(&path, &target));
+    place.map(|_| ()).map_err(|source| Error::Write { path: target.path.into(), source })
 }
 
-fn write_beside(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {
-    let path = resolved(path)?;
-    let temporary = place_beside(&path)?;
+/// Removes a file that may be replaced, if it is there; says whether it was.
+///
+/// Errors: the path and the error of the operating system, or what is there may not be removed; it is then unchanged.
+pub fn remove_own<'a>(target: impl Into<Target<'a>>) -> Result<bool> {
+    let target = target.into();
+    let removed = target.check(target.path).and_then(|()| match fs::remove_file(target.path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        removed => removed.map(|()| true),
+    });
+    removed.map_err(|source| Error::Write { path: target.path.into(), source })
+}
+
+/// Gives a file the first name that no file has of those with a number before the ending, and says which.
+///
+/// Errors: the path and the error of the operating system; the file then has its own name still.
+pub fn set_aside(path: &Path, ending: &str) -> Result<PathBuf> {
+    let aside = |number: u32| match number {
+        1 => path.with_extension(ending),
+        _ => path.with_extension(format!("{number}.{ending}")),
+    };
+    for number in 1..=MOST_ASIDE {
+        match rename_to_nothing(path, &aside(number)) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            done => return done.map(|()| aside(number)).map_err(|source| Error::Write { path: path.into(), source }),
+        }
+    }
+    Err(Error::Write { path: path.into(), source: taken() })
+}
+
+fn write_beside(target: &Target<'_>, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {
+    let path = resolved(target.path)?;
+    let temporary = place_beside(&path, target)?;
     let mut buffered = BufWriter::new(&temporary.file);
     write(&mut buffered)?;
     buffered.flush()?;
@@ -74,11 +109,30 @@ fn write_beside(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io::Re
         temporary.file.set_permissions(before.permissions())?;
     }
     temporary.file.sync_all()?;
-    fs::rename(&temporary.path, &path)?;
+    if matches!(target.replaces, Replaces::Nothing) {
+        rename_to_nothing(&temporary.path, &path)?;
+    } else {
+        // What is there may be another file by now.
+        target.check(&path)?;
+        fs::rename(&temporary.path, &path)?;
+    }
     // The name is stored in the folder; some file systems cannot flush one, and the file is intact without that.
     #[cfg(unix)]
     let _ = File::open(folder_of(&path)).and_then(|folder| folder.sync_all());
     Ok(())
+}
+
+/// Renames a file to a name that no file has, even if one is made at the same moment.
+fn rename_to_nothing(from: &Path, to: &Path) -> io::Result<()> {
+    match fs::hard_link(from, to) {
+        Ok(()) => fs::remove_file(from),
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Err(taken()),
+        // A file system without hard links.
+        Err(_) if fs::symlink_metadata(to).is_err_and(|why| why.kind() == io::ErrorKind::NotFound) => {
+            fs::rename(from, to)
+        }
+        Err(error) => Err(if to.symlink_metadata().is_ok() { taken() } else { error }),
+    }
 }
 
 /// The file that a path leads to through symbolic links, whether or not it exists.
@@ -125,19 +179,14 @@ impl Drop for Temporary {
     }
 }
 
-/// A temporary file in the folder of the file to be written.
-fn place_beside(path: &Path) -> io::Result<Temporary> {
-    if path.is_dir() {
-        return Err(io::Error::new(io::ErrorKind::IsADirectory, "a folder of that name is in the way"));
-    }
-    if path.exists() && !path.is_file() {
-        return Err(io::Error::other("what is there is not a regular file"));
-    }
+/// A temporary file in the folder of the file to be written, if what is there may be replaced.
+fn place_beside(path: &Path, target: &Target<'_>) -> io::Result<Temporary> {
     let folder = folder_of(path);
     if let Some(file) = folder.ancestors().find(|above| above.is_file()) {
         let what = format!("{} is a file, and would have to be a folder", printable_path(file));
         return Err(io::Error::new(io::ErrorKind::NotADirectory, what));
     }
+    target.check(path)?;
     fs::create_dir_all(folder)?;
     sweep(folder);
     Temporary::in_folder(folder)
@@ -155,13 +204,20 @@ fn remove_stale(folder: &Path, age: Duration) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
         let name = entry.file_name();
-        let is_temporary = name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
+        let is_temporary = name.to_str().is_some_and(is_temporary_name);
         let old = || entry.metadata().ok()?.modified().ok()?.elapsed().ok();
         if is_temporary && old().is_some_and(|old| old > age) {
             // A file that cannot be removed belongs to another user.
             let _ = fs::remove_file(entry.path());
         }
     }
+}
+
+/// Whether a name is one that [`Temporary`] gives: two numbers.
+fn is_temporary_name(name: &str) -> bool {
+    let numbers = name.strip_prefix(PREFIX).and_then(|rest| rest.strip_suffix(SUFFIX)?.split_once('-'));
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|digit| digit.is_ascii_digit());
+    numbers.is_some_and(|(process, number)| is_number(process) && is_number(number))
 }
 
 #[cfg(test)]
@@ -211,14 +267,14 @@ mod tests {
     #[test]
     fn stale_temporary_files_are_removed_and_recent_ones_are_not() {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let names = [".pinhole-abc.part", ".pinhole-abc.png", "part.part"];
+        let names = [".pinhole-12-3.part", ".pinhole-abc.part", ".pinhole-1-2.png", "part.part"];
         names.iter().for_each(|name| fs::write(folder.path().join(name), "x").expect("written"));
         let there = || names.map(|name| folder.path().join(name).exists());
         remove_stale(folder.path(), STALE);
-        assert_eq!(there(), [true; 3]);
+        assert_eq!(there(), [true; 4]);
         std::thread::sleep(Duration::from_millis(20));
         remove_stale(folder.path(), Duration::from_millis(1));
-        assert_eq!(there(), [false, true, true]);
+        assert_eq!(there(), [false, true, true, true]);
     }
 
     #[cfg(unix)]

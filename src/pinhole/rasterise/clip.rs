@@ -10,6 +10,10 @@ const GUARD: f64 = (1 << 15) as f64;
 /// The depth of the near plane, as a fraction of the farthest vertex's distance.
 const NEAR: f64 = 1.0 / (1_u64 << 40) as f64;
 
+/// Where the near plane lies farther away than this fraction of a triangle's own farthest vertex, since other vertices of
+/// the scene are so far away, the triangle has a near plane of its own.
+const NOTICED: f64 = 1.0 / (1_u64 << 20) as f64;
+
 /// How many times as far as the planes a new vertex may lie once rounding has moved it; edge functions are whole there
 /// too.
 const SLACK: f64 = 2.0;
@@ -64,7 +68,16 @@ impl ClipPlanes {
     ///
     /// One plane after another takes away what is behind it (Sutherland and Hodgman, *Reentrant Polygon Clipping*,
     /// 1974).
+    /// The near plane is that of all triangles, so that two with a common edge are clipped alike, unless it would take away
+    /// what is to be seen.
     pub fn clip(&self, triangle: [ClipPoint; 3]) -> Polygon {
+        let distance = |point: &ClipPoint| point.x.abs().max(point.y.abs()).max(point.depth.abs());
+        let farthest = triangle.iter().map(distance).fold(0.0, f64::max);
+        let near = if self.near > NOTICED * farthest { NEAR * farthest } else { self.near };
+        Self { near, ..*self }.clip_by_these(triangle)
+    }
+
+    fn clip_by_these(&self, triangle: [ClipPoint; 3]) -> Polygon {
         let mut polygon = Polygon { points: [ClipPoint::default(); MOST], count: 0 };
         let finite = |point: &ClipPoint| (point.x + point.y + point.depth).is_finite();
         if triangle.iter().all(finite) {
@@ -117,5 +130,33 @@ pub(super) fn crossing(inside: ClipPoint, at_inside: f64, outside: ClipPoint, at
         y: mix(inside.y, outside.y),
         depth: mix(inside.depth, outside.depth),
         w: mix(inside.w, outside.w),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DMat3, DVec2, DVec3};
+
+    /// One vertex 10¹³ away once took away all that is nearer than 9 units.
+    #[test]
+    fn a_vertex_far_away_takes_away_no_other_triangle() {
+        let projection = Projection {
+            camera_from_world: DMat3::IDENTITY,
+            half: DVec2::new(0.8, 0.6),
+            is_perspective: true,
+            size: DVec2::new(64.0, 48.0),
+        };
+        for farthest in [1e1, 1e6, 1e13, 1e30, 1e300] {
+            let planes = ClipPlanes::new(&projection, farthest);
+            let clipped =
+                |corners: [[f64; 3]; 3]| planes.clip(corners.map(|corner| projection.clip(DVec3::from(corner))));
+            let before = [[-1.0, -1.0, -6.0], [1.0, -1.0, -6.0], [0.0, 1.0, -5.0]];
+            let whole = clipped(before);
+            assert_eq!(whole.points().len(), 3, "{farthest}");
+            let floor = clipped([[-1.0, -1.0, -20.0], [1.0, -1.0, -20.0], [0.0, -1.0, 20.0]]);
+            let nearest = floor.points().iter().map(|point| point.depth).fold(f64::INFINITY, f64::min);
+            assert!(floor.points().len() >= 4 && nearest > 0.0 && nearest < 0.05, "{farthest}: {floor:?}");
+        }
     }
 }

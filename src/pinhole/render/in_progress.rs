@@ -11,6 +11,7 @@ use crate::film::{Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
 use crate::follow::{Splats, Stop};
 use crate::plan::{Census, ExtractedTable, Plan, Shared, Stage};
 use crate::rays::PixelSamples;
+use crate::scene::check_workers;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use rayon::ThreadPool;
@@ -61,12 +62,15 @@ impl RenderInProgress {
         let sampling = *scene.table::<SamplingTable>()?;
         let pool = match execution.worlds {
             Worlds::One => None,
-            Worlds::PerWorker => Some(
-                rayon::ThreadPoolBuilder::new()
-                    .num_threads(workers(&execution, film.tiles.len() as u64, batches(scene, &plan, sampling, image)?))
-                    .build()
-                    .map_err(|refused| Error::Usage(format!("cannot start the workers: {refused}")))?,
-            ),
+            Worlds::PerWorker => {
+                let count = workers(&execution, film.tiles.len() as u64, batches(scene, &plan, sampling, image)?);
+                let refused = |why: String| Error::Usage(format!("cannot start {count} workers: {why}"));
+                check_workers(count).map_err(|too_little| {
+                    refused(format!("their part of the address space {too_little}; --threads starts fewer"))
+                })?;
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+                Some(pool.map_err(|why| refused(why.to_string()))?)
+            }
         };
         let worlds = pool.as_ref().map_or(1, ThreadPool::current_num_threads);
         let light = LightPass::of(scene, &plan, worlds)?;

@@ -4,6 +4,10 @@
 use std::fmt;
 use std::fs;
 
+/// What a worker takes of the address space when it is started, however little memory it needs: its stack, and the part of
+/// the heap that the system sets apart for each thread.
+const A_WORKER: u64 = (2 + 64) << 20;
+
 /// Requests below this are not checked.
 const SMALL: u64 = 64 << 20;
 
@@ -55,9 +59,32 @@ fn available() -> Option<u64> {
 }
 
 fn address_space_left() -> Option<u64> {
+    let (left, threads) = address_space()?;
+    let workers = std::thread::available_parallelism().map_or(1, |count| count.get() as u64);
+    Some(after_workers(left, workers, threads))
+}
+
+/// What a limit leaves of the address space, and how many threads there are already.
+fn address_space() -> Option<(u64, u64)> {
     let limit = field(&fs::read_to_string("/proc/self/limits").ok()?, "Max address space")?;
-    let used = field(&fs::read_to_string("/proc/self/status").ok()?, "VmSize:")? * 1024;
-    Some(limit.saturating_sub(used))
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let (used, threads) = (field(&status, "VmSize:")? * 1024, field(&status, "Threads:")?);
+    Some((limit.saturating_sub(used), threads))
+}
+
+/// What is left of the address space once as many workers have started as there are cores.
+fn after_workers(left: u64, workers: u64, threads: u64) -> u64 {
+    left.saturating_sub((workers + 1).saturating_sub(threads) * A_WORKER)
+}
+
+/// Checks that this many workers can be started.
+///
+/// Errors: a limit of the address space leaves no room for them.
+pub fn check_workers(workers: usize) -> Result<(), TooLittleMemory> {
+    match address_space() {
+        Some((free, _)) => within(workers as u64 * A_WORKER, free),
+        None => Ok(()),
+    }
 }
 
 /// What the limit of the root control group leaves, which in a container is the container's; the page cache does not
@@ -99,6 +126,13 @@ mod tests {
         let refused = within((7 << 30) + 1, 8 << 30).expect_err("refused");
         assert_eq!(refused.to_string(), "needs 7.0 GiB, and 7.0 GiB are free");
         assert_eq!(check_memory(SMALL - 1), Ok(()));
+    }
+
+    #[test]
+    fn workers_that_are_still_to_come_have_their_room() {
+        assert_eq!(after_workers(1 << 30, 4, 1), (1 << 30) - 4 * A_WORKER);
+        assert_eq!(after_workers(1 << 30, 4, 5), 1 << 30);
+        assert_eq!(after_workers(1 << 20, 4, 1), 0);
     }
 
     #[test]

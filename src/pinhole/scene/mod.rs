@@ -127,7 +127,7 @@ pub use lens::{Aperture, Lens};
 pub use light_tracing::LightTracing;
 pub use material::*;
 #[doc(hidden)]
-pub use memory::{TooLittleMemory, check_memory, in_words};
+pub use memory::{TooLittleMemory, check_memory, check_workers, in_words};
 #[doc(hidden)]
 pub use mesh_instance::MeshGeometry;
 pub use mesh_instance::MeshInstance;

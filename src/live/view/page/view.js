@@ -399,19 +399,52 @@ part("save").addEventListener("click", save);
 part("view").addEventListener("click", putView);
 part("text").addEventListener("input", () => listNumbers());
 
-/** The entities of the text: where each begins and ends. */
+/** Where what begins at a place of the text ends: a string, a raw string or a comment; the place itself if none does. */
+const after = (text, at) => {
+  const found = (what, from) => {
+    const place = text.indexOf(what, from);
+    return place < 0 ? text.length : place + what.length;
+  };
+  const [letter, next] = [text[at], text[at + 1]];
+  if (letter === '"') {
+    let end = at + 1;
+    while (end < text.length && text[end] !== '"') end += text[end] === "\\" ? 2 : 1;
+    return Math.min(end + 1, text.length);
+  }
+  if (letter === "r" && (next === "#" || next === '"') && !/\w/.test(text[at - 1] ?? " ")) {
+    let hashes = at + 1;
+    while (text[hashes] === "#") hashes += 1;
+    if (text[hashes] === '"') return found(`"${"#".repeat(hashes - at - 1)}`, hashes + 1);
+  }
+  if (letter === "/" && next === "/") return found("\n", at);
+  if (letter !== "/" || next !== "*") return at;
+  let [depth, end] = [1, at + 2];
+  while (depth > 0 && end < text.length) {
+    const two = text[end] + text[end + 1];
+    depth += two === "/*" ? 1 : two === "*/" ? -1 : 0;
+    end += two === "/*" || two === "*/" ? 2 : 1;
+  }
+  return end;
+};
+
+/** The entities of the text: where each begins and ends. Every letter is looked at once. */
 const entities = (text) => {
   const found = [];
-  let [depth, start] = [0, 0];
-  const tokens = /"(?:[^"\\]|\\.)*"|\/\/[^\n]*|\/\*[^]*?\*\/|[([{]|[)\]}]/g;
-  for (const { 0: token, index } of text.matchAll(tokens)) {
-    if ("([{".includes(token)) {
-      if (depth === 1) start = index;
-      depth += 1;
-    } else if (")]}".includes(token)) {
-      depth -= 1;
-      if (depth === 1) found.push([start, index + 1]);
+  let [depth, start, at] = [0, 0, 0];
+  while (at < text.length) {
+    const end = after(text, at);
+    if (end > at) {
+      at = end;
+      continue;
     }
+    if ("([{".includes(text[at])) {
+      if (depth === 1) start = at;
+      depth += 1;
+    } else if (")]}".includes(text[at])) {
+      depth -= 1;
+      if (depth === 1) found.push([start, at + 1]);
+    }
+    at += 1;
   }
   return found;
 };

@@ -44,15 +44,15 @@ impl Scene for Ball {
 
 #[test]
 fn a_frame_that_an_order_stops_is_begun_again() {
-    let (waiting, (shown, frames)) = (Arc::<AtomicBool>::default(), watch::channel(Shown::default()));
-    let mut viewer = Viewer::new(Rc::new(Ball), None, shown, Arc::clone(&waiting)).expect("a scene");
+    let (attention, (shown, frames)) = (Arc::<Attention>::default(), watch::channel(Shown::default()));
+    let mut viewer = Viewer::new(Rc::new(Ball), None, shown, Arc::clone(&attention)).expect("a scene");
     viewer.frame();
     assert!(viewer.done && viewer.begun != Some(viewer.full), "the first frame is coarse: {:?}", viewer.begun);
     std::thread::sleep(Duration::from_millis(400));
-    waiting.store(true, Ordering::SeqCst);
+    attention.order();
     viewer.frame();
     assert!(!viewer.done && frames.borrow().frame == 1, "the order stopped it before anything was shown");
-    waiting.store(false, Ordering::SeqCst);
+    attention.taken();
     viewer.frame();
     assert_eq!((viewer.begun, frames.borrow().frame), (Some(viewer.full), 2));
 }

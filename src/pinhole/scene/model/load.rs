@@ -73,7 +73,11 @@ fn spawn_parts(
         let number = instance.material.unwrap_or(usize::MAX);
         let material = own.unwrap_or_else(|| {
             let key = (file.to_owned(), number);
-            *materials.entry(key).or_insert_with(|| spawn_material(scene, model, number, notes))
+            *materials.entry(key).or_insert_with(|| {
+                let material = spawn_material(scene, model, number, notes);
+                scene.entity_mut(material).insert(MeshPart(entity));
+                material
+            })
         });
         let (geometry, outer, placement) = placed(model, instance);
         let parent = outer.map_or(entity, |outer| scene.spawn((outer, MeshPart(entity), ChildOf(entity))).id());
