@@ -252,9 +252,12 @@ fn a_damaged_file_of_progress_is_set_aside() {
         fs::write(&file, &bytes).expect("written");
         let (said, ended) = turn(&right(), &file);
         assert!(ended.is_none() && said.contains("is damaged") && said.contains("is set aside as"), "{said}");
-        assert_eq!(fs::read(folder.path().join("check.damaged.json")).expect("set aside"), bytes);
+        let aside = said.split("is set aside as ").nth(1).and_then(|rest| rest.split(';').next()).expect("a name");
+        assert_eq!(fs::read(aside).expect("set aside"), bytes);
         assert!(Progress::read(&file).0.of("05_pinhole").done);
         damaged += 1;
+        let kept = fs::read_dir(folder.path()).expect("listed").count();
+        assert_eq!(kept, damaged + 1, "what was set aside before stays");
     }
     let occluders = folder.path().join("folder");
     fs::create_dir(&occluders).expect("made");

@@ -3,7 +3,8 @@ use super::options::RenderOptions;
 use super::subject::Subject;
 use pinhole::extract::shape_names;
 use pinhole::film::{
-    Curve, Film, FilmLayers, Replaces, Target, check_place, png_bytes, write_exr, write_layered_exr, write_png,
+    Curve, Film, FilmLayers, Replaces, Target, check_place, may_be_written, png_bytes, write_exr, write_layered_exr,
+    write_png,
 };
 use pinhole::plan::{Census, Plan};
 use pinhole::scene::printable_path;
@@ -20,7 +21,12 @@ pub struct Targets {
     pub standard_output: bool,
     /// Whether the reader has named them, so that they replace what is there.
     pub named: bool,
+    /// What is to be said of where they go.
+    pub note: Option<String>,
 }
+
+/// How many names are tried in `out/`.
+const MOST_NAMES: u32 = 99;
 
 impl Targets {
     /// What is asked for, or both kinds in `out/`.
@@ -29,8 +35,7 @@ impl Targets {
             let column = options.scene.view.as_ref().map(|column| column.replace([' ', '/', '\\'], "_"));
             let naive = options.naive.map(|method| method.name.to_owned());
             let stem = [Some(subject.stem()), naive, column].into_iter().flatten().collect::<Vec<_>>().join("_");
-            let pictures = ["png", "exr"].map(|ending| Path::new("out").join(format!("{stem}.{ending}"))).to_vec();
-            return Ok(Self { pictures, ..Self::default() });
+            return Ok(Self::in_out(&stem));
         }
         let mut targets = Self { named: !options.output_is_chosen, ..Self::default() };
         for file in &options.output {
@@ -46,6 +51,25 @@ impl Targets {
             }
         }
         Ok(targets)
+    }
+
+    /// Both kinds in `out/`, under the first name that belongs to no file of others.
+    fn in_out(stem: &str) -> Self {
+        let pictures = |number: u32| {
+            let stem = if number == 1 { stem.to_owned() } else { format!("{stem}-{number}") };
+            ["png", "exr"].map(|ending| Path::new("out").join(format!("{stem}.{ending}")))
+        };
+        let is_free = |number: &u32| pictures(*number).iter().all(|file| may_be_written(Replaces::Own.at(file)));
+        // Where none is, writing says why.
+        let number = (1..=MOST_NAMES).find(is_free).unwrap_or(1);
+        let mut targets = Self { pictures: pictures(number).to_vec(), ..Self::default() };
+        if let (2.., Some(taken)) = (number, pictures(1).iter().find(|file| !may_be_written(Replaces::Own.at(*file)))) {
+            let taken = printable_path(taken);
+            let told = targets.told(None);
+            targets.note =
+                Some(format!("note: {taken} is not pinhole's to replace and stays, so this picture is {told}"));
+        }
+        targets
     }
 
     /// Checks that all of them can be written.
@@ -152,7 +176,7 @@ mod tests {
     fn files_that_differ_in_their_ending_are_told_once() {
         let told = |files: &[&str], checkpoint: Option<&str>, standard_output: bool| {
             let pictures = files.iter().map(PathBuf::from).collect();
-            Targets { pictures, standard_output, named: true }.told(checkpoint.map(Path::new))
+            Targets { pictures, standard_output, ..Targets::default() }.told(checkpoint.map(Path::new))
         };
         assert_eq!(told(&["out/a.png", "out/a.exr"], None, false), "out/a.png and .exr");
         assert_eq!(told(&["a.png", "a.exr"], Some("a.checkpoint"), false), "a.png, .exr and .checkpoint");

@@ -45,10 +45,11 @@ pub fn render_long(
 ) -> Result<LongRender> {
     let (key, first) = (film_key(scene, &render.plan), files.targets.checkpoint());
     let limits = Limits { time: options.time, write_every: options.write_every, adaptive: adaptive_of(scene)? };
-    let mut found = None;
+    let (mut found, mut has_first_name) = (None, true);
     if let Some(first) = &first {
         let place = checkpoint_place(first, key);
         found = place.as_ref().and_then(|(_, kept)| *kept);
+        has_first_name = place.as_ref().is_some_and(|(path, _)| path == first);
         if options.resume {
             say(&resume(render, key, limits.adaptive.is_some(), (first, place))?)?;
         } else if let Some(said) = said_of(first, place) {
@@ -69,7 +70,9 @@ pub fn render_long(
             }
         };
     }
-    let worth_keeping = outcome.time >= WORTH_KEEPING || options.write_every.is_some() || options.resume;
+    // Beside the checkpoint of another render, that of a finished one would be one more with each change of the scene.
+    let worth_keeping =
+        (outcome.time >= WORTH_KEEPING && has_first_name) || options.write_every.is_some() || options.resume;
     let keeps = outcome.stopped || worth_keeping || found.is_some();
     let written = kept.at_the_end(&render.film, keeps, outcome.stopped, say)?;
     drop(ends_by_itself);
@@ -84,8 +87,8 @@ pub fn render_long(
         _ => refused.into(),
     })?;
     let checkpoint = match written.checkpoint {
-        Some(Ok((checkpoint, true))) => Some(checkpoint),
-        Some(Ok((_, false))) | None => None,
+        Some(Ok((checkpoint, true))) if keeps => Some(checkpoint),
+        Some(Ok(_)) | None => None,
         Some(Err(refused)) => {
             say(&format!("warning: {refused}; the picture is complete, but nothing continues from it"))?;
             None
@@ -136,11 +139,11 @@ impl Kept<'_> {
     }
 
     fn checkpoint(&mut self, film: &Film) -> Option<pinhole::Result<(PathBuf, bool)>> {
-        let kept = keep_checkpoint(film, self.key, self.first?);
-        if let Ok((path, true)) = &kept {
+        let kept = keep_checkpoint(film, self.key, self.first?).transpose();
+        if let Some(Ok((path, true))) = &kept {
             self.wrote = Some(path.clone());
         }
-        Some(kept)
+        kept
     }
 
     /// Writes what there is, and tries again for a while where that fails.

@@ -201,6 +201,9 @@ fn render_with(
     let json = options.stats || format == Format::Json;
     let targets = Targets::of(subject, options)?;
     targets.check()?;
+    if let (Some(note), false) = (&targets.note, json) {
+        streams.note(note)?;
+    }
     let execution = Execution { threads: options.threads.map(usize::from), ..Execution::default() };
     let asked = options.asked(!options.quiet);
     let scene = subject.world(&asked);

@@ -167,3 +167,25 @@ fn killed_at_once_it_begins_anew() {
     assert!(first.status.success() && text(&first.stderr).contains("begins anew"), "{}", text(&first.stderr));
     assert!(picture(folder.path()).iter().all(|bytes| !bytes.is_empty()));
 }
+
+/// A scene that is edited and rendered again and again leaves no row of checkpoints, and each render is done at once.
+#[test]
+fn other_checkpoints_are_no_hindrance() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path();
+    let words = |seed: u32| format!("render 5 --size 16x9 -q -n 3 --seed {seed} -o w.png");
+    assert!(ended(path, &(words(0) + " --write-every 1ms")).status.success());
+    for seed in 1..4 {
+        let other = ended(path, &words(seed));
+        assert!(said(&other).contains("w.checkpoint is no checkpoint of this render and stays"), "{}", said(&other));
+        assert_eq!(checkpoints(path), ["w.checkpoint"]);
+    }
+    for number in 2..=9 {
+        fs::write(path.join(format!("w-{number}.checkpoint")), "precious").expect("written");
+    }
+    let began = Instant::now();
+    let none = ended(path, &(words(5) + " --write-every 1ms"));
+    assert!(none.status.success() && said(&none).contains("this render leaves no checkpoint"), "{}", said(&none));
+    assert!(began.elapsed() < Duration::from_secs(5), "it waited for a name");
+    assert_eq!(checkpoints(path).len(), 9);
+}

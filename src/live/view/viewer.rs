@@ -100,9 +100,8 @@ impl Viewer {
     pub fn run(&mut self, letters: &Receiver<Letter>) {
         loop {
             self.attention.taken();
-            while let Ok((order, reply)) = letters.try_recv() {
-                // Who has left needs no answer.
-                let _ = reply.send(self.carry_out(order));
+            while let Ok(letter) = letters.try_recv() {
+                self.answer(letter);
             }
             let coarse = self.begun.is_some_and(|size| size != self.full);
             let unfinished = !self.done || (coarse && !self.pace.is_moving());
@@ -117,10 +116,17 @@ impl Viewer {
                 letters.recv().map_err(RecvTimeoutError::from)
             };
             match next {
-                Ok((order, reply)) => _ = reply.send(self.carry_out(order)),
+                Ok(letter) => self.answer(letter),
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return,
             }
+        }
+    }
+
+    /// Carries out an order, unless whoever sent it has left: they were told that nothing came of it.
+    fn answer(&mut self, (order, reply): Letter) {
+        if !reply.is_closed() {
+            let _ = reply.send(self.carry_out(order));
         }
     }
 

@@ -4,8 +4,8 @@
 
 use super::checkpoint::{heading, write_checkpoint};
 use super::{Film, Replaces};
+use crate::Result;
 use crate::scene::Unopened;
-use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 
 /// How many names are tried.
@@ -66,28 +66,25 @@ pub fn checkpoint_place(first: &Path, key: u64) -> Option<(PathBuf, Option<Sampl
 }
 
 /// Writes a checkpoint, unless there is one of the same render with more samples; says where it is and whether it was
-/// written.
+/// written. None where other files have all names.
 ///
-/// Errors: the path and the error of the operating system, or other files have all names.
-pub fn keep_checkpoint(film: &Film, key: u64, first: &Path) -> Result<(PathBuf, bool)> {
+/// Errors: the path and the error of the operating system.
+pub fn keep_checkpoint(film: &Film, key: u64, first: &Path) -> Result<Option<(PathBuf, bool)>> {
     let own = SamplesKept::of(film);
     let no_more = |there: CheckpointAt| match there {
         CheckpointAt::Missing => true,
         CheckpointAt::Own(kept) => kept <= own,
         CheckpointAt::Other => false,
     };
-    let (path, kept) = checkpoint_place(first, key).ok_or_else(|| Error::Write {
-        path: first.into(),
-        source: std::io::Error::other("other files have this name and those with a number after it"),
-    })?;
+    let Some((path, kept)) = checkpoint_place(first, key) else { return Ok(None) };
     if kept.is_some_and(|kept| kept > own) {
-        return Ok((path, false));
+        return Ok(Some((path, false)));
     }
     let may_go = |path: &Path| no_more(checkpoint_at(path, key));
     // What another render writes under a name that was free stays, even at the same moment.
     let replaces = if kept.is_some() { Replaces::If(&may_go) } else { Replaces::Nothing };
     write_checkpoint(film, key, replaces.at(&path))?;
-    Ok((path, true))
+    Ok(Some((path, true)))
 }
 
 fn names(first: &Path) -> impl Iterator<Item = PathBuf> {
@@ -123,19 +120,18 @@ mod tests {
         fs::write(&first, "precious").expect("written");
         fs::create_dir(path("w-2.checkpoint")).expect("made");
         for (key, name) in [(1, "w-3.checkpoint"), (2, "w-4.checkpoint")] {
-            assert_eq!(keep_checkpoint(&film(3), key, &first).expect("written"), (path(name), true));
-            assert_eq!(keep_checkpoint(&film(2), key, &first).expect("kept"), (path(name), false));
+            assert_eq!(keep_checkpoint(&film(3), key, &first).expect("written"), Some((path(name), true)));
+            assert_eq!(keep_checkpoint(&film(2), key, &first).expect("kept"), Some((path(name), false)));
             assert_eq!(checkpoint_at(&path(name), key), CheckpointAt::Own(SamplesKept::of(&film(3))));
             assert_eq!(checkpoint_at(&path(name), key + 1), CheckpointAt::Other);
-            assert_eq!(keep_checkpoint(&film(5), key, &first).expect("written"), (path(name), true));
+            assert_eq!(keep_checkpoint(&film(5), key, &first).expect("written"), Some((path(name), true)));
             assert_eq!(checkpoint_at(&path(name), key), CheckpointAt::Own(SamplesKept::of(&film(5))));
         }
         assert_eq!(fs::read(&first).expect("there"), b"precious");
         for number in 5..=9 {
             fs::write(path(&format!("w-{number}.checkpoint")), "precious").expect("written");
         }
-        let refused = keep_checkpoint(&film(9), 3, &first).expect_err("no name is left").to_string();
-        assert!(refused.ends_with("other files have this name and those with a number after it"), "{refused}");
+        assert_eq!(keep_checkpoint(&film(9), 3, &first).expect("no name is left"), None);
     }
 
     #[test]

@@ -80,6 +80,10 @@ fn samples(film: &Film, kind: LayerKind, channel: usize) -> FlatSamples {
 
 /// A value of every pixel, line by line from the top.
 fn pixels<T>(film: &Film, value: impl Fn(u32, u32) -> T) -> Vec<T> {
-    let lines = (0..film.height).flat_map(|y| (0..film.width).map(move |x| (x, y)));
-    lines.map(|(x, y)| value(x, y)).collect()
+    // As much as there is, and no more: a list that grows asks for up to twice its length.
+    let mut values = Vec::with_capacity(film.width as usize * film.height as usize);
+    for y in 0..film.height {
+        values.extend((0..film.width).map(|x| value(x, y)));
+    }
+    values
 }

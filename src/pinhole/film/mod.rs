@@ -68,4 +68,4 @@ pub use reproject::History;
 pub use splats::{FilmSplats, SplatFilter};
 pub use tiled_film::Film;
 #[doc(hidden)]
-pub use whole_file::{check_place, remove_own, set_aside, write_whole, writes_in_progress};
+pub use whole_file::{check_place, may_be_written, remove_own, set_aside, write_whole, writes_in_progress};

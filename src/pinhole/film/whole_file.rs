@@ -16,7 +16,7 @@ const STALE: Duration = Duration::from_secs(3600);
 /// The largest number of symbolic links followed.
 const MOST_LINKS: usize = 40;
 /// The most files that are set aside under one name.
-const MOST_ASIDE: u32 = 99;
+const MOST_ASIDE: u32 = 9999;
 
 static IN_PROGRESS: AtomicUsize = AtomicUsize::new(0);
 
@@ -66,6 +66,12 @@ pub fn check_place<'a>(target: impl Into<Target<'a>>) -> Result {
     let (_in_progress, target) = (InProgress::begin(), target.into());
     let place = resolved(target.path).and_then(|path| place_beside(&path, &target));
     place.map(|_| ()).map_err(|source| Error::Write { path: target.path.into(), source })
+}
+
+/// Whether nothing is at a path, or what may be replaced.
+pub fn may_be_written<'a>(target: impl Into<Target<'a>>) -> bool {
+    let target = target.into();
+    resolved(target.path).and_then(|path| target.check(&path)).is_ok()
 }
 
 /// Removes a file that may be replaced, if it is there; says whether it was.
