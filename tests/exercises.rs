@@ -252,7 +252,8 @@ fn a_damaged_file_of_progress_is_set_aside() {
         fs::write(&file, &bytes).expect("written");
         let (said, ended) = turn(&right(), &file);
         assert!(ended.is_none() && said.contains("is damaged") && said.contains("is set aside as"), "{said}");
-        let aside = said.split("is set aside as ").nth(1).and_then(|rest| rest.split(';').next()).expect("a name");
+        let aside =
+            said.split("is set aside as ").nth(1).and_then(|rest| rest.split(", and counting").next()).expect("a name");
         assert_eq!(fs::read(aside).expect("set aside"), bytes);
         assert!(Progress::read(&file).0.of("05_pinhole").done);
         damaged += 1;

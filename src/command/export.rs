@@ -60,7 +60,7 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &m
     if !is_scene_file(file) {
         return refused("the name must end in .ron");
     }
-    if file.symlink_metadata().is_ok() {
+    if file.symlink_metadata().is_ok_and(|found| !found.is_dir()) {
         return refused("it is there already and may have been edited; move it away, or choose another name");
     }
     check_place(Replaces::Nothing.at(file))?;
