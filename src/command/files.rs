@@ -63,7 +63,7 @@ impl Targets {
         // Where none is, writing says why.
         let number = (1..=MOST_NAMES).find(is_free).unwrap_or(1);
         let mut targets = Self { pictures: pictures(number).to_vec(), ..Self::default() };
-        if let (2.., Some(taken)) = (number, pictures(1).iter().find(|file| !may_be_written(Replaces::Own.at(*file)))) {
+        if let (2.., Some(taken)) = (number, pictures(1).iter().find(|file| !may_be_written(Replaces::Own.at(file)))) {
             let taken = printable_path(taken);
             let told = targets.told(None);
             targets.note =

@@ -44,7 +44,8 @@ mod tests {
     #[test]
     fn names_are_shown_and_pictures_stay() {
         let mut out = Vec::new();
-        write!(Visible(&mut out), "a{}b\n", "\u{1b}[31m\t\u{202e}\u{9b}\r").expect("written");
+        let name = "\u{1b}[31m\t\u{202e}\u{9b}\r";
+        writeln!(Visible(&mut out), "a{name}b").expect("written");
         Visible(&mut out).write_all(b"\x89PNG\r\n\x1a\n").expect("written");
         assert_eq!(out, b"a\\u{1b}[31m\\u{9}\\u{202e}\\u{9b}\\u{d}b\n\x89PNG\r\n\x1a\n");
     }

@@ -219,7 +219,7 @@ mod tests {
         // A corner in the middle of an edge.
         let straight = vec![[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [1.0, 2.0]];
         let comb: Vec<[f64; 2]> = (0..40)
-            .map(|tooth| [f64::from(tooth), if tooth % 2 == 0 { 5.0 } else { 0.1 }])
+            .map(|tooth| [f64::from(tooth), if tooth & 1 == 0 { 5.0 } else { 0.1 }])
             .chain([[39.0, -1.0], [0.0, -1.0]])
             .rev()
             .collect();
@@ -251,7 +251,7 @@ mod tests {
             assert_eq!((triangles.len(), fans), (points.len() - 2, 1), "{points:?}");
         }
         // So many teeth that cutting them one by one would take minutes.
-        let tooth = |own: u32| [f64::from(own), if own % 2 == 0 { 5.0 } else { 0.1 }];
+        let tooth = |own: u32| [f64::from(own), if own.is_multiple_of(2) { 5.0 } else { 0.1 }];
         let saw: Vec<[f64; 2]> = (0..100_000).map(tooth).chain([[99_999.0, -1.0], [0.0, -1.0]]).rev().collect();
         assert_eq!(cut(&saw).0.len(), saw.len() - 2);
     }

@@ -235,6 +235,17 @@ fn a_mesh() -> World {
     world
 }
 
+/// The same mesh, in the colours of its vertices.
+fn a_tinted_mesh() -> World {
+    let mut world = a_mesh();
+    let mesh = world.query_filtered::<Entity, With<MeshInstance>>().single(&world).expect("one mesh");
+    let mut octahedron = (*world.get::<MeshInstance>(mesh).expect("its geometry").geometry).clone();
+    octahedron.colours = Some(octahedron.positions.iter().map(|at| at.map(f32::abs)).collect());
+    let geometry = MeshGeometry::new(octahedron);
+    world.entity_mut(mesh).insert((MeshInstance { geometry }, Tint { factor: Rgb::grey(1.0), by_vertex: true }));
+    world
+}
+
 #[test]
 fn forcing_a_needed_stage_off_shows() {
     let two_bounces = Integrator::Path { max_depth: 2, lights: LightStrategy::Mis, roulette: 0 };
@@ -274,6 +285,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("bumps", bumps()),
         ("maps", maps()),
         ("a mesh", a_mesh()),
+        ("a tinted mesh", a_tinted_mesh()),
         ("a rasterised mesh", rasterised(a_mesh())),
         ("rasterised shapes", rasterised(shapes_of_all_kinds(Setup { size, ..Setup::default() }))),
         ("rasterised ellipsoids", rasterised(stretched(Setup { size, ..Setup::default() }))),

@@ -35,7 +35,7 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
         scene
     };
     let paths = |setup: Setup| followed(INTEGRATORS[6], setup);
-    let scenes: [fn(Setup) -> World; 10] = [
+    let scenes: [fn(Setup) -> World; 11] = [
         full,
         stretched,
         shapes_of_all_kinds,
@@ -45,6 +45,7 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
         sampled,
         scenes::blurred,
         scenes::moving,
+        scenes::material::specular,
         paths,
     ];
     for (eye, scene_of) in EYES.into_iter().flat_map(|eye| scenes.map(|scene| (eye, scene))) {

@@ -180,7 +180,7 @@ impl Faces {
     }
 
     /// The positions of its vertices.
-    pub fn positions<'c>(&self, columns: &'c Columns) -> impl Iterator<Item = [f64; 3]> {
+    pub fn positions(&self, columns: &Columns) -> impl Iterator<Item = [f64; 3]> {
         self.corners.iter().map(|corner| columns.positions[corner.position as usize])
     }
 

@@ -196,7 +196,7 @@ pub fn read_strips<'b>(
                 let index = index as u32;
                 match length {
                     0 | 1 => {}
-                    even if even % 2 == 0 => polygons.add_triangle([strip[0], strip[1], index]),
+                    even if even.is_multiple_of(2) => polygons.add_triangle([strip[0], strip[1], index]),
                     _ => polygons.add_triangle([strip[1], strip[0], index]),
                 }
                 (strip, length) = ([strip[1], index], length + 1);

@@ -30,7 +30,7 @@ pub struct Header {
 
 /// The line at the start of a text, without spaces about it, and what follows; its end may be a line feed, a carriage
 /// return, or both.
-fn first_line<'b>(text: &'b [u8], by_return: bool) -> Option<(&'b [u8], &'b [u8])> {
+fn first_line(text: &[u8], by_return: bool) -> Option<(&[u8], &[u8])> {
     let end = text.iter().position(|byte| *byte == if by_return { b'\r' } else { b'\n' })?;
     Some((text[..end].trim_ascii(), &text[end + 1..]))
 }

@@ -1,11 +1,10 @@
 //! Factors of surfaces' colours: those of the material, and those of a mesh's vertices.
 
 use super::SurfaceColours;
-use crate::extract::{
-    MeshTable, MovingTable, ShapeTable, TintTable, moving_evidence, tint_evidence, vertex_colour_evidence,
-};
+use super::row_slopes::with_mesh_slopes;
+use crate::extract::{MeshTable, MovingTable, ShapeTable, TintTable, tint_evidence, vertex_colour_evidence};
 use crate::intersect::{HitPrimitives, Hits, MaterialRows, Surfaces, at_rest};
-use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Shared, Stage, TileSystems};
 use crate::rays::{RayTimes, WorldRays};
 use crate::shapes::{Body, PlacedMesh, RayHit, ShapeKind};
 use bevy_ecs::prelude::*;
@@ -67,15 +66,8 @@ pub fn tint_surfaces(tints: Res<Shared<TintTable>>, meshes: ColouredMeshes<'_>, 
 
 /// The stage that runs [`tint_surfaces`].
 pub fn tint_stage() -> Stage {
-    Stage::new("Multiply by vertex colours", TileSystems::Tint, tint_surfaces)
-        .table_where::<ShapeTable>(vertex_colour_evidence)
-        .table_where::<MeshTable>(vertex_colour_evidence)
-        .table_where::<MovingTable>(moving_colour_evidence)
+    // What moves has been intersected with its table and its times, which are there therefore.
+    with_mesh_slopes(Stage::new("Multiply by vertex colours", TileSystems::Tint, tint_surfaces))
         .reads_where::<HitPrimitives>(vertex_colour_evidence)
-        .reads_where::<RayTimes>(moving_colour_evidence)
         .when(tint_evidence)
-}
-
-fn moving_colour_evidence(scene: &Census<'_>) -> Evidence {
-    vertex_colour_evidence(scene).and(|| moving_evidence(scene))
 }
