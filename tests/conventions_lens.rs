@@ -40,7 +40,7 @@ fn a_lens_is_told_to_every_program() {
             let told = match program {
                 Program::OneWeekend => {
                     let distance = number(&text, "focus_dist");
-                    Some([distance * (number(&text, "defocus_angle").to_radians() / 2.0).tan(), distance])
+                    Some([distance * libm::tan(number(&text, "defocus_angle").to_radians() / 2.0), distance])
                 }
                 Program::GroundUp => Some([number(&text, "set_lens_radius"), number(&text, "set_focal_distance")]),
                 Program::Pbrt => Some([number(&text, "lensradius"), number(&text, "focaldistance")]),

@@ -53,7 +53,7 @@ fn the_rust_that_is_asked_for_is_the_rust_that_is_needed() {
 fn features(edges: &str) -> BTreeMap<String, BTreeSet<String>> {
     let words = ["tree", "--offline", "--locked", "-e", edges, "--prefix", "none", "-f", "{p} [{f}]"];
     let mut found: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for line in cargo(&words).lines() {
+    for line in cargo(&words).lines().filter(|line| !line.is_empty()) {
         let line = line.trim_end_matches(" (*)");
         let (package, features) = line.split_once(" [").expect("features");
         found.entry(package.into()).or_default().insert(features.into());

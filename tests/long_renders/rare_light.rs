@@ -38,7 +38,7 @@ fn truth(x: u32, y: u32) -> f64 {
     let back = EYE.normalize();
     let right = DVec3::Y.cross(back).normalize();
     let up = back.cross(right);
-    let tan = (PI / 9.0).tan();
+    let tan = libm::tan(PI / 9.0);
     let of_point = |point: u32| {
         let along =
             |pixel: u32, at: u32| (f64::from(pixel) + (f64::from(at) + 0.5) / f64::from(POINTS)) / f64::from(SIDE);

@@ -170,7 +170,7 @@ impl Pilot {
     ///
     /// Of a pixel's samples one that returns light is enough, and where none of n rays did, one of the next n may.
     pub fn lit_fraction(&self, samples: f64) -> f64 {
-        let some = |fraction: f64| 1.0 - (1.0 - fraction).powf(samples);
+        let some = |fraction: f64| 1.0 - libm::pow(1.0 - fraction, samples);
         let seen = || self.light.iter().filter(|tile| tile.rays > 0);
         let lit: f64 = seen().map(|tile| some(tile.lit as f64 / tile.rays as f64)).sum();
         let unseen = if samples > 1.0 { some(1.0 / self.rays.max(1) as f64) } else { 0.0 };

@@ -3,7 +3,7 @@
 use crate::plan::Census;
 use crate::scene::{Environment, FisheyeCamera, PerspectiveCamera, Placement, SpotLight, called};
 use bevy_ecs::prelude::*;
-use glam::EulerRot;
+use glam::{DMat3, DQuat};
 use std::f64::consts::{PI, TAU};
 
 /// Angles of view between which a number may be one in radians: 10° to 120°.
@@ -68,9 +68,13 @@ fn is_part_of_circle(angle: f64) -> bool {
 
 /// The angle of a rotation by so few degrees that it must have been meant in radians: about an axis, or about x, y and z
 /// one after another.
-fn radian_turn(orientation: glam::DQuat) -> Option<f64> {
-    let (_, angle) = orientation.to_axis_angle();
-    let (z, y, x) = orientation.to_euler(EulerRot::ZYX);
+fn radian_turn(orientation: DQuat) -> Option<f64> {
+    // The angle about the axis, and those of Z · Y · X.
+    let angle = 2.0 * libm::atan2(orientation.xyz().length(), orientation.w.abs());
+    let turned = DMat3::from_quat(orientation);
+    let x = libm::atan2(turned.y_axis.z, turned.z_axis.z);
+    let y = libm::asin((-turned.x_axis.z).clamp(-1.0, 1.0));
+    let z = libm::atan2(turned.x_axis.y, turned.x_axis.x);
     let turns = [angle, x, y, z].map(|turn| (1e6 * turn.to_degrees()).round() / 1e6);
     turns.into_iter().find(|&turn| is_part_of_circle(turn))
 }
