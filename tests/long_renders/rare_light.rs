@@ -11,7 +11,8 @@ const LAMP: DVec3 = DVec3::new(-0.8, 1.0, 0.0);
 fn scene(seed: u64, sampler: Sampler, adaptive: Adaptive, samples: u32) -> World {
     let mut world = World::new();
     let camera = PerspectiveCamera { fov: Degrees(40.0), axis: FovAxis::Vertical };
-    let (look, resolution) = (LookAt { eye: EYE, ..LookAt::default() }, Resolution { width: SIDE, height: SIDE });
+    let (look, resolution) =
+        (LookAt { eye: EYE, target: DVec3::ZERO, ..LookAt::default() }, Resolution { width: SIDE, height: SIDE });
     let sampling = Sampling { samples, seed, sampler, filter: Filter::Box { radius: 0.5 } };
     let by = Integrator::Path { max_depth: 2, lights: LightStrategy::Bsdf, roulette: 0 };
     world.spawn((Name::new("camera"), camera, look, resolution, sampling, by, adaptive));
