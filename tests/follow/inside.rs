@@ -55,7 +55,7 @@ impl Body {
                     let vertices = if octant.count_ones() % 2 == 0 { [a, b, c] } else { [a, c, b] };
                     world.spawn((Triangle { vertices, ..Triangle::default() }, ChildOf(body), UsesMaterial(glass)));
                 }
-                return;
+                world.entity_mut(body)
             }
             other => panic!("{other}"),
         };
@@ -129,7 +129,7 @@ fn arrangements() -> Vec<(String, Vec<Body>)> {
             all.push((format!("a light in a {kind}"), vec![of_light]));
             let both = vec![around, of_light];
             all.push((format!("a light in a {kind} within another"), both.clone()));
-            all.push((format!("the same the other way about"), both.into_iter().rev().collect()));
+            all.push(("the same the other way about".to_string(), both.into_iter().rev().collect()));
         }
     }
     let large = body("ball", [0.0, 0.3, 0.0], [3.0; 3], [0.5, 0.3, 0.1], 0);

@@ -71,7 +71,7 @@ fn save_replaces_nothing_but_what_it_knows() {
         let before = fs::symlink_metadata(&file).expect("there");
         let held = before
             .is_file()
-            .then(|| before.len())
+            .then_some(before.len())
             .filter(|&bytes| bytes < 1 << 25)
             .map(|_| fs::read(&file).expect("read"));
         let (status, said) = viewing.order(&json!({ "save": format!("{text}// mine\n") }));

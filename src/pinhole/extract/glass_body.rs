@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 #[derive(Clone, Debug, PartialEq)]
 enum Enclosure {
     /// A shape with an inside of its own.
-    Shape(Body),
+    Shape(Box<Body>),
     /// The loose triangles of one glass, which close around its inside: corners and outward normals.
     Triangles(Vec<([DVec3; 3], DVec3)>),
 }
@@ -89,7 +89,7 @@ impl Table for GlassBodyTable {
                     triangles.push((row.corners, face.normal));
                 }
             } else {
-                table.row.push(GlassBody { enclosure: Enclosure::Shape(body), glass, velocity, bounds });
+                table.row.push(GlassBody { enclosure: Enclosure::Shape(Box::new(body)), glass, velocity, bounds });
             }
         }
         table.row.extend(loose.into_values());

@@ -89,6 +89,7 @@ mod tests {
     fn turns_in_radians_are_told_from_turns_in_degrees() {
         let turn = |x: f64, y: f64, z: f64| radian_turn(euler_xyz(Degrees(x), Degrees(y), Degrees(z)));
         let mut tried = 0;
+        #[allow(clippy::approx_constant, reason = "as authors write them")]
         for quarter in [1.57, 1.5708, 3.14159, 0.785, 0.7854, 1.0472, 0.5236, 2.356, 4.712] {
             for [x, y, z] in [[quarter, 0.0, 0.0], [0.0, quarter, 0.0], [0.0, 0.0, -quarter], [0.0, quarter, 0.785]] {
                 assert!(turn(x, y, z).is_some(), "{x} {y} {z}");
