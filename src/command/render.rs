@@ -220,12 +220,10 @@ fn render_with(
     if let (Some(what), true) = (&watched, streams.waits) {
         Progress::announce(what, render.film.width, render.film.height);
     }
-    if let (Some(ModelNotes(notes)), false) = (scene.get_resource(), json || options.quiet) {
-        notes.iter().try_for_each(|note| streams.note(&format!("note: {note}")))?;
-    }
     if !(json || options.quiet) {
-        let remarks = image_remarks(census)?;
-        remarks.iter().try_for_each(|remark| streams.note(&format!("note: {remark}")))?;
+        let notes = scene.get_resource().map_or(&[][..], |ModelNotes(notes)| &notes[..]);
+        let said = notes.iter().chain(&*image_remarks(census)?).map(|note| format!("note: {note}")).collect::<Vec<_>>();
+        said.iter().try_for_each(|note| streams.note(note))?;
     }
     let Foretold { warnings: said, lit_pixel } = before_rendering(census, options, (&render, began), json, streams)?;
 

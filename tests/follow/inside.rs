@@ -1,5 +1,5 @@
 //! Light inside glass and between glass: cameras and lights of every kind among bodies that nest, overlap, touch, are
-//! hollow or very thin, against closed forms, and the ways to find light against each other.
+//! hollow or very thin, against closed forms, and the methods to find light against each other.
 
 use super::*;
 use glam::{DQuat, DVec3};
@@ -104,7 +104,7 @@ fn between(bodies: &[Body], from: DVec3, to: DVec3) -> ([f64; 3], bool) {
     (depth.map(|depth: f64| (-depth).exp()), crosses || inside(to) != first)
 }
 
-/// Ways in which up to four bodies stand about a floor at the origin and a light at [`LIGHT`].
+/// Arrangements of up to four bodies about a floor at the origin and a light at [`LIGHT`].
 fn arrangements() -> Vec<(String, Vec<Body>)> {
     let body = |kind, centre: [f64; 3], half: [f64; 3], absorption: [f64; 3], priority| Body {
         kind,
@@ -268,23 +268,25 @@ fn closed_form(bodies: &[Body], light: Delta, seen: Seen, height: f64) -> ([f64;
     (sum, by_paths, by_both)
 }
 
-/// The mean of an image, and its standard error from several seeds.
+/// The mean of an image over several seeds, and its standard error from how each pixel varies between them.
 fn mean_of(world: &dyn Fn() -> World, integrator: Integrator, samples: u32, seeds: u64) -> ([f64; 3], [f64; 3]) {
     let images = renders_by(world, integrator, samples, 0..seeds);
-    let means: Vec<[f64; 3]> = images
-        .iter()
-        .map(|image| {
-            [0, 1, 2].map(|part| image.pixels.iter().map(|pixel| pixel[part]).sum::<f64>() / image.pixels.len() as f64)
-        })
-        .collect();
-    let count = means.len() as f64;
-    let mean = [0, 1, 2].map(|part| means.iter().map(|own| own[part]).sum::<f64>() / count);
-    let squares = [0, 1, 2].map(|part| means.iter().map(|own| (own[part] - mean[part]).powi(2)).sum::<f64>());
-    (mean, squares.map(|sum| (sum / (count * (count - 1.0))).sqrt()))
+    let (count, pixels) = (images.len() as f64, images[0].pixels.len());
+    let (mut mean, mut variance) = ([0.0; 3], [0.0; 3]);
+    for pixel in 0..pixels {
+        for part in 0..3 {
+            let own = images.iter().map(|image| image.pixels[pixel][part]);
+            let middle = own.clone().sum::<f64>() / count;
+            mean[part] += middle / pixels as f64;
+            let squares: f64 = own.map(|value| (value - middle) * (value - middle)).sum();
+            variance[part] += squares / (count * (count - 1.0)) / (pixels * pixels) as f64;
+        }
+    }
+    (mean, variance.map(f64::sqrt))
 }
 
-/// Every light without an area, under every camera, in every arrangement: light goes straight through ink, and each part
-/// of its way, from the light to the floor and from there to the eye, is absorbed by what it passes through.
+/// Every light without an area, under every camera, in every arrangement: light goes straight through ink, and each
+/// segment, from the light to the floor and from there to the eye, is absorbed by what it passes through.
 #[test]
 fn light_is_absorbed_by_all_that_it_passes_through() {
     let (mut tried, mut worst, mut not_found) = (0, 0.0_f64, 0);
@@ -310,24 +312,24 @@ fn light_is_absorbed_by_all_that_it_passes_through() {
                 }
                 let can_trace = seen != Seen::Fisheye && by_both;
                 let straight = |lights| Integrator::Path { max_depth: 64, lights, roulette: 0 };
-                let mut ways = vec![Integrator::WHITTED, Integrator::DISTRIBUTION];
-                ways.extend(ALL.iter().map(|&lights| straight(lights)));
+                let mut methods = vec![Integrator::WHITTED, Integrator::DISTRIBUTION];
+                methods.extend(ALL.iter().map(|&lights| straight(lights)));
                 if !by_paths {
-                    ways.clear();
+                    methods.clear();
                 } else if times_samples() == 1 {
                     // One after another; with more samples asked for, each everywhere.
-                    ways = vec![ways[tried % ways.len()]];
+                    methods = vec![methods[tried % methods.len()]];
                 }
-                let mut ways: Vec<_> = ways.into_iter().map(|integrator| (integrator, false)).collect();
+                let mut methods: Vec<_> = methods.into_iter().map(|integrator| (integrator, false)).collect();
                 // What paths from the camera do not find is for those from the lights.
                 if can_trace
                     && !by_paths
                     && (times_samples() > 1 || (number + light as usize + height as usize).is_multiple_of(3))
                 {
-                    ways.push((straight(LightStrategy::Mis), true));
+                    methods.push((straight(LightStrategy::Mis), true));
                 }
-                for (integrator, traced) in ways {
-                    let (samples, seeds) = if traced { (128, 6) } else { (4, 4) };
+                for (integrator, traced) in methods {
+                    let (samples, seeds) = if traced { (64, 6) } else { (4, 4) };
                     let (mean, error) = mean_of(&|| make(traced), integrator, samples, seeds);
                     for part in 0..3 {
                         // The closed form is a sum of squares of the floor, good to a thousandth.
@@ -405,14 +407,14 @@ fn strategies_agree_inside_glass() {
                 world
             };
             let path = |lights| Integrator::Path { max_depth: 48, lights, roulette: 0 };
-            let ways = [
-                (LightStrategy::Bsdf, false, 256),
-                (LightStrategy::Light, false, 48),
-                (LightStrategy::Mis, false, 48),
-                (LightStrategy::Mis, true, 48),
+            let methods = [
+                (LightStrategy::Bsdf, false, 128),
+                (LightStrategy::Light, false, 32),
+                (LightStrategy::Mis, false, 32),
+                (LightStrategy::Mis, true, 32),
             ];
             // Light sampling alone has no part in what BSDF sampling finds behind glass.
-            let measured = ways.map(|(lights, traced, samples)| mean_of(&|| make(traced), path(lights), samples, 8));
+            let measured = methods.map(|(lights, traced, samples)| mean_of(&|| make(traced), path(lights), samples, 8));
             for (at, (mean, error)) in measured.iter().enumerate().skip(1) {
                 let (first, spread) = &measured[0];
                 for part in 0..3 {
@@ -421,7 +423,7 @@ fn strategies_agree_inside_glass() {
                     worst = worst.max(off);
                     if off > 4.5 {
                         failures.push(format!(
-                            "{name}, {kind}, bends {bends}: way {at} {mean:?} ± {error:?} for {first:?} ± {spread:?}"
+                            "{name}, {kind}, bends {bends}: method {at} {mean:?} ± {error:?} for {first:?} ± {spread:?}"
                         ));
                         break;
                     }

@@ -48,8 +48,9 @@ const LINES: &[(&[&str], Says)] = &[
     (&["compare", CARD, CARD, "-o", "@/difference.png"], compare),
 ];
 const CARD: &str = "chapters/16_textures/card.png";
-/// Help and scripts for shells are no data; what `render` says is tried beside the pictures that it writes.
-const TRIED_ELSEWHERE: [&str; 5] = ["help", "completions", "render", "view", "live"];
+/// Help and scripts for shells are no data; what `render` says is tried beside the pictures that it writes, and what
+/// `measure` says beside the records.
+const TRIED_ELSEWHERE: [&str; 6] = ["help", "completions", "render", "view", "live", "measure"];
 
 /// What a command line prints, and the sentence that it ends with where it fails.
 fn printed(chapters: &[Chapter], line: &[&str], format: &str) -> (String, Option<String>) {

@@ -12,7 +12,7 @@ const TURN: f64 = std::f64::consts::PI;
 /// How near the view may come to straight up or down, in radians.
 const STEEPEST: f64 = 0.02;
 /// The heights of view that can be reckoned with: their squares are neither zero nor infinite.
-const REACH: std::ops::RangeInclusive<f64> = NEAREST..=1e100;
+const EXTENT: std::ops::RangeInclusive<f64> = NEAREST..=1e100;
 /// The least distance between eye and target.
 const NEAREST: f64 = 1e-100;
 /// Turning the view by more than this sideways is not what an upright camera does.
@@ -97,10 +97,10 @@ impl Orbit {
     }
 
     /// Whether it is anywhere at all, and what it shows has a size that can be reckoned with.
-    pub fn is_within_reach(&self) -> bool {
+    pub fn is_in_range(&self) -> bool {
         let apart = (self.eye - self.target).length();
         let least = NEAREST.max(f64::EPSILON * self.eye.length());
-        self.eye.is_finite() && self.target.is_finite() && apart > least && REACH.contains(&self.view_height())
+        self.eye.is_finite() && self.target.is_finite() && apart > least && EXTENT.contains(&self.view_height())
     }
 
     /// Where the eye is.
@@ -202,7 +202,7 @@ mod tests {
                 loop {
                     let mut next = orbit;
                     next.zoom(factor);
-                    if !next.is_within_reach() {
+                    if !next.is_in_range() {
                         break;
                     }
                     (orbit, steps) = (next, steps + 1);

@@ -263,7 +263,7 @@ impl Viewer {
             }
         };
         change(&mut orbit);
-        if !orbit.is_within_reach() {
+        if !orbit.is_in_range() {
             return Err("the camera cannot be moved so far, nor so near".into());
         }
         orbit.put(&mut self.world);

@@ -3,7 +3,7 @@
 use super::exr_file::exr_texels;
 use super::image_head::{ImageHead, image_head, one_line};
 use super::texel_range::{Numbers, is_grey, normals_of_heights};
-use super::{Pyramid, linear_from_srgb};
+use super::{Pyramid, Texels, linear_from_srgb};
 use crate::scene::{
     EmbeddedFiles, FileStore, IMAGE_FILE, ModelFiles, SceneError, SceneFolder, TELLING_BYTES, TooLittleMemory,
     Undecoded, check_memory, image_kind, open_file, printable, printable_path,
@@ -24,29 +24,6 @@ const ENDINGS: [&str; 7] = ["png", "jpg", "jpeg", "tga", "bmp", "hdr", "exr"];
 const ACCEPTED: &str = "it must be the name of a .png, .jpg, .tga, .bmp, .hdr or .exr file";
 /// The memory of a texel with its part of the pyramid above it, in bytes.
 const BYTES_A_TEXEL: u64 = 16;
-
-/// An image in linear light, its rows from top to bottom.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Texels {
-    /// Texels from left to right.
-    pub width: usize,
-    /// Texels from top to bottom.
-    pub height: usize,
-    /// Red, green, blue, row by row.
-    pub rgb: Vec<[f32; 3]>,
-}
-
-impl Texels {
-    /// A single texel.
-    pub fn single(rgb: [f32; 3]) -> Self {
-        Self { width: 1, height: 1, rgb: vec![rgb] }
-    }
-
-    /// Their memory, in bytes.
-    pub fn bytes(&self) -> usize {
-        self.rgb.len() * size_of::<[f32; 3]>()
-    }
-}
 
 /// An image without a pyramid, and what was done to its texels, one sentence each.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -71,6 +71,7 @@ mod sky;
 mod spacing;
 mod srgb;
 mod texel_range;
+mod texels;
 mod texture;
 mod tint;
 mod two_colours;
@@ -102,7 +103,7 @@ pub use glass_body::{GlassBody, GlassBodyTable};
 pub use glass_overlap::{absorption_evidence, deep_glass, glass_overlaps};
 pub use gradient::GradientTable;
 pub use hierarchy::{HierarchyOf, hierarchy_evidence};
-pub use image_file::{RemarkedTexels, Texels};
+pub use image_file::RemarkedTexels;
 pub use image_head::{ImageHead, image_head, one_line};
 pub use image_remarks::image_remarks;
 pub use image_texture::ImageTable;
@@ -151,6 +152,7 @@ pub use shapes_of::{
 };
 pub use sky::sky_evidence;
 pub use srgb::linear_from_srgb;
+pub use texels::Texels;
 pub use texture::{
     NO_TEXTURE, ShapeSpaces, Texture, TextureMap, TextureMapping, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,
     texture_evidence, texture_of_kind,

@@ -180,7 +180,6 @@ pub fn start_media_stage() -> Stage {
         .when(media_evidence)
 }
 
-// ANCHOR: leave_contacts
 /// Moves the origins of rays that cross several surfaces together beyond the last of them.
 pub fn leave_contacts(mut tiles: Query<(&Surfaces, &Contacts, &mut Scattered)>) {
     for (surfaces, contacts, mut scattered) in &mut tiles {
@@ -196,7 +195,6 @@ pub fn leave_contacts(mut tiles: Query<(&Surfaces, &Contacts, &mut Scattered)>) 
         }
     }
 }
-// ANCHOR_END: leave_contacts
 
 /// The stage that moves them.
 pub fn leave_contacts_stage() -> Stage {

@@ -71,3 +71,12 @@ fn counted_columns(stage: &Stage, plan: &Plan) -> Vec<ColumnKind> {
         None => plan.columns.iter().filter(of_stage).copied().collect(),
     }
 }
+
+/// The processor time of this thread so far; none on systems that do not measure it.
+pub(super) fn thread_time() -> Option<Duration> {
+    #[cfg(any(unix, windows))]
+    let time = cpu_time::ThreadTime::try_now().ok().map(|time| time.as_duration());
+    #[cfg(not(any(unix, windows)))]
+    let time = None;
+    time
+}

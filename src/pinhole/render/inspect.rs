@@ -1,4 +1,5 @@
 use super::Execution;
+use super::clock::thread_time;
 use super::in_progress::{film_for, film_parts};
 use super::render_world::{Hook, RenderWorld, prepare};
 use super::steps::Run;
@@ -124,15 +125,6 @@ pub struct ProbeRun {
     pub whole: bool,
     /// The processor time that it took, which does not depend on what else the machine does; none where it is not known.
     pub time: Option<Duration>,
-}
-
-/// The processor time of this thread so far; none on systems that do not measure it.
-pub(super) fn thread_time() -> Option<Duration> {
-    #[cfg(any(unix, windows))]
-    let time = cpu_time::ThreadTime::try_now().ok().map(|time| time.as_duration());
-    #[cfg(not(any(unix, windows)))]
-    let time = None;
-    time
 }
 
 /// The side of a full tile, in pixels, with the default execution.

@@ -1,6 +1,5 @@
 use super::Execution;
-use super::clock::{Lap, laps_of};
-use super::inspect::thread_time;
+use super::clock::{Lap, laps_of, thread_time};
 use super::render_world::{Hook, RenderWorld};
 use crate::extract::{FilterTable, ImageFrame, LightTracingTable, SamplingTable};
 use crate::film::{Film, SplatFilter};
