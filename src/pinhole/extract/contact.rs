@@ -46,6 +46,12 @@ impl Contact {
                 let margin = 2.0 * APART * f64::from(offset_bound(point, DVec3::ZERO, plane.offset.abs()));
                 (plane.normal.dot(point) - plane.offset).abs() <= margin
             }
+            Body::Cuboid(slabs, ()) => {
+                // Outside by so much along the axis on which it is farthest out, or inside by as much where that is below 0.
+                let outside = |axis: usize| slabs.normal[axis].dot(point - slabs.centre).abs() - slabs.half[axis];
+                let farthest = outside(0).max(outside(1)).max(outside(2));
+                farthest.abs() <= self.margin
+            }
             _ => self.near.contains(point),
         }
     }
@@ -286,6 +292,18 @@ fn may_touch([one, other]: [&Body; 2], glass: [u32; 2]) -> bool {
         (Body::Sphere(ball, ()), Body::Plane(plane, _)) | (Body::Plane(plane, _), Body::Sphere(ball, ())) => {
             let height = plane.normal.dot(ball.centre) - plane.offset;
             (height.abs() - ball.radius).abs() <= margin
+        }
+        (Body::Cuboid(a, ()), Body::Cuboid(b, ())) => {
+            // Two faces of theirs must lie in one plane.
+            let in_one_plane = |[own, other]: [usize; 2]| {
+                let (n, m) = (a.normal[own], b.normal[other]);
+                let side = n.dot(m).signum();
+                let turned = (n - side * m).length() * (a.bounding_radius + b.bounding_radius);
+                let apart = n.dot(a.centre) - side * m.dot(b.centre);
+                let ends = [a.half[own] + b.half[other], a.half[own] - b.half[other]];
+                turned <= margin && ends.iter().any(|end| (apart.abs() - end.abs()).abs() <= margin)
+            };
+            (0..9).any(|pair| in_one_plane([pair / 3, pair % 3]))
         }
         (Body::Plane(a, _), Body::Plane(b, _)) => {
             let side = a.normal.dot(b.normal).signum();
