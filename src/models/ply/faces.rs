@@ -101,7 +101,7 @@ pub fn read_faces<'b>(
                 }
                 continue;
             }
-            if let (Some(corners), true) = (values.triangle(count_type, index_type), is_plain) {
+            if is_plain && let Some(corners) = values.triangle(count_type, index_type) {
                 if let Some(index) = corners.into_iter().find(|index| u64::from(*index) >= vertices) {
                     return Err(no_vertex(file, row, read_as(index, index_type), vertices));
                 }

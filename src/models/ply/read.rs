@@ -179,6 +179,38 @@ mod tests {
         }
     }
 
+    /// In binary, the corners of a face with coordinates of its own are where those of any face are.
+    #[test]
+    fn textured_faces_are_read_alike_in_text_and_in_binary() {
+        let header = |format: &str| {
+            format!(
+                "ply\nformat {format} 1.0\ncomment TextureFile t.png\nelement vertex 5\n{XYZ}\nelement face 2\n{LIST}\n\
+                 property list uchar float texcoord\nproperty uchar red\nend_header\n"
+            )
+        };
+        let faces = [([0, 1, 2], [0.0, 0.0, 1.0, 0.0, 1.0, 1.0]), ([0, 2, 4], [0.0, 0.0, 1.0, 1.0, 0.5, 0.25])];
+        let mut text = header("ascii") + CORNERS;
+        let mut binary = header("binary_little_endian").into_bytes();
+        binary.extend(CORNERS.split_whitespace().flat_map(|word| word.parse::<f32>().expect("a number").to_le_bytes()));
+        for (corners, uvs) in faces {
+            text += &format!("3 {} {} {} 6", corners[0], corners[1], corners[2]);
+            text += &uvs.map(|part: f32| format!(" {part}")).concat();
+            text += " 200\n";
+            binary.push(3);
+            binary.extend(corners.iter().flat_map(|corner: &i32| corner.to_le_bytes()));
+            binary.push(6);
+            binary.extend(uvs.iter().flat_map(|part| part.to_le_bytes()));
+            binary.push(200);
+        }
+        let of = |bytes: &[u8]| read_model("a.ply", bytes, &|_: &str| Err("there is none".to_owned())).expect("read");
+        let [a, b] = [of(text.as_bytes()), of(&binary)];
+        let parts = |model: &Model| {
+            model.meshes.iter().map(|mesh| (mesh.positions.clone(), mesh.uvs.clone())).collect::<Vec<_>>()
+        };
+        assert_eq!(parts(&a), parts(&b));
+        assert_eq!((a.meshes[0].triangles.len(), a.meshes[0].positions.len()), (2, 6));
+    }
+
     #[test]
     fn u_without_v_is_not_read() {
         let vertex = format!("{XYZ}\nproperty float u\nproperty float nx");

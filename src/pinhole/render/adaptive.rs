@@ -18,7 +18,7 @@ pub fn samples_for(variance: f64, mean_square: f64, error: f64) -> u32 {
 /// The number of new samples for each pixel, tile by tile, decided from a film of pilot samples and from nothing else.
 ///
 /// A pixel whose few samples happen to agree underestimates its noise, so its variance is taken to be no smaller than
-/// the mean of the variances of the 3 × 3 pixels around it, and one event more than they saw is added (see [`Noise`]).
+/// the mean of the variances of the 3 × 3 pixels around it, and one event more than they saw is added (see `Noise`).
 /// Where these pixels saw nothing vary, the event is one of those that the rest of the picture saw, and such a pixel gets
 /// no more samples than the others on average, so that dark parts of a picture at most double its cost.
 /// The pilot samples are independent of the new ones, so the mean of the new ones stays unbiased whatever is decided

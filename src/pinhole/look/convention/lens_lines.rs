@@ -1,7 +1,7 @@
 use super::{PlacedCamera, Program, lines, theirs_from_pinhole};
 use crate::extract::LensTable;
 
-/// The lines of [`lines`](super::lines) with the camera's lens, or with a word that a program has none.
+/// The lines of `lines` with the camera's lens, or with a word that a program has none.
 pub fn lines_with_lens(program: Program, camera: &PlacedCamera, lens: Option<&LensTable>) -> Vec<String> {
     let mut lines = lines(program, camera);
     let Some(LensTable { radius, focus_distance, corners }) = lens.filter(|lens| lens.radius > 0.0) else {
