@@ -113,7 +113,12 @@ fn list_near(bodies: &GlassBodyTable, rays: &WorldRays, near: &mut Vec<u32>) {
         return;
     }
     let along = |origins: &[f32]| {
-        let range = origins.iter().fold([f32::INFINITY, f32::NEG_INFINITY], |[least, most], &origin| {
+        // All rays of a pinhole camera start at one point.
+        let first = origins[0];
+        if origins.iter().fold(0, |differs, origin| differs | (origin.to_bits() ^ first.to_bits())) == 0 {
+            return [first; 2].map(f64::from);
+        }
+        let range = origins.iter().fold([first; 2], |[least, most], &origin| {
             [if origin < least { origin } else { least }, if origin > most { origin } else { most }]
         });
         range.map(f64::from)
@@ -153,16 +158,17 @@ pub fn carry_media(
             let own = materials.interior[surfaces.material[row] as usize];
             let through = own != NO_ROW && goes.dot(surfaces.get(row).normal.as_dvec3()) < 0.0;
             let (stack, from_outside) = (media.get(row), sides.outside[row] != 0);
-            let alone = [GlassCrossing { glass: own, from_outside, depth: 0.0 }];
+            let crossing = || stack.crossing(own, from_outside, &glass.priority).beyond;
             let together = contacts.map_or(&[][..], |contacts| contacts.get(row));
-            let crossed = if together.is_empty() { &alone } else { together };
             let next = match &deeper {
                 Some(deeper) => {
+                    let alone = [GlassCrossing { glass: own, from_outside, depth: 0.0 }];
+                    let crossed = if together.is_empty() { &alone } else { together };
                     carrier.push((stack, deeper.get(row)), if through { crossed } else { &[] }, &glass.priority)
                 }
                 None if !through => stack,
-                None if together.is_empty() => stack.crossing(own, from_outside, &glass.priority).beyond,
-                None => stack.beyond_all(crossed, &glass.priority),
+                None if together.is_empty() => crossing(),
+                None => stack.beyond_all(together, &glass.priority),
             };
             kept.set(ray, next);
         }
