@@ -152,6 +152,7 @@ const LIST: &[Part] = &[Part(&[
     (AmbientOcclusion, follow::sky_rays_stage),
 
     // Shadow rays are traced.
+    (Glass, follow::leave_contacts_to_lights_stage),
     (Shadows, shade::start_shadow_stage),
 ], shadow_rays), Part(&[
     (Motion, shade::moving_shadow_stage),

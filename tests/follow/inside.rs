@@ -436,6 +436,41 @@ fn strategies_agree_inside_glass() {
     assert!(failures.is_empty(), "{} of {tried}:\n{}", failures.len(), failures.join("\n"));
 }
 
+/// Two blocks of frosted glass of which one stands on the other, by nothing or by less than is kept apart, with a lamp in
+/// the lower one: the light that is sampled through their faces is what BSDF sampling finds.
+#[test]
+fn frosted_blocks_that_touch_are_lit_alike_by_all_strategies() {
+    let mut worst = 0.0_f64;
+    for gap in [0.0, 4e-7, 8e-7, 1.5e-6] {
+        let make = || {
+            let mut world = World::new();
+            let look = LookAt { eye: DVec3::new(0.1, 4.0, 0.7), target: DVec3::ZERO, up: DVec3::Z };
+            let camera = PerspectiveCamera { fov: Degrees(8.0), ..PerspectiveCamera::default() };
+            world.spawn((Name::new("camera"), camera, look, Resolution { width: 4, height: 4 }));
+            for (middle, ior) in [(-0.5, 1.8), (0.5 + gap, 1.5)] {
+                let block = (Cuboid { size: DVec3::new(3.0, 1.0, 3.0) }, Placement::at(0.0, middle, 0.0));
+                world.spawn((block, RoughGlass { ior, roughness: 0.5, ..RoughGlass::default() }));
+            }
+            let emissive = Emissive { radiance: Rgb::grey(10.0), ..Emissive::default() };
+            world.spawn((Sphere { radius: 0.3 }, Placement::at(0.1, -0.5, 0.1), emissive));
+            world
+        };
+        let path = |lights| Integrator::Path { max_depth: 24, lights, roulette: 0 };
+        let measured =
+            [512, 512, 256].iter().zip(ALL).map(|(&samples, &lights)| mean_of(&make, path(lights), samples, 8));
+        let measured: Vec<_> = measured.collect();
+        let (first, spread) = measured[0];
+        for (lights, (mean, error)) in ALL.iter().zip(&measured).skip(1) {
+            let together = (error[0] * error[0] + spread[0] * spread[0]).sqrt();
+            let off = (mean[0] - first[0]).abs() / together;
+            worst = worst.max(off);
+            assert!(off < 4.5, "gap {gap}, {lights:?}: {mean:?} ± {error:?} for {first:?} ± {spread:?}");
+            assert!(together < 0.05 * first[0], "gap {gap}, {lights:?}: known to {together} of {first:?} only");
+        }
+    }
+    eprintln!("frosted blocks: 4 gaps, worst {worst:.1} standard errors");
+}
+
 /// Clear glass in an even sky of radiance 1 on a white floor, whatever it consists of and wherever its surfaces coincide:
 /// the radiance at the eye is n² of the medium around it, along every path that ends (Liouville).
 #[test]

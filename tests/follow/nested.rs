@@ -114,8 +114,8 @@ fn rays_inside_more_than_four_shells_are_painted_white() {
     let deeper = inspection.world.get::<DeeperMedia>(inspection.tiles[0]).expect("more than four shells");
     let mut painted = [0; 2];
     for row in 0..deeper.rows() {
-        let inside = usize::from(!deeper.get(row).is_empty());
-        assert_eq!(deeper.paint(row, [24, 16]), [inside as f32; 3], "{:?}", deeper.get(row));
+        let inside = usize::from(!deeper.0.get(row).is_empty());
+        assert_eq!(deeper.paint(row, [24, 16]), [inside as f32; 3], "{:?}", deeper.0.get(row));
         painted[inside] += 1;
     }
     assert!(painted.iter().all(|&rays| rays > 10), "{painted:?} rays");

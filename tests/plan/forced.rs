@@ -212,6 +212,19 @@ fn films() -> World {
     world
 }
 
+/// A block of frosted glass on another with a lamp in it, nearer than single precision keeps apart.
+fn frosted_blocks() -> World {
+    let mut world = toggled(&[Toggle::Light, Toggle::Shadow, Toggle::Plane]);
+    let (camera, lamp) = (named(&mut world, "camera"), named(&mut world, "lamp"));
+    world.entity_mut(camera).insert(Integrator::PATH);
+    world.entity_mut(lamp).insert(Placement::at(0.0, 0.5, 0.4));
+    for (middle, ior) in [(0.5, 1.8), (0.9 + 1.5e-6, 1.5)] {
+        let block = (Cuboid { size: DVec3::new(1.2, 0.4, 1.2) }, Placement::at(0.0, middle, 0.4));
+        world.spawn((block, RoughGlass { ior, roughness: 0.4, ..RoughGlass::default() }));
+    }
+    world
+}
+
 /// A lamp, a floor and the camera within ink.
 fn in_ink() -> World {
     let mut world = toggled(&[Toggle::Light, Toggle::Shadow, Toggle::Plane]);
@@ -293,6 +306,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("many lights", scenes::many::many_lights(Setup { size, ..Setup::default() })),
         ("films", films()),
         ("a lamp in ink", in_ink()),
+        ("frosted blocks", frosted_blocks()),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();

@@ -7,7 +7,7 @@ use pinhole::intersect::{
     BoxTests, Contacts, EmissiveRows, GlassCrossing, HitPrimitives, Hits, MaterialRows, NO_SHAPE, PrimitiveTests,
     ShadingNormals, SurfaceSides, SurfaceUvs, Surfaces, TraversalDepths,
 };
-use pinhole::plan::Column;
+use pinhole::plan::{Column, RowLists};
 use pinhole::rays::{
     CameraRays, LensPoints, NdcPoints, PathLight, Paths, PixelSamples, RasterPoints, RayTimes, SampleSigns,
     ScreenPoints, WorldRays,
@@ -38,7 +38,9 @@ fn shown<C: Column>(column: C, expected: &[[f32; 3]]) -> &'static str {
 #[test]
 fn each_column_is_painted_as_its_page_says() {
     let grey = |part| [part; 3];
-    let crossing = GlassCrossing { glass: 0, from_outside: true, depth: 0.0 };
+    let mut crossings = RowLists::default();
+    crossings.push(&[GlassCrossing { glass: 0, from_outside: true, depth: 0.0 }]);
+    crossings.push(&[]);
     let [x, y, z] = [0.6, 0.0, -0.8].map(|part| vec![part]);
     let [nx, ny, nz] = [0.6, 0.0, -0.8].map(|part| vec![part, 0.0]);
     let [r, g, b] = COLOUR.map(|part| vec![f64::from(part)]);
@@ -77,7 +79,7 @@ fn each_column_is_painted_as_its_page_says() {
             &[LEANING],
         ),
         shown(Media { first: vec![4, NO_ROW], ..Default::default() }, &[WHITE, BLACK]),
-        shown(Contacts { end: vec![1, 1], list: vec![crossing], ..Default::default() }, &[WHITE, BLACK]),
+        shown(Contacts { crossings, ..Default::default() }, &[WHITE, BLACK]),
         // √9 of √9 + 1; a footprint without an end is all of it.
         shown(
             Footprints {

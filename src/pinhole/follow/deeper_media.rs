@@ -1,43 +1,15 @@
 use super::{Media, MediumStack};
 use crate::extract::{NO_ROW, deep_glass, followed_evidence, glass_evidence};
 use crate::intersect::GlassCrossing;
-use crate::plan::{Census, Column, ColumnComponent, ComponentValues, Evidence, Lifetime, column_component};
+use crate::plan::{Census, Column, ColumnComponent, ComponentValues, Evidence, Lifetime, RowLists, column_component};
 
 /// The media around each ray's origin beyond the four that [`Media`] holds, in order of rank; exists only where more
 /// than four glass shapes may overlap.
-///
-/// All rows share one list, so that a ray inside a hundred glasses needs no allocation of its own, and one outside
-/// needs no space.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct DeeperMedia {
-    /// The end of each row's range in the list; it begins where the previous row's ends.
-    end: Vec<u32>,
+pub struct DeeperMedia(
     /// Rows of the glass table.
-    glass: Vec<u32>,
-}
-
-impl DeeperMedia {
-    /// The media of a row's ray beyond the fourth.
-    #[inline(always)]
-    pub fn get(&self, row: usize) -> &[u32] {
-        let Some(&end) = self.end.get(row) else { return &[] };
-        let start = if row == 0 { 0 } else { self.end[row - 1] };
-        &self.glass[start as usize..end as usize]
-    }
-
-    /// Sets so many rows to no media beyond the fourth.
-    pub(super) fn start(&mut self, rows: usize) {
-        self.glass.clear();
-        self.end.clear();
-        self.end.resize(rows, 0);
-    }
-
-    /// Appends a row.
-    pub(super) fn push(&mut self, beyond: &[u32]) {
-        self.glass.extend_from_slice(beyond);
-        self.end.push(self.glass.len() as u32);
-    }
-}
+    pub RowLists<u32>,
+);
 
 /// The glass on the near side of a glass surface and on the far side: like [`MediumStack::crossing`], but including the
 /// media beyond the fourth.
@@ -67,7 +39,7 @@ pub struct Carrier {
 impl Carrier {
     /// Clears the rays of the previous tile.
     pub(super) fn start(&mut self) {
-        self.kept.start(0);
+        self.kept.0.start(0);
     }
 
     /// Appends the media of a ray scattered from another, which crossed these surfaces of glass; returns the first four.
@@ -92,7 +64,7 @@ impl Carrier {
             }
         }
         let (first, beyond) = MediumStack::of(whole);
-        self.kept.push(beyond);
+        self.kept.0.push(beyond);
         first
     }
 
@@ -111,15 +83,15 @@ impl Column for DeeperMedia {
     const LIFETIME: Lifetime = Lifetime::Path;
 
     fn rows(&self) -> usize {
-        self.end.len()
+        self.0.ends().len()
     }
 
     fn components(&self) -> Vec<ColumnComponent<'_>> {
-        vec![ColumnComponent { name: "end", values: ComponentValues::U32(&self.end) }]
+        vec![ColumnComponent { name: "end", values: ComponentValues::U32(self.0.ends()) }]
     }
 
     fn paint(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [f32::from(u8::from(!self.get(row).is_empty())); 3]
+        [f32::from(u8::from(!self.0.get(row).is_empty())); 3]
     }
 }
 
@@ -149,20 +121,20 @@ mod tests {
                 around.min_by_key(|&row| (std::cmp::Reverse(priorities[row as usize]), row)).unwrap_or(NO_ROW)
             };
             let (mut inside, mut stack, mut beyond) = ([false; SHAPES], MediumStack::OUTSIDE, DeeperMedia::default());
-            beyond.start(1);
+            beyond.0.start(1);
             let mut carrier = Carrier::default();
             for _ in 0..40 {
                 let shape = below(&mut draws, SHAPES);
                 let (row, from_outside) = (glass[shape], !inside[shape]);
-                let [near, far] = near_and_far(stack, beyond.get(0), row, from_outside, &priorities);
+                let [near, far] = near_and_far(stack, beyond.0.get(0), row, from_outside, &priorities);
                 assert_eq!(near, rule(&inside), "walk {walk}");
                 inside[shape] = !inside[shape];
                 assert_eq!(far, rule(&inside), "walk {walk}");
                 carrier.start();
                 let crossed = [GlassCrossing { glass: row, from_outside, depth: 0.0 }];
-                stack = carrier.push((stack, beyond.get(0)), &crossed, &priorities);
+                stack = carrier.push((stack, beyond.0.get(0)), &crossed, &priorities);
                 carrier.swap(&mut beyond);
-                let depth = stack.rows.iter().filter(|&&row| row != NO_ROW).count() + beyond.get(0).len();
+                let depth = stack.rows.iter().filter(|&&row| row != NO_ROW).count() + beyond.0.get(0).len();
                 assert_eq!(depth, inside.iter().filter(|&&inside| inside).count(), "nothing is forgotten");
                 deepest = deepest.max(depth);
                 surfaces += 1;

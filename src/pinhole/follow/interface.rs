@@ -66,12 +66,11 @@ impl<'a> Interface<'a> {
         let from_outside = sides.outside[row] != 0;
         match (self.media, self.glass) {
             (Some(media), Some(glass)) if own != NO_ROW => {
-                let crossings = self.crossings(row);
+                let (crossings, beyond) = (self.crossings(row), self.beyond_fourth(row));
                 if !crossings.is_empty() {
                     let near = media.get(row);
-                    return [near.top(), near.beyond_all(crossings, &glass.priority).top()];
+                    return [near.top(), near.top_beyond(beyond, crossings.iter(), &glass.priority)];
                 }
-                let beyond = self.deeper.map_or(&[][..], |deeper| deeper.get(row));
                 near_and_far(media.get(row), beyond, own, from_outside, &glass.priority)
             }
             (Some(media), _) => [media.get(row).top(); 2],
@@ -88,10 +87,16 @@ impl<'a> Interface<'a> {
         far / near
     }
 
+    /// The media around a row's ray origin beyond the fourth.
+    #[inline(always)]
+    fn beyond_fourth(&self, row: usize) -> &[u32] {
+        self.deeper.map_or(&[], |deeper| deeper.0.get(row))
+    }
+
     /// The surfaces that a row's ray crosses in one event; none where it crosses its hit alone.
     #[inline(always)]
     fn crossings(&self, row: usize) -> &[GlassCrossing] {
-        self.contacts.map_or(&[], |contacts| contacts.get(row))
+        self.contacts.map_or(&[], |contacts| contacts.crossings.get(row))
     }
 
     // ANCHOR: layers
@@ -107,12 +112,14 @@ impl<'a> Interface<'a> {
         let (Some(media), Some(glass)) = (self.media.filter(|_| layers.peek().is_some()), self.glass) else {
             return None;
         };
-        let (near, priorities) = (media.get(row), &glass.priority);
-        let far = near.beyond_all(crossings, priorities);
+        let (near, deeper, priorities) = (media.get(row), self.beyond_fourth(row), &glass.priority);
         // What is on both sides is there in the layers, too.
-        let common = crossings.iter().filter(|own| !own.from_outside).fold(near, |stack, own| stack.left(own.glass));
-        let within = layers.map(|own| common.entered(own.glass, priorities).top());
-        let media = std::iter::once(near.top()).chain(within).chain([far.top()]);
+        let within = layers.map(|layer| {
+            let left = crossings.iter().filter(|own| !own.from_outside && own.glass != layer.glass);
+            near.top_beyond(deeper, left.chain([layer]), priorities)
+        });
+        let far = near.top_beyond(deeper, crossings.iter(), priorities);
+        let media = std::iter::once(near.top()).chain(within).chain([far]);
         let indices = media.map(|of| if of == NO_ROW { 1.0 } else { glass.ior[of as usize] });
         let first = if near.top() == NO_ROW { 1.0 } else { glass.ior[near.top() as usize] };
         let mut last = None;

@@ -7,10 +7,10 @@ use crate::extract::{
 use crate::intersect::{Contacts, GlassCrossing, SurfaceSides, Surfaces};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
 use crate::rays::{RayTimes, WorldRays};
-use crate::shapes::{Bounds, offset_origin};
+use crate::shapes::Bounds;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 column! {
     /// The glass that each ray travels through, as a stack of the media around its origin; exists where glass absorbs
@@ -75,7 +75,7 @@ pub fn start_media(
         // Few tiles start near any glass; the others ask no row.
         list_near(&bodies, rays, &mut near);
         if let Some(deeper) = &mut deeper {
-            deeper.start(if near.is_empty() { rows } else { 0 });
+            deeper.0.start(if near.is_empty() { rows } else { 0 });
         }
         let (first, second, third, fourth) = media.slices_mut(rows);
         [first, second, third, fourth].into_iter().for_each(|component| component.fill(NO_ROW));
@@ -99,7 +99,7 @@ pub fn start_media(
             let (stack, beyond) = MediumStack::of(&around);
             media.set(row, stack);
             if let Some(deeper) = &mut deeper {
-                deeper.push(beyond);
+                deeper.0.push(beyond);
             }
         }
     }
@@ -159,12 +159,12 @@ pub fn carry_media(
             let through = own != NO_ROW && goes.dot(surfaces.get(row).normal.as_dvec3()) < 0.0;
             let (stack, from_outside) = (media.get(row), sides.outside[row] != 0);
             let crossing = || stack.crossing(own, from_outside, &glass.priority).beyond;
-            let together = contacts.map_or(&[][..], |contacts| contacts.get(row));
+            let together = contacts.map_or(&[][..], |contacts| contacts.crossings.get(row));
             let next = match &deeper {
                 Some(deeper) => {
                     let alone = [GlassCrossing { glass: own, from_outside, depth: 0.0 }];
                     let crossed = if together.is_empty() { &alone } else { together };
-                    carrier.push((stack, deeper.get(row)), if through { crossed } else { &[] }, &glass.priority)
+                    carrier.push((stack, deeper.0.get(row)), if through { crossed } else { &[] }, &glass.priority)
                 }
                 None if !through => stack,
                 None if together.is_empty() => crossing(),
@@ -184,28 +184,6 @@ pub fn start_media_stage() -> Stage {
     Stage::new("Find the media that rays start in", TileSystems::Media, start_media)
         .on_first_bounce()
         .when(media_evidence)
-}
-
-/// Moves the origins of rays that cross several surfaces together beyond the last of them.
-pub fn leave_contacts(mut tiles: Query<(&Surfaces, &Contacts, &mut Scattered)>) {
-    for (surfaces, contacts, mut scattered) in &mut tiles {
-        for ray in 0..scattered.rows() {
-            let row = scattered.path[ray] as usize;
-            let depth = contacts.depth(row);
-            let surface = surfaces.get(row);
-            let goes = Vec3::new(scattered.dx[ray], scattered.dy[ray], scattered.dz[ray]);
-            if depth > 0.0 && goes.dot(surface.normal) < 0.0 {
-                let origin = offset_origin(surface.position, -surface.normal, surface.bound + depth);
-                (scattered.ox[ray], scattered.oy[ray], scattered.oz[ray]) = origin.into();
-            }
-        }
-    }
-}
-
-/// The stage that moves them.
-pub fn leave_contacts_stage() -> Stage {
-    Stage::new("Leave surfaces that touch", TileSystems::Step, leave_contacts)
-        .when(|scene| glass_contact_evidence(scene).and(|| followed_evidence(scene)))
 }
 
 /// The stage that carries media to the next bounce.

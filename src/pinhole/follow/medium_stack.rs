@@ -87,6 +87,25 @@ impl MediumStack {
         stack
     }
 
+    /// The medium that is present beyond several surfaces that are crossed together, where `deeper` are the media around
+    /// the point beyond these four.
+    pub fn top_beyond<'a>(
+        self,
+        deeper: &[u32],
+        crossings: impl Iterator<Item = &'a GlassCrossing> + Clone,
+        priorities: &[u32],
+    ) -> u32 {
+        let around = || self.rows.iter().chain(deeper).copied().filter(|&row| row != NO_ROW);
+        let crossed = |row: u32, from_outside: bool| {
+            crossings.clone().filter(|own| own.glass == row && own.from_outside == from_outside).count()
+        };
+        let is_there =
+            |&row: &u32| around().filter(|&own| own == row).count() + crossed(row, true) > crossed(row, false);
+        let entered = crossings.clone().filter(|own| own.from_outside).map(|own| own.glass);
+        let there = around().chain(entered).filter(is_there);
+        there.min_by_key(|&row| (std::cmp::Reverse(priorities[row as usize]), row)).unwrap_or(NO_ROW)
+    }
+
     /// What a ray with this stack crosses at a surface of this glass, hit from outside or from inside.
     ///
     /// A ray that leaves a shape without having entered it was inside from the start.

@@ -17,6 +17,7 @@
 
 mod absorb;
 mod beer;
+mod beyond_contacts;
 mod bsdf;
 mod bsdf_rows;
 mod caustic_paths;
@@ -43,6 +44,9 @@ mod view;
 
 pub use absorb::{absorb_in_glass, absorb_shadow_rays, absorb_shadow_stage, absorb_stage};
 pub use beer::{absorbed, transmittance};
+pub use beyond_contacts::{
+    leave_contacts, leave_contacts_stage, leave_contacts_to_lights, leave_contacts_to_lights_stage,
+};
 pub use bsdf::{
     LightWeightView, add_direct_light, connections_stage, direct_light_stage, mis_bsdf, mis_stage, sample_bsdf,
     sample_from_lights_stage, sample_stage,
@@ -60,10 +64,7 @@ pub use depth::{
 pub use emission::{add_mis_emission, add_mis_environment, mis_emission_stage, mis_environment_stage, power_heuristic};
 pub use last_bounce::{end_at_max_depth, max_depth_stage};
 pub use light_start::{LIGHT_PATHS, LightPower, light_start, light_start_stage, start_on_lights};
-pub use media::{
-    Media, carry_media, carry_media_stage, leave_contacts, leave_contacts_stage, media_evidence, start_media,
-    start_media_stage,
-};
+pub use media::{Media, carry_media, carry_media_stage, media_evidence, start_media, start_media_stage};
 pub use medium_stack::{Crossing, MediumStack};
 pub use occlusion::{SkyLists, SkyView, sample_sky, sample_sky_with, show_occlusion, sky_rays_stage, sky_stage};
 pub use paths::{start_paths, start_paths_stage};

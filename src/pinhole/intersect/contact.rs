@@ -2,11 +2,14 @@
 
 use super::{HitPrimitives, Hits, NO_SHAPE, Surfaces};
 use crate::extract::{Contact, ContactTable, NO_ROW, contact_evidence};
-use crate::plan::{Column, ColumnComponent, ComponentValues, Lifetime, Shared, Stage, TileSystems, column_component};
+use crate::plan::{
+    Column, ColumnComponent, ComponentValues, Lifetime, RowLists, Shared, Stage, TileSystems, column_component,
+};
 use crate::rays::{RayTimes, WorldRays};
 use crate::shapes::{RayHit, SurfacePoint};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
+use glam::DVec3;
 
 /// A surface of glass that is crossed together with others.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,31 +24,22 @@ pub struct GlassCrossing {
 
 /// The surfaces of glass that each ray crosses in one event, where there are several, its hit among them, the nearest
 /// first; exists where surfaces of glass may coincide within rounding.
-///
-/// All rows share one list, so that a row without any needs no space in it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Contacts {
-    /// The end of each row's range in the list; it begins where the previous row's ends.
-    pub end: Vec<u32>,
-    /// The surfaces.
-    pub list: Vec<GlassCrossing>,
+    /// The surfaces; none where a ray crosses its hit alone.
+    pub crossings: RowLists<GlassCrossing>,
     /// The rows that hit something else than glass behind glass that is in contact with it, and how far behind.
     pub behind: Vec<(u32, f32)>,
 }
 
 impl Contacts {
-    /// The surfaces that a row's ray crosses together; none where it crosses its hit alone.
-    #[inline(always)]
-    pub fn get(&self, row: usize) -> &[GlassCrossing] {
-        let Some(&end) = self.end.get(row) else { return &[] };
-        let start = if row == 0 { 0 } else { self.end[row - 1] };
-        &self.list[start as usize..end as usize]
-    }
-
     /// How far beyond the hit point the last of them lies.
     #[inline(always)]
     pub fn depth(&self, row: usize) -> f32 {
-        self.get(row).iter().fold(0.0, |most, crossing| if crossing.depth > most { crossing.depth } else { most })
+        self.crossings
+            .get(row)
+            .iter()
+            .fold(0.0, |most, crossing| if crossing.depth > most { crossing.depth } else { most })
     }
 }
 
@@ -58,15 +52,15 @@ impl Column for Contacts {
     const LIFETIME: Lifetime = Lifetime::Ray;
 
     fn rows(&self) -> usize {
-        self.end.len()
+        self.crossings.ends().len()
     }
 
     fn components(&self) -> Vec<ColumnComponent<'_>> {
-        vec![ColumnComponent { name: "end", values: ComponentValues::U32(&self.end) }]
+        vec![ColumnComponent { name: "end", values: ComponentValues::U32(self.crossings.ends()) }]
     }
 
     fn paint(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [f32::from(u8::from(!self.get(row).is_empty())); 3]
+        [f32::from(u8::from(!self.crossings.get(row).is_empty())); 3]
     }
 }
 
@@ -76,9 +70,6 @@ const IN_FRONT: f64 = 1.0 / 8.0;
 const BEYOND: f64 = 2.0;
 /// The step from one surface to the search for the next, as a fraction of the bound.
 const STEP: f64 = 1.0 / (1_u64 << 16) as f64;
-/// No more surfaces than this are looked for at one hit.
-const MOST: usize = 16;
-
 /// A surface found near a hit, and which of the shapes near it has it.
 #[derive(Clone, Copy, Debug)]
 pub struct Found {
@@ -95,7 +86,6 @@ pub struct Found {
 /// The segment runs along the normal, as the offset of a spawned ray does, and grows with each surface found, so that
 /// nothing within the error bound of the last one is left out.
 fn find(table: &ContactTable, row: usize, (surface, time): (&SurfacePoint, f64), found: &mut Vec<Found>) {
-    found.clear();
     let bound = f64::from(surface.bound);
     let (start, inward) = (surface.point + IN_FRONT * bound * surface.normal, -surface.normal);
     let mut end = BEYOND * bound;
@@ -106,7 +96,7 @@ fn find(table: &ContactTable, row: usize, (surface, time): (&SurfacePoint, f64),
         for contact in std::iter::once(row as u32).chain(others) {
             let (Contact { body, velocity, .. }, mut from) = (&table.contact[contact as usize], 0.0);
             let start = start - *velocity * time;
-            while found.len() < MOST {
+            loop {
                 let origin = start + from * inward;
                 let t = body.t(origin, inward);
                 let depth = from + t - IN_FRONT * bound;
@@ -120,7 +110,7 @@ fn find(table: &ContactTable, row: usize, (surface, time): (&SurfacePoint, f64),
             }
         }
         let deepest = found.iter().fold(0.0, |most, own| f64::max(most, own.depth));
-        if found.len() >= MOST || deepest + BEYOND * bound <= end {
+        if deepest + BEYOND * bound <= end {
             break;
         }
         end = deepest + BEYOND * bound;
@@ -145,57 +135,83 @@ pub struct ContactView {
 /// Where one of them is of something else than glass, it is what the ray hits, whichever was found first, for nothing
 /// goes through it; the glass in front of it and the glass that the ray is in are then in contact with it.
 /// Where all are of glass, they are crossed together.
-pub fn merge_contacts(table: Res<Shared<ContactTable>>, mut near: Local<Vec<Found>>, mut tiles: Query<ContactView>) {
+pub fn merge_contacts(
+    table: Res<Shared<ContactTable>>,
+    (mut near, mut together): (Local<Vec<Found>>, Local<Vec<GlassCrossing>>),
+    mut tiles: Query<ContactView>,
+) {
     for ContactViewItem { rays, times, mut hits, mut primitives, mut contacts } in &mut tiles {
         if let Some(contacts) = &mut contacts {
-            contacts.end.clear();
-            contacts.list.clear();
+            contacts.crossings.start(0);
             contacts.behind.clear();
         }
         for row in 0..hits.rows() {
-            let shape = hits.shape[row];
-            let own = if shape == NO_SHAPE { NO_ROW } else { table.row[shape as usize] };
+            together.clear();
             let time = times.map_or(0.0, |times| times.time[row]);
-            if own != NO_ROW && table.is_near_any(own as usize, rays.point_at(row, hits.t[row]), time) {
-                let own = own as usize;
-                let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
-                let primitive = primitives.as_ref().map_or(0, |primitives| primitives.primitive[row]);
-                let displacement = table.contact[own].velocity * time;
-                let origin_at_rest = origin - displacement;
-                let hit = RayHit { origin: origin_at_rest, direction, t: hits.t[row], primitive, displacement };
-                let mut surface = table.contact[own].body.surface(&hit);
-                surface.point += displacement;
+            let primitive = primitives.as_ref().map_or(0, |primitives| primitives.primitive[row]);
+            if let Some((own, surface)) = touching(&table, rays, &hits, (row, primitive, time)) {
                 find(&table, own, (&surface, time), &mut near);
-                let opaque = near.iter().find(|found| table.contact[found.contact as usize].glass == NO_ROW);
-                if let Some(found) = opaque {
-                    let body = &table.contact[found.contact as usize];
-                    hits.shape[row] = body.shape;
-                    // Beyond the glass by what rounding hides; from the side, no farther than the ray goes in that.
-                    let t = body.body.t(origin - body.velocity * time, direction);
-                    let along = (t - hits.t[row]).abs() * surface.normal.dot(direction).abs();
-                    if along <= found.depth.abs() + BEYOND * f64::from(surface.bound) {
-                        hits.t[row] = t;
+                match near.iter().find(|found| table.contact[found.contact as usize].glass == NO_ROW) {
+                    Some(found) => {
+                        let ray = [rays.origin_of(row), rays.direction_of(row)];
+                        hits.t[row] = t_behind(&table, found, (ray, time), (hits.t[row], &surface));
+                        hits.shape[row] = table.contact[found.contact as usize].shape;
+                        if let Some(primitives) = &mut primitives {
+                            primitives.primitive[row] = found.primitive;
+                        }
+                        if let Some(contacts) = contacts.as_mut().filter(|_| found.depth > 0.0) {
+                            contacts.behind.push((row as u32, found.depth as f32));
+                        }
                     }
-                    if let Some(primitives) = &mut primitives {
-                        primitives.primitive[row] = found.primitive;
-                    }
-                    if let Some(contacts) = contacts.as_mut().filter(|_| found.depth > 0.0) {
-                        contacts.behind.push((row as u32, found.depth as f32));
-                    }
-                } else if let Some(contacts) = contacts.as_mut().filter(|_| near.len() > 1) {
-                    contacts.list.extend(near.iter().map(|found| GlassCrossing {
+                    // Its own surface alone is crossed as any other.
+                    None if near.len() > 1 => together.extend(near.iter().map(|found| GlassCrossing {
                         glass: table.contact[found.contact as usize].glass,
                         from_outside: found.from_outside,
                         depth: found.depth as f32,
-                    }));
+                    })),
+                    None => {}
                 }
             }
             if let Some(contacts) = &mut contacts {
-                let end = contacts.list.len() as u32;
-                contacts.end.push(end);
+                contacts.crossings.push(&together);
             }
         }
     }
+}
+
+/// The row of contacts of the shape that a ray hit, and the surface there, if any other is near.
+#[inline(always)]
+fn touching(
+    table: &ContactTable,
+    rays: &WorldRays,
+    hits: &Hits,
+    (row, primitive, time): (usize, u32, f64),
+) -> Option<(usize, SurfacePoint)> {
+    let shape = hits.shape[row];
+    let own = if shape == NO_SHAPE { NO_ROW } else { table.row[shape as usize] };
+    if own == NO_ROW || !table.is_near_any(own as usize, rays.point_at(row, hits.t[row]), time) {
+        return None;
+    }
+    let Contact { body, velocity, .. } = &table.contact[own as usize];
+    let displacement = *velocity * time;
+    let (origin, direction) = (rays.origin_of(row) - displacement, rays.direction_of(row));
+    let mut surface = body.surface(&RayHit { origin, direction, t: hits.t[row], primitive, displacement });
+    surface.point += displacement;
+    Some((own as usize, surface))
+}
+
+/// The t at which a ray hits what is found behind the glass that it hit at `t`, which is the same but for rounding: of a
+/// ray that grazes an edge and goes on elsewhere, it stays what it is.
+fn t_behind(
+    table: &ContactTable,
+    found: &Found,
+    ([origin, direction], time): ([DVec3; 2], f64),
+    (t, surface): (f64, &SurfacePoint),
+) -> f64 {
+    let Contact { body, velocity, .. } = &table.contact[found.contact as usize];
+    let own = body.t(origin - *velocity * time, direction);
+    let apart = (own - t).abs() * surface.normal.dot(direction).abs();
+    if apart <= found.depth.abs() + BEYOND * f64::from(surface.bound) { own } else { t }
 }
 
 /// Widens the bounds of hits behind glass that is in contact with them, so that the rays which they spawn start in front

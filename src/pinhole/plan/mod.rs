@@ -26,6 +26,7 @@ mod column;
 mod decide;
 mod evidence;
 mod print;
+mod row_lists;
 mod stage;
 mod systems;
 mod table;
@@ -45,6 +46,8 @@ pub use decide::{Plan, PlanError, plan};
 pub use evidence::Evidence;
 #[doc(hidden)]
 pub use evidence::{ComponentKind, counted};
+#[doc(hidden)]
+pub use row_lists::RowLists;
 pub use stage::Stage;
 #[doc(hidden)]
 pub use stage::{Slot, StageKind};
