@@ -37,6 +37,7 @@ pub use gltf::glb_of;
 pub use model::{Instance, LightKind, Model, ModelCamera, ModelLight, Projection};
 pub use model_error::ModelError;
 pub use model_material::{AlphaMode, ImageSource, ModelImage, ModelMaterial, ModelTexture, TextureWrap};
+pub use printable::is_invisible;
 pub use read::read_model;
 pub use remarks::Remarks;
 pub use triangle_mesh::TriangleMesh;

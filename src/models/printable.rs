@@ -12,8 +12,9 @@ pub fn printable(text: &str, most: usize) -> String {
     line
 }
 
-/// Characters that are not visible themselves and change how others are shown, as in pinhole's messages.
-fn is_invisible(letter: char) -> bool {
+/// Whether a character is not visible itself and changes how others are shown: direction controls, line separators,
+/// joiners and tags.
+pub fn is_invisible(letter: char) -> bool {
     matches!(
         letter,
         '\u{ad}'

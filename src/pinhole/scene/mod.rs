@@ -146,11 +146,12 @@ pub use normal_map::NormalMap;
 pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, read_file};
 #[doc(hidden)]
 pub use orientation::{axis_angle, euler_xyz};
+#[doc(hidden)]
+pub use pinhole_models::is_invisible;
 pub use placement::{LookAt, Placement};
 pub use plane::Plane;
 pub use point_light::PointLight;
-#[doc(hidden)]
-pub use printable::{is_invisible, printable, printable_message, printable_path};
+pub use printable::{printable, printable_message, printable_path};
 pub use rasterisation::Rasterisation;
 #[doc(hidden)]
 pub use rectangle::Rectangle;

@@ -1,3 +1,4 @@
+use pinhole_models::is_invisible;
 use std::path::Path;
 
 /// The longest path that a message shows whole, in characters.
@@ -40,23 +41,6 @@ fn escaped(letters: impl Iterator<Item = char>) -> String {
         }
     }
     line
-}
-
-/// Characters that are not visible themselves and change how others are shown: direction controls, line separators,
-/// joiners and tags.
-pub fn is_invisible(letter: char) -> bool {
-    matches!(
-        letter,
-        '\u{ad}'
-            | '\u{61c}'
-            | '\u{180e}'
-            | '\u{200b}'..='\u{200f}'
-            | '\u{2028}'..='\u{202e}'
-            | '\u{2060}'..='\u{206f}'
-            | '\u{feff}'
-            | '\u{fff9}'..='\u{fffb}'
-            | '\u{e0000}'..='\u{e0fff}'
-    )
 }
 
 #[cfg(test)]
