@@ -1,7 +1,7 @@
 //! EXR files → colours in linear Rec. 709: the channels that are there, the primaries that are meant.
 
 use super::Texels;
-use super::image_head::one_line;
+use super::image_head::explained;
 use exr::image::read::specific_channels::ReadSpecificChannel;
 use exr::meta::attribute::{Chromaticities, EnvironmentMap, IntegerBounds};
 use exr::meta::header::Header;
@@ -43,7 +43,7 @@ pub fn exr_texels(bytes: &[u8]) -> Result<(Texels, Vec<String>), String> {
         Wanted::Rgb(names) => {
             let layer = names[0].rsplit_once('.').map_or("", |(layer, _)| layer);
             remarks.push(format!("its layer {} is read", crate::scene::printable(layer, 80)));
-            read_layer(bytes, names)?
+            read_channels(Cursor::new(bytes), names.each_ref().map(String::as_str))?
         }
         Wanted::Grey(name) => {
             remarks.push(format!("its channel {} is read as grey", crate::scene::printable(name, 80)));
@@ -60,20 +60,6 @@ pub fn exr_texels(bytes: &[u8]) -> Result<(Texels, Vec<String>), String> {
         remarks.push("it says it is a cube map, and is read as the plain image that it is".into());
     }
     Ok((texels, remarks))
-}
-
-/// The library's message in words that say what to do.
-fn explained(error: &dyn std::fmt::Display) -> String {
-    let line = one_line(error);
-    match () {
-        () if line.contains("subsampling") => {
-            "its colours are stored at half the resolution (luminance and chroma), which is not read; save it with R, G and \
-             B"
-            .into()
-        }
-        () if line.contains("deep") => "it holds deep data, which is not read; save it flattened".into(),
-        () => line,
-    }
 }
 
 fn has(header: &Header, wanted: &Wanted) -> bool {
@@ -105,32 +91,17 @@ fn wanted(headers: &[Header]) -> Result<Wanted, String> {
 ///
 /// Errors: the library's message, on one line.
 pub fn read_exr(reader: impl BufRead + Seek) -> Result<Texels, String> {
-    let image = read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .rgb_channels(
-            |size, _| Texels { width: size.0, height: size.1, rgb: vec![BLACK; size.area()] },
-            |texels: &mut Texels, at, (r, g, b): (f32, f32, f32)| {
-                let row = at.1 * texels.width;
-                texels.rgb[row + at.0] = [r, g, b];
-            },
-        )
-        .first_valid_layer()
-        .all_attributes()
-        .non_parallel()
-        .from_buffered(reader)
-        .map_err(|error| one_line(&error))?;
-    Ok(image.layer_data.channel_data.pixels)
+    read_channels(reader, ["R", "G", "B"])
 }
 
-fn read_layer(bytes: &[u8], [r, g, b]: &[String; 3]) -> Result<Texels, String> {
+fn read_channels(reader: impl BufRead + Seek, [r, g, b]: [&str; 3]) -> Result<Texels, String> {
     let image = read()
         .no_deep_data()
         .largest_resolution_level()
         .specific_channels()
-        .required(r.as_str())
-        .required(g.as_str())
-        .required(b.as_str())
+        .required(r)
+        .required(g)
+        .required(b)
         .collect_pixels(
             |size, _| Texels { width: size.0, height: size.1, rgb: vec![BLACK; size.area()] },
             |texels: &mut Texels, at, (r, g, b): (f32, f32, f32)| {
@@ -141,8 +112,8 @@ fn read_layer(bytes: &[u8], [r, g, b]: &[String; 3]) -> Result<Texels, String> {
         .first_valid_layer()
         .all_attributes()
         .non_parallel()
-        .from_buffered(Cursor::new(bytes))
-        .map_err(|error| one_line(&error))?;
+        .from_buffered(reader)
+        .map_err(|error| explained(&error))?;
     Ok(image.layer_data.channel_data.pixels)
 }
 
@@ -163,7 +134,7 @@ fn read_grey(bytes: &[u8], name: &str) -> Result<Texels, String> {
         .all_attributes()
         .non_parallel()
         .from_buffered(Cursor::new(bytes))
-        .map_err(|error| one_line(&error))?;
+        .map_err(|error| explained(&error))?;
     Ok(image.layer_data.channel_data.pixels)
 }
 

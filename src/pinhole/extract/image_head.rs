@@ -54,7 +54,7 @@ pub fn image_head(reader: impl BufRead + Seek, format: ImageFormat, length: u64)
 }
 
 fn exr_head(reader: impl BufRead, length: u64) -> Result<ImageHead, String> {
-    let meta = MetaData::read_from_buffered(reader, false).map_err(|error| one_line(&error))?;
+    let meta = MetaData::read_from_buffered(reader, false).map_err(|error| explained(&error))?;
     let (mut largest, mut least) = (ImageHead { width: 0, height: 0, decoded: 0 }, 0_u64);
     for header in &meta.headers {
         let (width, height) = (header.layer_size.0 as u64, header.layer_size.1 as u64);
@@ -101,6 +101,20 @@ fn check_length(head: &ImageHead, least: u64, length: u64) -> Result<(), String>
         return Ok(());
     }
     Err(format!("it says it has {width} × {height} pixels, which do not fit into its {length} bytes"))
+}
+
+/// A message of the library for EXRs, in words that say what to do where it has none.
+pub fn explained(error: &dyn Display) -> String {
+    let line = one_line(error);
+    match () {
+        () if line.contains("subsampling") => {
+            "its colours are stored at half the resolution (luminance and chroma), which is not read; save it with R, G and \
+             B"
+            .into()
+        }
+        () if line.contains("deep") => "it holds deep data, which is not read; save it flattened".into(),
+        () => line,
+    }
 }
 
 /// A library's message as a part of one sentence.
