@@ -93,6 +93,9 @@ pub struct RenderOptions {
     /// Print nothing but where the picture is and what to beware of, and take no times
     #[arg(short, long)]
     pub quiet: bool,
+    /// Trace no test rays before rendering, which would warn of a picture that is black, clipped or slow
+    #[arg(long)]
+    pub no_preflight: bool,
 }
 
 impl SceneOptions {

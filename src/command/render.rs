@@ -292,6 +292,9 @@ fn before_rendering(
     json: bool,
     streams: &mut Streams<'_>,
 ) -> Result<Foretold> {
+    if options.no_preflight {
+        return Ok(Foretold::default());
+    }
     let (threads, ends_in_time) = (options.threads.map(usize::from), options.time.is_some());
     let asked = Preflight { threads, ends_in_time, ..Preflight::default() }.since(began);
     let said = foretell(scene, (&render.plan, render.tables()), asked)?;
