@@ -1,12 +1,14 @@
 use super::arguments::TryPreflight;
 use super::error::Result;
 use super::format::{Format, print_json};
+use super::options::RenderOptions;
+use super::streams::Streams;
 use super::subject::{Subject, every_stage};
 use bevy_ecs::prelude::*;
 use pinhole::Chapter;
-use pinhole::look::{MISTAKES, Preflight, preflight};
+use pinhole::look::{Foretold, MISTAKES, Preflight, foretell, preflight};
 use pinhole::plan::{Census, Stage};
-use pinhole::render::{check_film_fits, prepare};
+use pinhole::render::{RenderInProgress, check_film_fits, prepare};
 use serde_json::json;
 use std::io::Write;
 use std::time::Instant;
@@ -64,4 +66,24 @@ fn print_lines(told: &[String], indent: &str, out: &mut dyn Write) -> Result {
         writeln!(out, "{indent}before rendering: {line}")?;
     }
     Ok(())
+}
+
+/// Says what a reader should know before they wait; a program is told with the rest.
+pub fn before_rendering(
+    scene: &Census<'_>,
+    options: &RenderOptions,
+    (render, began): (&RenderInProgress, Instant),
+    json: bool,
+    streams: &mut Streams<'_>,
+) -> Result<Foretold> {
+    if options.no_preflight {
+        return Ok(Foretold::default());
+    }
+    let (threads, ends_in_time) = (options.threads.map(usize::from), options.time.is_some());
+    let asked = Preflight { threads, ends_in_time, ..Preflight::default() }.since(began);
+    let said = foretell(scene, (&render.plan, render.tables()), asked)?;
+    if !json {
+        said.warnings.iter().try_for_each(|warning| streams.note(&format!("before rendering: {warning}")))?;
+    }
+    Ok(said)
 }

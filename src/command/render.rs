@@ -9,6 +9,7 @@ use super::interrupt::{Waiting, interrupted};
 use super::long_render::{LongRender, render_long};
 use super::options::{RenderOptions, SceneOptions};
 use super::own_file::write_file;
+use super::preflight::before_rendering;
 use super::progress::Progress;
 use super::status;
 use super::streams::Streams;
@@ -20,7 +21,7 @@ use pinhole::extract::{
     ChosenIntegrator, LayerTable, adaptive_of, camera_entity, image_remarks, integrator_of, validate,
 };
 use pinhole::film::png_bytes;
-use pinhole::look::{Foretold, Preflight, RenderStats, foretell};
+use pinhole::look::{Foretold, RenderStats};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::{FileKind, Integrator, ModelNotes, Resolution, Sampling, read_file};
@@ -282,26 +283,6 @@ fn render_with(
 fn chosen_integrator(scene: &Census<'_>) -> Option<String> {
     let ChosenIntegrator { integrator, reason, is_named, .. } = integrator_of(scene);
     (!is_named && integrator != Integrator::RayCasting).then(|| format!("{}: {reason}", integrator.in_words()))
-}
-
-/// Says what a reader should know before they wait; a program is told with the rest.
-fn before_rendering(
-    scene: &Census<'_>,
-    options: &RenderOptions,
-    (render, began): (&RenderInProgress, Instant),
-    json: bool,
-    streams: &mut Streams<'_>,
-) -> Result<Foretold> {
-    if options.no_preflight {
-        return Ok(Foretold::default());
-    }
-    let (threads, ends_in_time) = (options.threads.map(usize::from), options.time.is_some());
-    let asked = Preflight { threads, ends_in_time, ..Preflight::default() }.since(began);
-    let said = foretell(scene, (&render.plan, render.tables()), asked)?;
-    if !json {
-        said.warnings.iter().try_for_each(|warning| streams.note(&format!("before rendering: {warning}")))?;
-    }
-    Ok(said)
 }
 
 /// What shows how far the render is.

@@ -147,3 +147,17 @@ fn workers_are_as_many_as_the_environment_says_and_fewer_than_asked_for_is_no_er
     assert!((1..=100).contains(&threads(&["--threads", "100"])));
     assert_eq!(names(&folder.path().join("out")), ["05_pinhole.exr", "05_pinhole.png"]);
 }
+
+#[test]
+fn without_preflight_nothing_is_foretold_and_the_picture_is_the_same() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let scene = "[(perspective_camera: (fov: 40)), (sphere: (), matte: (), placement: (position: (0, 0, 9)))]";
+    fs::write(folder.path().join("behind.ron"), scene).expect("written");
+    let [told, untold] = [&[][..], &["--no-preflight"]].map(|flag| {
+        let done = run(folder.path(), &[&["render", "behind.ron", "--size", "16x9", "-o", "a.exr"], flag].concat());
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        (text(&done.stderr).contains("before rendering: "), fs::read(folder.path().join("a.exr")).expect("a picture"))
+    });
+    assert_eq!((told.0, untold.0), (true, false));
+    assert_eq!(told.1, untold.1);
+}
