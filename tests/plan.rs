@@ -250,7 +250,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
         ("hat", &["Intersect cones", "Compute surfaces: cones", "Trace shadow rays: cones"]),
         ("ring", &["Intersect tori", "Compute surfaces: tori", "Trace shadow rays: tori"]),
         ("sail", &["Intersect triangles", "Compute surfaces: triangles", "Trace shadow rays: triangles"]),
-        ("lamp", &["Sample point lights", "Clear shadow hits", "Evaluate direct light"]),
+        ("lamp", &["Sample point lights", "Clear shadow hits", "Evaluate direct light: matte"]),
         ("sky", &["Add the background"]),
     ];
     let on = [
@@ -309,7 +309,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
     let mut scene = toggled(&[Toggle::Light, Toggle::Shadow]);
     scene.spawn((Name::new("spare"), Matte::default()));
     let plan = plan_of(&scene);
-    for stage in ["Clear light rays", "Sample point lights", "Evaluate direct light"] {
+    for stage in ["Clear light rays", "Sample point lights", "Evaluate direct light: matte"] {
         let row = row(&plan, stage);
         assert!(!row.kept && row.reason.contains("\"spare\"") && row.reason.contains("unused"), "{row:?}");
     }
@@ -353,7 +353,7 @@ fn reasons_name_the_first_three() {
         ("Clear shadow hits", vec![&lamps, &mattes]),
         ("Trace shadow rays: spheres", vec![&balls, &lamps]),
         ("Trace shadow rays: planes", vec![&panes, &lamps]),
-        ("Evaluate direct light", vec![&lamps, &mattes]),
+        ("Evaluate direct light: matte", vec![&lamps, &mattes]),
         ("Show unlit surfaces", vec![&lamps]),
         ("Generate camera rays: perspective", vec![]),
     ];
@@ -383,13 +383,13 @@ fn an_emissive_surface_is_seen_and_lights_nothing() {
     let aimed = plan_of(&scene);
     assert_eq!(row(&aimed, "Add emission").reason, "added with its MIS weight");
     assert!(row(&aimed, "Add emission, weighted by MIS").kept);
-    assert!(row(&aimed, "Sample area lights").kept && row(&aimed, "Evaluate direct light").kept);
+    assert!(row(&aimed, "Sample area lights").kept && row(&aimed, "Evaluate direct light: matte").kept);
     let camera = named(&mut scene, "camera");
     scene.entity_mut(camera).insert(Integrator::RayCasting);
     let plan = plan_of(&scene);
     let emission = row(&plan, "Add emission");
     assert_eq!(emission.reason, "1 emissive surface: \"glow\", seen, but not lighting other surfaces");
-    assert!(emission.kept && !row(&plan, "Show unlit surfaces").kept && !row(&plan, "Evaluate direct light").kept);
+    assert!(emission.kept && !row(&plan, "Show unlit surfaces").kept && !row(&plan, "Evaluate direct light: matte").kept);
     let alone = plan_of(&toggled(&[Toggle::Emissive, Toggle::Light]));
     let columns: Vec<&str> = alone.columns.iter().map(|column| column.name).collect();
     assert!(!columns.contains(&"surface") && !columns.contains(&"material rows"), "{columns:?}");

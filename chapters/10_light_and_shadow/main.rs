@@ -3,8 +3,9 @@
 //! New here: shadow rays, stage by stage; the box that chapter 5 left closed.
 
 use bevy_ecs::prelude::*;
+use pinhole::material::MatteTable;
 use pinhole::scene::*;
-use pinhole::{Chapter, shade, stages};
+use pinhole::{Chapter, follow, shade, stages};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -24,7 +25,7 @@ pub fn chapter() -> Chapter {
         .offer(shade::start_shadow_stage())
         .offer(shade::sphere_shadow_stage())
         .offer(shade::plane_shadow_stage())
-        .offer(shade::light_stage())
+        .offer(follow::direct_light_stage::<MatteTable>())
 }
 // ANCHOR_END: chapter
 

@@ -4,17 +4,18 @@ use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{MaterialTable, PointLightTable};
+use pinhole::follow::direct_light_stage;
 use pinhole::intersect::{NO_SHAPE, Surfaces};
 use pinhole::lights::PlacedPointLight;
+use pinhole::material::MatteTable;
 use pinhole::plan::{Column, Shared};
-use pinhole::shade;
 use pinhole::shade::{LightRays, Radiance, ShadowHits};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// Radiance of matte surfaces from the point lights that nothing hides from them.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::instead(
-        shade::light_stage,
+        direct_light_stage::<MatteTable>,
         move |materials: Res<Shared<MaterialTable>>,
               lights: Res<Shared<PointLightTable>>,
               mut tiles: Query<(RowPlaces, &Surfaces, &LightRays, Option<&ShadowHits>, &mut Radiance)>| {

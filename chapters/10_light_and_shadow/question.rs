@@ -2,7 +2,8 @@
 
 use super::mine::mine;
 use glam::DVec3;
-use pinhole::{lights, shade};
+use pinhole::lights;
+use pinhole::material::lambertian;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -193,7 +194,7 @@ fn radiance(input: &Input, cosine: f64) -> f64 {
 
 fn sent(&(colour, intensity, ..): &Input, cosine: f64, distance_squared: f64) -> f64 {
     let irradiance = lights::irradiance_from_point([intensity; 3], cosine, distance_squared);
-    shade::matte_radiance([colour; 3], irradiance)[0]
+    lambertian([colour; 3])[0] * irradiance[0]
 }
 
 const TURNED: &str = "the direction leads from the light to the surface; the opposite is meant";

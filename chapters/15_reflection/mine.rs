@@ -8,10 +8,10 @@ use pinhole::intersect::{NO_SHAPE, Surfaces};
 use pinhole::material::PhongTable;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
-use pinhole::shade::{LightRays, Radiance, ShadowHits, matte_radiance};
+use pinhole::shade::{LightRays, Radiance, ShadowHits};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
-/// Radiance of Phong surfaces, less the matte part that "Evaluate direct light" adds.
+/// Radiance of Phong surfaces.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::instead(
         direct_light_stage::<PhongTable>,
@@ -29,14 +29,13 @@ pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                     let (cosine, to_eye) = (normal.dot(to_light), -eye.direction_of(row));
                     let (own, colour, irradiance) =
                         (materials.row[material] as usize, materials.colour[material], rays.irradiance(ray));
-                    let matte = matte_radiance(colour, irradiance);
-                    let rest = |part: usize| {
+                    let whole = |part: usize| {
                         let model = [colour[part], phong.specular[own][part], phong.exponent[own]];
                         let facing = irradiance[part] / cosine;
                         let asked = (model, facing, normal.into(), to_light.into(), to_eye.into());
-                        ask.at(place, row, asked).map_or(0.0, |whole| (whole - matte[part]) as f32)
+                        ask.at(place, row, asked).map_or(0.0, |whole| whole as f32)
                     };
-                    let [r, g, b] = [rest(0), rest(1), rest(2)];
+                    let [r, g, b] = [whole(0), whole(1), whole(2)];
                     radiance.r[row] += r;
                     radiance.g[row] += g;
                     radiance.b[row] += b;

@@ -2,8 +2,7 @@
 
 use super::mine::mine;
 use glam::DVec3;
-use pinhole::material::{half_vector_cosine, highlight, mirror_cosine, phong_peak};
-use pinhole::shade::matte_radiance;
+use pinhole::material::{half_vector_cosine, highlight, lambertian, mirror_cosine, phong_peak};
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -254,7 +253,7 @@ fn lobe(input: &Input, cosine: f64) -> f64 {
 /// The radiance of a highlight so high, where the light falls with this cosine.
 fn sent(&([colour, specular, _], irradiance, ..): &Input, lobe: f64, cosine: f64) -> f64 {
     let received = irradiance * cosine;
-    matte_radiance([colour; 3], [received; 3])[0] + specular * lobe * received
+    lambertian([colour; 3])[0] * received + specular * lobe * received
 }
 
 const NO_COSINE: &str = "the cosine is forgotten in the highlight; it lessens what arrives, so it counts for both";

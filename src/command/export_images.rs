@@ -4,8 +4,8 @@ use super::error::{Error, Result};
 use bevy_ecs::prelude::*;
 use pinhole::film::{Replaces, write_whole};
 use pinhole::scene::{
-    EmbeddedFiles, EmissionMap, Environment, FileKind, IMAGE_FILE, ImageTexture, MeshPart, MetallicRoughnessMap,
-    ModelFiles, NormalMap, SceneFolder, printable_path, read_file,
+    EmbeddedFiles, Environment, FileKind, IMAGE_FILE, MeshPart, ModelFiles, SceneFolder, for_each_texture_file,
+    printable_path, read_file, texture_files,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
@@ -75,14 +75,8 @@ fn named_images(world: &mut World) -> BTreeSet<String> {
         if entity.get::<MeshPart>().is_some_and(|part| part.0 != entity.id()) {
             continue;
         }
-        let maps = [
-            entity.get::<ImageTexture>().map(|image| &image.file),
-            entity.get::<NormalMap>().map(|map| &map.file),
-            entity.get::<MetallicRoughnessMap>().map(|map| &map.file),
-            entity.get::<EmissionMap>().map(|map| &map.file),
-            entity.get::<Environment>().map(|environment| &environment.file),
-        ];
-        names.extend(maps.into_iter().flatten().cloned());
+        names.extend(texture_files(entity));
+        names.extend(entity.get::<Environment>().map(|environment| environment.file.clone()));
     }
     names
 }
@@ -90,10 +84,7 @@ fn named_images(world: &mut World) -> BTreeSet<String> {
 /// All at once, for one image's new name may be another's old one.
 fn rename(world: &mut World, new_names: &BTreeMap<String, String>) {
     let renamed = |file: &mut String| new_names.get(file).into_iter().for_each(|new| file.clone_from(new));
-    world.query::<&mut ImageTexture>().iter_mut(world).for_each(|mut image| renamed(&mut image.file));
-    world.query::<&mut NormalMap>().iter_mut(world).for_each(|mut map| renamed(&mut map.file));
-    world.query::<&mut MetallicRoughnessMap>().iter_mut(world).for_each(|mut map| renamed(&mut map.file));
-    world.query::<&mut EmissionMap>().iter_mut(world).for_each(|mut map| renamed(&mut map.file));
+    for_each_texture_file(world, renamed);
     world.query::<&mut Environment>().iter_mut(world).for_each(|mut image| renamed(&mut image.file));
 }
 

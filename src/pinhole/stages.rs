@@ -85,6 +85,7 @@ const LIST: &[Part] = &[Part(&[
     (Intersection, intersect::start_stage),
     (Radiance, shade::start_stage),
     (DirectLight, shade::start_light_stage),
+    (Glass, follow::leave_glass_at_start_stage),
     (Bounces, follow::start_paths_stage),
     (Bounces, follow::start_scattered_stage),
     (AreaLights, follow::start_departures_stage),
@@ -157,10 +158,10 @@ const LIST: &[Part] = &[Part(&[
 ], shadow_rays), Part(&[
     (Motion, shade::moving_shadow_stage),
     (Glass, follow::absorb_shadow_stage),
+    (Glass, follow::block_across_surfaces_stage),
 
     // Direct light is evaluated: the light of unblocked shadow rays, reflected along the path.
 ], direct_light_of_bsdfs), Part(&[
-    (DirectLight, shade::light_stage),
     (Lights, shade::emissive_stage),
     (AreaLights, follow::mis_emission_stage),
     (AmbientOcclusion, follow::sky_stage),
@@ -174,6 +175,7 @@ const LIST: &[Part] = &[Part(&[
     (LightTracing, follow::splat_stage),
     (Glass, follow::leave_contacts_stage),
     (Glass, follow::carry_media_stage),
+    (Glass, follow::absorb_at_start_stage),
     (AreaLights, follow::keep_departures_stage),
     (Bounces, follow::next_bounce_stage),
     (Bounces, follow::footprints_stage),

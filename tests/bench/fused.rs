@@ -20,7 +20,8 @@ use pinhole::sample::{
     Draw, PixelKey, Purpose, SampleIndex, box_offset, table_offset, tent_offset, unit, with_sampler,
 };
 use pinhole::scene::{Filter, SceneError};
-use pinhole::shade::{matte_radiance, shadow_t_max};
+use pinhole::material::lambertian;
+use pinhole::shade::shadow_t_max;
 use pinhole::shapes::{PlacedSphere, RayHit, ShapeKind, l1_norm, nearness, offset_origin, plane_t, sphere_t};
 use std::sync::{Mutex, PoisonError};
 
@@ -204,9 +205,9 @@ fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
             let colour = scene.materials.colour[surface.material as usize];
             let irradiance = irradiance_from_point(row.intensity, cosine, distance * distance);
             // Pinhole keeps irradiance in a column of f32.
-            let brings = matte_radiance(colour, irradiance.map(|part| f64::from(part as f32)));
-            for (sum, brings) in radiance.iter_mut().zip(brings) {
-                *sum += brings as f32;
+            let brdf = lambertian(colour);
+            for ((sum, brdf), irradiance) in radiance.iter_mut().zip(brdf).zip(irradiance) {
+                *sum += (brdf * f64::from(irradiance as f32)) as f32;
             }
         }
     }

@@ -116,7 +116,7 @@ fn lit_with(raster: Stage) -> Vec<Stage> {
         shade::point_light_stage(),
         shade::start_shadow_stage(),
     ]);
-    stages.extend([shade::sphere_shadow_stage(), shade::plane_shadow_stage(), shade::light_stage(), film_stage()]);
+    stages.extend([shade::sphere_shadow_stage(), shade::plane_shadow_stage(), follow::direct_light_stage::<MatteTable>(), film_stage()]);
     stages
 }
 
@@ -147,7 +147,7 @@ fn varied() -> Vec<Stage> {
     ]);
     stages.extend([
         shade::shape_shadow_stage::<pinhole::shapes::Slabs>(),
-        shade::light_stage(),
+        follow::direct_light_stage::<MatteTable>(),
         follow::direct_light_stage::<PhongTable>(),
         film_stage(),
     ]);
@@ -162,7 +162,7 @@ fn followed() -> Vec<Stage> {
     stages.extend([follow::classify_bsdf_stage::<MirrorTable>(), follow::max_depth_stage()]);
     stages.extend([intersect::sphere_surface_stage(), intersect::plane_surface_stage(), shade::background_stage()]);
     stages.extend([shade::area_light_stage(), shade::start_shadow_stage(), shade::sphere_shadow_stage()]);
-    stages.extend([shade::plane_shadow_stage(), follow::mis_stage::<MatteTable>(), shade::light_stage()]);
+    stages.extend([shade::plane_shadow_stage(), follow::mis_stage::<MatteTable>(), follow::direct_light_stage::<MatteTable>()]);
     stages.extend([
         follow::mis_emission_stage(),
         follow::specular_stage::<MirrorTable>(),
@@ -197,7 +197,7 @@ const TRACED: [&str; 17] =
 
 /// Prints how many instructions twelve samples more of each pixel take, here as a multiple of another checkout's.
 ///
-/// No test rays are traced before: how many those are depends on the number of samples and on the time they take.
+/// No test rays are traced before, and nothing is written in between: how much of that there is depends on time.
 fn against(other: &Path) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut most = 0.0_f64;
@@ -209,7 +209,7 @@ fn against(other: &Path) {
                 tool.current_dir(checkout)
                     .arg("target/release/pinhole")
                     .args(["render", chapter, "--quiet", "-j", "1"]);
-                tool.args(["--no-preflight", "--size", "96x64", "-n", samples, "-o"]).arg(&exr);
+                tool.args(["--no-preflight", "--write-every", "10000s", "--size", "96x64", "-n", samples, "-o"]).arg(&exr);
                 count(tool, "Collected :")
             });
             (many - few, fs::read(exr).expect("a picture"))

@@ -5,10 +5,7 @@ mod principled;
 
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole::material::{
-    Bsdf, BsdfClass, ErasedBsdf, MaterialTable, MetalTable, PrincipledTable, REGISTERED, Registration, RoughGlassTable,
-    Site, Transport,
-};
+use pinhole::material::{Bsdf, BsdfClass, ErasedBsdf, MaterialTable, MetalTable, Parameters, PrincipledTable, Registration, RoughGlassTable, Site, Transport, REGISTERED};
 use pinhole::plan::Census;
 use pinhole::scene::{Metal, MetallicRoughnessMap, Principled, Rgb, RoughGlass};
 use pinhole_lab::measure::chi_squared::{Bins, p_value};
@@ -37,7 +34,7 @@ fn examples_of(own: &Registration) -> Vec<Example> {
         let census = Census::of(&world);
         let table = census.table::<MaterialTable>().expect("a material");
         assert_eq!(table.kind[..], [own.kind], "{} {number} is of its own kind", own.component);
-        let opaque = Site::opaque(table.row[0] as usize, table.colour[0]);
+        let opaque = Site::opaque(table.row[0] as usize, table.parameters(0));
         let etas = if own.transmits { &ETAS[..] } else { &[1.0] };
         Example {
             name: format!("{} {number}", own.component),
@@ -65,7 +62,7 @@ fn mapped(grey: f64, of_image: [f64; 2]) -> Example {
     Example {
         name: format!("Principled, {grey}, by an image {metallic} metallic and {roughness} rough"),
         bsdf: Box::new(bsdf),
-        sites: vec![Site { mapped: Some(of_image), ..Site::opaque(0, [grey; 3]) }],
+        sites: vec![Site::opaque(0, Parameters { colour: [grey; 3], metallic, roughness })],
         // Of smoother metals, samples find too little of what leaves at grazing incidence after several scatterings;
         // principled.rs integrates that over the cosine.
         lossless_to: (grey == 1.0 && (metallic < 1.0 || roughness >= 0.1)).then_some(3e-3),
@@ -298,9 +295,9 @@ fn sampled_directions_have_their_pdf() {
 #[test]
 fn roughness_ends_at_0_and_at_1() {
     let accepted = |roughness: f64| {
-        let metal = MetalTable::colour(&Metal { roughness, ..Metal::default() }, "it");
-        let glass = RoughGlassTable::colour(&RoughGlass { roughness, ..RoughGlass::default() }, "it");
-        let principled = PrincipledTable::colour(&Principled { roughness, ..Principled::default() }, "it");
+        let metal = MetalTable::parameters(&Metal { roughness, ..Metal::default() }, "it");
+        let glass = RoughGlassTable::parameters(&RoughGlass { roughness, ..RoughGlass::default() }, "it");
+        let principled = PrincipledTable::parameters(&Principled { roughness, ..Principled::default() }, "it");
         [metal, glass, principled].map(|colour| colour.is_ok())
     };
     for (roughness, expected) in [(0.0, true), (1.0, true), (1.0 + f64::EPSILON, false), (-1e-300, false)] {
@@ -312,5 +309,5 @@ fn roughness_ends_at_0_and_at_1() {
 fn what_transmits_light_has_no_colour_of_its_own() {
     let sites: Vec<Site> =
         REGISTERED.iter().filter(|own| own.transmits).flat_map(examples_of).flat_map(|own| own.sites).collect();
-    assert!(sites.len() > 2 && sites.iter().all(|site| site.colour == [0.0; 3]), "{sites:?}");
+    assert!(sites.len() > 2 && sites.iter().all(|site| site.parameters.colour == [0.0; 3]), "{sites:?}");
 }

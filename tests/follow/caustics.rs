@@ -15,6 +15,7 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 /// A mean over seeds, and its standard error.
+#[derive(Debug)]
 pub(super) struct Mean {
     pub mean: f64,
     pub error: f64,

@@ -609,3 +609,120 @@ fn box_mesh() -> pinhole::models::TriangleMesh {
     }
     pinhole::models::TriangleMesh { positions: (0..8).map(corner).collect(), triangles, ..Default::default() }
 }
+
+/// A point light just below, on and just above the lower face of a block that absorbs, seen on the floor below: the
+/// light that comes straight down and what is refracted in the block are never counted together.
+#[test]
+fn a_light_beside_a_face_of_glass_is_on_one_side_of_it() {
+    let floor_of = |height: f64, from: f64, ior: f64| {
+        let make = move || {
+            let mut world = World::new();
+            let look = LookAt { eye: DVec3::new(4.0, from, 0.0), target: DVec3::new(0.0, from - 3.0, 0.0), up: DVec3::Y };
+            let fov = PerspectiveCamera { fov: Degrees(24.0), ..PerspectiveCamera::default() };
+            let camera = (Name::new("camera"), fov, look);
+            world.spawn((camera, Resolution { width: 8, height: 8 }, Integrator::Path {
+                max_depth: 60,
+                lights: LightStrategy::Mis,
+                roulette: 20,
+            }, LightTracing::default()));
+            let glass = Glass { ior, absorption: Rgb::grey(1.0), ..Glass::default() };
+            let block = Placement::at(0.0, from + 0.7, 0.0);
+            world.spawn((Cuboid { size: DVec3::new(2.0, 1.2, 2.0) }, block, glass));
+            let light = PointLight { intensity: Rgb::grey(100.0), ..PointLight::default() };
+            world.spawn((light, Placement::at(0.0, from + 0.1 + height, 0.0)));
+            let matte = Matte { colour: Rgb::grey(0.01) };
+            world.spawn((Plane { normal: DVec3::Y }, Placement::at(0.0, from - 3.0, 0.0), matte));
+            world
+        };
+        super::caustics::mean_of(&make, &offer(), 24, 0..8)
+    };
+    let mut worst = 0.0_f64;
+    for (from, ior) in [(0.0, 1.5), (7.0, 1.5), (0.0, 1.0), (-3.0, 1.8)] {
+        let [below, above] = [-1e-3, 1e-3].map(|height| floor_of(height, from, ior));
+        assert!((below.mean - above.mean).abs() > 6.0 * (below.error + above.error), "{below:?} and {above:?} differ");
+        for height in [-1e-4, -1e-6, -1e-7, -1e-9, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4] {
+            let (found, expected) = (floor_of(height, from, ior), if height < 0.0 { &below } else { &above });
+            // Positions are rounded to f32, by 5e-7 at most here.
+            let either = [&below, &above].map(|side| (found.mean - side.mean).abs() / found.error.hypot(side.error));
+            let off = (found.mean - expected.mean).abs() / found.error.hypot(expected.error);
+            let off = if height.abs() <= 5e-7 { either[0].min(either[1]) } else { off };
+            worst = worst.max(off);
+            assert!(off <= 4.0, "{height:e} from the face at {from}: {found:?} for {expected:?}");
+        }
+    }
+    eprintln!("a light beside a face: 36 places, worst {worst:.1} standard errors");
+}
+
+/// The eye on the surface of absorbing water sees what is below it through the water, and what is above through air; in
+/// the joint of two blocks it sees through glass.
+#[test]
+fn an_eye_on_the_surface_of_glass_sees_each_side_through_what_is_there() {
+    let seen = |height: f64, down: f64, joint: bool| {
+        let mut world = World::new();
+        let look = LookAt {
+            eye: DVec3::new(0.0, height, 0.0),
+            target: DVec3::new(0.0, height - down, -1.0),
+            up: DVec3::Y,
+        };
+        let fov = PerspectiveCamera { fov: Degrees(20.0), ..PerspectiveCamera::default() };
+        let size = Resolution { width: 8, height: 8 };
+        world.spawn((fov, look, size, Integrator::Path { max_depth: 9, lights: LightStrategy::Mis, roulette: 8 }));
+        let glass = Glass { ior: 1.33, absorption: Rgb::grey(1.0), ..Glass::default() };
+        if joint {
+            for side in [-0.5, 0.5] {
+                world.spawn((Cuboid::default(), Placement::at(0.0, side, 0.0), glass));
+            }
+            world.spawn(Background { colour: Rgb::grey(1.0) });
+        } else {
+            world.spawn((Plane { normal: DVec3::Y }, glass));
+            let bed = (Plane { normal: DVec3::Y }, Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() });
+            world.spawn((bed, Placement::at(0.0, -1.0, 0.0)));
+            world.spawn(Background { colour: Rgb::grey(0.25) });
+        }
+        numbers(&render(&world, &offer(), &Execution::default(), &()).expect("renders").film)
+    };
+    let mut tried = 0;
+    for (joint, down, beside) in [(false, 1.0, -1e-6), (false, -1.0, 1e-6), (true, 1.0, -1e-6), (true, -1.0, 1e-6)] {
+        let [on, next] = [0.0, beside].map(|height| seen(height, down, joint));
+        for (on, next) in on.pixels.iter().zip(&next.pixels) {
+            assert!((on[0] - next[0]).abs() < 1e-4, "{joint} {down}: {on:?} for {next:?}");
+            tried += 1;
+        }
+    }
+    eprintln!("an eye on the surface of glass: {tried} pixels");
+}
+
+/// Films that absorb half of the light, seen from afar: what the offset of rays passes by is absorbed, too.
+#[test]
+fn thin_films_absorb_what_they_should() {
+    let mut worst = 0.0_f64;
+    for thickness in [1e-2_f64, 1e-3, 1e-4, 3e-5] {
+        for angle in [0.0, 50.0_f64] {
+            let (sine, cosine) = angle.to_radians().sin_cos();
+            let absorption = 2.0_f64.ln() / thickness;
+            let make = move || {
+                let mut world = World::new();
+                let eye = DVec3::new(10.0 * sine, 10.0 * cosine, 0.0);
+                let look = LookAt { eye, target: DVec3::ZERO, up: DVec3::Z };
+                let fov = PerspectiveCamera { fov: Degrees(0.5), ..PerspectiveCamera::default() };
+                let path = Integrator::Path { max_depth: 30, lights: LightStrategy::Mis, roulette: 29 };
+                world.spawn((Name::new("camera"), fov, look, Resolution { width: 8, height: 8 }, path));
+                let glass = Glass { ior: 1.5, absorption: Rgb::grey(absorption), ..Glass::default() };
+                world.spawn((Cuboid { size: DVec3::new(4.0, thickness, 4.0) }, glass));
+                let light = Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() };
+                world.spawn((Plane { normal: DVec3::Y }, Placement::at(0.0, -1.0, 0.0), light));
+                world
+            };
+            let found = super::caustics::mean_of(&make, &offer(), 16, 0..8);
+            // A slab: T² e/(1 − R² e²), with Fresnel's R and e the transmittance of one way through it.
+            let inside = (1.0 - (sine / 1.5).powi(2)).sqrt();
+            let reflected = pinhole::material::fresnel(cosine, 1.5);
+            let way = (-absorption * thickness / inside).exp();
+            let truth = (1.0 - reflected).powi(2) * way / (1.0 - (reflected * way).powi(2));
+            let off = (found.mean - truth).abs() / found.error.max(1e-4 * truth);
+            worst = worst.max(off);
+            assert!(off <= 4.0, "{thickness:e} thick at {angle}°: {found:?} for {truth}");
+        }
+    }
+    eprintln!("thin films: 8, worst {worst:.1} standard errors");
+}

@@ -1,7 +1,7 @@
 //! What principled surfaces add to single scattering, from averages over the hemisphere.
 
 use super::*;
-use pinhole::material::{ByCosine, ggx_brdf, ggx_sample, multiple_scattering_albedo, single_scattering};
+use pinhole::material::{ByCosine, Parameters, ggx_brdf, ggx_sample, multiple_scattering_albedo, single_scattering};
 use pinhole::plan::Table;
 use std::f64::consts::FRAC_1_PI;
 
@@ -27,7 +27,7 @@ fn evaluated(grey: f64, metallic: f64, roughness: f64, [light, eye]: [DVec3; 2])
     world.spawn(Principled { base_colour: Rgb::grey(grey), metallic, roughness, ..Principled::default() });
     let census = Census::of(&world);
     let table = census.table::<PrincipledTable>().expect("a table");
-    Bsdf::eval(&*table, &Site::opaque(0, [grey; 3]), light, eye)[1]
+    Bsdf::eval(&*table, &Site::opaque(0, Parameters { colour: [grey; 3], metallic, roughness }), light, eye)[1]
 }
 
 /// Of a black base only specular reflection is left, which at normal incidence is ((n − 1)/(n + 1))².
@@ -38,7 +38,8 @@ fn a_principled_dielectric_reflects_by_its_index() {
         let mut world = World::new();
         world.spawn(Principled { base_colour: Rgb::BLACK, metallic: 0.0, roughness: 0.1, ior });
         let table = Census::of(&world).table::<PrincipledTable>().expect("a table");
-        let reflected = Bsdf::eval(&*table, &Site::opaque(0, [0.0; 3]), up, up)[1] / ggx_brdf(up, up, 0.01);
+        let site = Site::opaque(0, Parameters { roughness: 0.1, ..Parameters::default() });
+        let reflected = Bsdf::eval(&*table, &site, up, up)[1] / ggx_brdf(up, up, 0.01);
         assert!((reflected - expected).abs() < 1e-3, "{ior}: {reflected} for {expected}");
     }
 }
@@ -104,8 +105,8 @@ fn a_mapped_white_metal_loses_nothing_however_smooth() {
     let table = Census::of(&world).table::<PrincipledTable>().expect("a table");
     let mut worst = 0.0_f64;
     for roughness in [0.035, 0.05, 0.07, 0.085, 0.12, 0.26, 0.5, 1.0] {
-        let (alpha, site) =
-            (roughness * roughness, Site { mapped: Some([1.0, roughness]), ..Site::opaque(0, [1.0; 3]) });
+        let (alpha, metallic) = (roughness * roughness, 1.0);
+        let site = Site::opaque(0, Parameters { colour: [1.0; 3], metallic, roughness });
         for angle in ANGLES {
             let eye = eye_at(angle);
             let weight = |at: u64| {
@@ -165,12 +166,11 @@ fn assert_mapped(name: &str, roughness_of: impl Fn(f64) -> f64, most: [f64; 2]) 
         let mut other = World::new();
         other.spawn(Principled { base_colour: Rgb::grey(grey), metallic, roughness, ..Principled::default() });
         let own = Census::of(&other).table::<PrincipledTable>().expect("a table");
-        let opaque = Site::opaque(0, [grey; 3]);
-        let mapped = Site { mapped: Some([metallic, roughness]), ..opaque };
+        let site = Site::opaque(0, Parameters { colour: [grey; 3], metallic, roughness });
         for _ in 0..50 {
             let (light, eye) = (direction(&mut draws, false), direction(&mut draws, false));
-            let values = [(&*table, &mapped), (&*own, &opaque)]
-                .map(|(table, site)| [Bsdf::eval(table, site, light, eye)[1], Bsdf::pdf(table, site, light, eye)]);
+            let values = [&*table, &*own]
+                .map(|table| [Bsdf::eval(table, &site, light, eye)[1], Bsdf::pdf(table, &site, light, eye)]);
             for part in [0, 1] {
                 let [found, expected] = values.map(|values| values[part]);
                 // Relative, but where almost nothing is reflected.

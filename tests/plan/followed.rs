@@ -63,7 +63,7 @@ fn an_integrator_brings_what_it_needs_and_nothing_else() {
                 ("Add the environment, weighted by MIS", samples_lights && has(Environment)),
                 ("Add the environment", !samples_lights && !sky && has(Environment)),
                 ("Evaluate direct light: metal", !sky && has(Metal)),
-                ("Evaluate direct light", !sky),
+                ("Evaluate direct light: matte", !sky),
                 ("Sample point lights", !sky),
                 ("Sample the open sky", sky),
                 ("Show ambient occlusion", sky),

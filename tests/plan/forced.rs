@@ -69,7 +69,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         }
         // All at once, so that each also finds the columns that it reads.
         // Light is added even where there is none, so that what only it reads is read.
-        let all = [dropped.as_slice(), &["Evaluate direct light"]].concat();
+        let all = [dropped.as_slice(), &["Evaluate direct light: matte"]].concat();
         let offer = forced(&offer, &all, true);
         match film_by(scene, &offer, &one_world()) {
             Ok(film) => {
@@ -94,7 +94,6 @@ fn forcing_an_exact_stage_on_changes_nothing() {
     // read by nothing; the rows of glass are read by alternatives only, and counts of tests by views.
     let never = [
         "Accumulate film",
-        "Carry media to the next bounce",
         "Clear radiance",
         "Clear the surfaces that rays left",
         "Count tests",
@@ -225,6 +224,18 @@ fn frosted_blocks() -> World {
     world
 }
 
+/// The eye on a face of an absorbing block, and a lamp just within another above the floor.
+fn on_a_face() -> World {
+    let mut world = toggled(&[Toggle::Light, Toggle::Shadow, Toggle::Plane]);
+    let (camera, lamp) = (named(&mut world, "camera"), named(&mut world, "lamp"));
+    let look = LookAt { eye: DVec3::new(0.0, 1.5, 2.0), target: DVec3::ZERO, ..LookAt::default() };
+    world.entity_mut(camera).insert((look, Integrator::PATH));
+    let glass = Glass { absorption: Rgb::grey(2.0), ..Glass::default() };
+    world.spawn((Cuboid { size: DVec3::new(4.0, 1.0, 4.0) }, Placement::at(0.0, 1.5, 0.0), glass));
+    world.entity_mut(lamp).insert(Placement::at(0.0, 1.0 + 1e-7, 0.4));
+    world
+}
+
 /// A lamp, a floor and the camera within ink.
 fn in_ink() -> World {
     let mut world = toggled(&[Toggle::Light, Toggle::Shadow, Toggle::Plane]);
@@ -307,6 +318,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("films", films()),
         ("a lamp in ink", in_ink()),
         ("frosted blocks", frosted_blocks()),
+        ("an eye and a lamp on faces of glass", on_a_face()),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();

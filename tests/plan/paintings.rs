@@ -95,7 +95,7 @@ fn each_column_is_painted_as_its_page_says() {
         shown(JoinPoints { x: vec![0.25], y: vec![0.75] }, &[[0.25, 0.75, 0.0]]),
         shown(ShadowHits { t: vec![1.0; 2], shape: vec![NO_SHAPE, 0], ..Default::default() }, &[WHITE, BLACK]),
         shown(SurfaceColours { r, g, b }, &[COLOUR]),
-        shown(MetallicRoughness { metallic: vec![0.25, -1.0], roughness: vec![0.5, -1.0] }, &[[0.0, 0.5, 0.25], BLACK]),
+        shown(MetallicRoughness { metallic: vec![0.25, 0.0], roughness: vec![0.5, 0.0] }, &[[0.0, 0.5, 0.25], BLACK]),
         shown(EmissionFactors { r: vec![0.25], g: vec![0.5], b: vec![0.75] }, &[[0.25, 0.5, 0.75]]),
         shown(
             TexturePoints { x: vec![1.25], y: vec![-0.25], z: vec![0.5], ..Default::default() },

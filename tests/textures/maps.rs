@@ -55,7 +55,7 @@ fn rows(inspection: &Inspection) -> Vec<([f64; 2], [f64; 2], [f64; 3])> {
     let hit = (0..hits.t.len()).filter(|&row| hits.t[row].is_finite());
     hit.map(|row| {
         let factor = factors.times(row, [1.0; 3]).map(f64::from);
-        ([uvs.u[row], uvs.v[row]], found.get(row).expect("a map gives them"), factor)
+        ([uvs.u[row], uvs.v[row]], found.get(row), factor)
     })
     .collect()
 }

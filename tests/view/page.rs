@@ -131,7 +131,7 @@ fn columns_modes_stages_and_the_pixel_are_shown() {
 
     click(&mut browser, "[data-panel=stages]");
     let stage = |name: &str| format!("#stages [aria-label={}]", json!(name));
-    let lighting = stage("Evaluate direct light");
+    let lighting = stage("Evaluate direct light: matte");
     assert!(
         browser.number(
             "[...document.querySelectorAll('#kept .number')].reduce((sum, e) => sum + Number(e.textContent), 0)"

@@ -16,7 +16,8 @@ use pinhole::intersect::{NO_SHAPE, Surfaces};
 use pinhole::plan::{Census, Table};
 use pinhole::render::inspect;
 use pinhole::scene::{LookAt, Placement, PointLight, Resolution, Rgb, Sphere};
-use pinhole::shade::{LightRays, ShadowHits, matte_radiance};
+use pinhole::material::lambertian;
+use pinhole::shade::{LightRays, ShadowHits};
 use pinhole::{Chapter, Overrides};
 
 /// Pixels of each small picture.
@@ -111,7 +112,8 @@ impl Shadows {
             wrong += usize::from(blocked != (self.hits.shape[ray] != NO_SHAPE));
             if !blocked {
                 let colour = self.materials.colour.get(surface.material as usize).copied().unwrap_or_default();
-                let brings = matte_radiance(colour, rays.irradiance(ray));
+                let irradiance = rays.irradiance(ray);
+                let brings = [0, 1, 2].map(|part| lambertian(colour)[part] * irradiance[part]);
                 pixels[path as usize].iter_mut().zip(brings).for_each(|(sum, part)| *sum += part as f32);
             }
         }

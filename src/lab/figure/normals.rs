@@ -17,7 +17,8 @@ use pinhole::plan::{Census, Table};
 use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::Resolution;
-use pinhole::shade::{matte_radiance, shadow_t_max};
+use pinhole::material::lambertian;
+use pinhole::shade::shadow_t_max;
 use pinhole::shapes::{normal_world_from_object, offset_origin};
 use pinhole::{Chapter, Overrides};
 
@@ -109,7 +110,8 @@ fn lit(surface: &Surface, lights: &PointLightTable, materials: &MaterialTable, o
         if cosine > 0.0 && !occluders.block(origin, direction, f64::from(shadow_t_max(distance))) {
             let colour = materials.colour.get(surface.material as usize).copied().unwrap_or_default();
             let irradiance = irradiance_from_point(light.intensity, cosine, distance * distance);
-            let brings = matte_radiance(colour, irradiance);
+            let irradiance = irradiance;
+            let brings = [0, 1, 2].map(|part| lambertian(colour)[part] * irradiance[part]);
             sum.iter_mut().zip(brings).for_each(|(sum, part)| *sum += part as f32);
         }
     }

@@ -8,7 +8,7 @@ use super::svg::{Drawing, Svg};
 use glam::{DVec2, DVec3};
 use pinhole::Result;
 use pinhole::extract::{SamplingTable, SphereTable, camera_entity};
-use pinhole::material::{Bsdf, MetalTable, Site, mirror_direction};
+use pinhole::material::{Bsdf, MetalTable, Parameters, Site, mirror_direction};
 use pinhole::plan::{Census, Table};
 use pinhole::sample::{Draw, PixelKey, Purpose, SampleIndex, Sobol, unit};
 use pinhole::shapes::emitter::{sphere_pdf, sphere_point};
@@ -94,7 +94,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 
 impl Case {
     fn site(&self) -> Site {
-        Site::opaque(self.row, [0.0; 3])
+        Site::opaque(self.row, Parameters::default())
     }
 
     /// The BSDF times the cosine.

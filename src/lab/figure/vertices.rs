@@ -9,7 +9,7 @@ use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use pinhole::Result;
 use pinhole::extract::{AreaLightTable, MaterialTable, NO_ROW, ShapeTable, SphereTable, camera_entity, shape_bodies};
-use pinhole::material::{Bsdf, MatteTable, Site, frame_of};
+use pinhole::material::{Bsdf, MatteTable, Parameters, Site, frame_of};
 use pinhole::plan::{Census, Table};
 use pinhole::scene::LookAt;
 use pinhole::shade::irradiance_from_area;
@@ -155,7 +155,7 @@ impl Room {
         let along = frame.transpose() * DVec3::X.cross(vertex.normal) * number.signum();
         let azimuth = libm::atan2(along.y, along.x) / TAU;
         let numbers = [number.abs(), azimuth.rem_euclid(1.0)];
-        match MatteTable.sample(&Site::opaque(0, vertex.albedo), DVec3::Z, numbers, 0.0) {
+        match MatteTable.sample(&Site::opaque(0, Parameters::coloured(vertex.albedo)), DVec3::Z, numbers, 0.0) {
             Some(sample) => (frame * sample.to_light, sample.weight),
             None => (vertex.normal, [0.0; 3]),
         }

@@ -1,9 +1,9 @@
 use super::Pyramid;
 use super::check::kind_and_name;
 use super::image_file::{check_memory_of_textures, shown_name, texture_image};
-use super::texture::{Texture, check_beside_colour, rows_of_kind};
+use super::texture::{check_beside_colour, rows_of_kind};
 use crate::plan::{Census, Table, counted};
-use crate::scene::{ImageTexture, Rgb, SceneError, TextureBy, WrapMode};
+use crate::scene::{ImageTexture, Rgb, SceneError, Texture, TextureBy, WrapMode};
 use bevy_ecs::prelude::*;
 use glam::{DMat2, DVec2};
 use std::collections::BTreeMap;

@@ -61,7 +61,7 @@ pub fn material_evidence(scene: &Census<'_>) -> Evidence {
 
 /// Evidence of a shape with diffuse reflection, whatever else its material has.
 pub fn matte_evidence(scene: &Census<'_>) -> Evidence {
-    scene.once(|scene| materials_evidence(scene, "matte surface", MaterialKind::is_lambertian))
+    scene.once(|scene| any_evidence(scene, "matte surface", |own| own.class == BsdfClass::Diffuse))
 }
 
 /// Evidence of a shape whose material is glossy, so that it shows what surrounds it.

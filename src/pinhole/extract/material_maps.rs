@@ -4,11 +4,10 @@ use super::Pyramid;
 use super::check::{kind_and_name, positive_length};
 use super::emissive::emissive_entities;
 use super::image_file::{emission_image, factor_image};
-use super::texture::{NO_TEXTURE, Texture, filtered_texture_evidence, rows_of_kind, texture_of_kind};
-use crate::material::{MaterialKind, is_material, one_material};
+use super::texture::{NO_TEXTURE, rows_of_kind, texture_of_kind};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{
-    EmissionMap, Emissive, MetallicRoughnessMap, Principled, SceneError, TextureBy, UvTransform, Wrap, WrapMode,
+    EmissionMap, Emissive, MetallicRoughnessMap, SceneError, Texture, UvTransform, Wrap, WrapMode,
 };
 use bevy_ecs::prelude::*;
 use glam::{DMat2, DVec2};
@@ -26,18 +25,7 @@ trait UvMap: Texture {
 }
 
 macro_rules! uv_map {
-    ($map:ty, $word:literal, $image:path) => {
-        impl Texture for $map {
-            const WORD: &'static str = $word;
-            const NOUN: &'static str = $word;
-            fn by(&self) -> TextureBy {
-                TextureBy::Uv
-            }
-            fn filter(&self) -> bool {
-                self.filter
-            }
-        }
-
+    ($map:ty, $image:path) => {
         impl UvMap for $map {
             fn file(&self) -> &str {
                 &self.file
@@ -58,8 +46,8 @@ macro_rules! uv_map {
     };
 }
 
-uv_map!(MetallicRoughnessMap, "metallic–roughness map", factor_image);
-uv_map!(EmissionMap, "emission map", emission_image);
+uv_map!(MetallicRoughnessMap, factor_image);
+uv_map!(EmissionMap, emission_image);
 
 /// Images over uv, in the order of the rows that they belong to.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -82,7 +70,7 @@ impl UvImages {
         self.size.push(positive_length(&who, "size", map.size())?);
         self.wrap.push(map.wrap().axes());
         self.transform.push(map.transform().affine(&who)?);
-        self.filter.push(map.filter());
+        self.filter.push(map.is_filtered());
         self.pyramid.push(M::image(scene, &who, map.file())?);
         Ok(())
     }
@@ -98,8 +86,6 @@ impl UvImages {
 pub struct MetallicRoughnessTable {
     /// The row of each material's image; [`NO_TEXTURE`] where it has none.
     pub of_material: Vec<u32>,
-    /// The material's own metallic and roughness, by which the image's are multiplied.
-    pub factors: Vec<[f64; 2]>,
     /// The images, roughness in green and metallic in blue.
     pub images: UvImages,
 }
@@ -108,31 +94,17 @@ impl Table for MetallicRoughnessTable {
     const NAME: &'static str = "metallic–roughness maps";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        for &owner in scene.entities::<With<MetallicRoughnessMap>>().iter() {
-            let word = if is_material(scene, owner) { one_material(scene, owner)?.word } else { "missing" };
-            if word == "missing" || one_material(scene, owner)?.kind != MaterialKind::Principled {
-                let accepted = "only a Principled material has a metallic and a roughness that an image can give";
-                return Err(SceneError::new(
-                    kind_and_name(scene, MetallicRoughnessMap::WORD, owner),
-                    "material",
-                    word,
-                    accepted,
-                ));
-            }
-        }
         let (of_material, rows) = rows_of_kind::<MetallicRoughnessMap>(scene);
         let mut table = Self { of_material, ..Self::default() };
         for material in rows {
             let Some(map) = scene.get::<MetallicRoughnessMap>(material) else { continue };
-            let own = scene.get::<Principled>(material).copied().unwrap_or_default();
-            table.factors.push([own.metallic, own.roughness]);
             table.images.push(scene, material, map)?;
         }
         Ok(table)
     }
 
     fn bytes(&self) -> usize {
-        self.of_material.len() * 4 + self.factors.len() * size_of::<[f64; 2]>() + self.images.bytes()
+        self.of_material.len() * 4 + self.images.bytes()
     }
 }
 
@@ -195,7 +167,7 @@ pub fn metallic_roughness_evidence(scene: &Census<'_>) -> Evidence {
 
 /// Evidence that a map of metallic and roughness is filtered.
 pub fn filtered_roughness_evidence(scene: &Census<'_>) -> Evidence {
-    texture_of_kind(scene, "filtered metallic–roughness map", MetallicRoughnessMap::filter)
+    texture_of_kind(scene, "filtered metallic–roughness map", MetallicRoughnessMap::is_filtered)
 }
 
 /// Evidence that a shape's emission has a map.
@@ -205,13 +177,5 @@ pub fn emission_map_evidence(scene: &Census<'_>) -> Evidence {
 
 /// Evidence that a map of emission is filtered.
 pub fn filtered_emission_evidence(scene: &Census<'_>) -> Evidence {
-    texture_of_kind(scene, "filtered emission map", EmissionMap::filter)
-}
-
-/// Evidence that a texture or a map is filtered; maps are not mentioned where none is.
-pub fn filtered_evidence(scene: &Census<'_>) -> Evidence {
-    scene.once(|scene| {
-        let maps = [filtered_roughness_evidence(scene), filtered_emission_evidence(scene)];
-        maps.into_iter().filter(|map| map.needed).fold(filtered_texture_evidence(scene), Evidence::or)
-    })
+    texture_of_kind(scene, "filtered emission map", EmissionMap::is_filtered)
 }

@@ -70,6 +70,7 @@ mod shapes_of;
 mod sky;
 mod spacing;
 mod srgb;
+mod starts_on_glass;
 mod texel_range;
 mod texels;
 mod texture;
@@ -130,7 +131,7 @@ pub use material::{
 };
 pub use material_maps::{
     EmissionMapTable, MetallicRoughnessTable, UvImages, emission_map_evidence, filtered_emission_evidence,
-    filtered_evidence, filtered_roughness_evidence, metallic_roughness_evidence,
+    filtered_roughness_evidence, metallic_roughness_evidence,
 };
 pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_evidence};
 pub use moving::{MovingTable, shape_bodies};
@@ -152,10 +153,13 @@ pub use shapes_of::{
 };
 pub use sky::sky_evidence;
 pub use srgb::linear_from_srgb;
+pub use starts_on_glass::{
+    GlassStart, GlassStartTable, end_close_to_glass_evidence, start_on_glass_evidence,
+};
 pub use texels::Texels;
 pub use texture::{
-    NO_TEXTURE, ShapeSpaces, Texture, TextureMap, TextureMapping, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,
-    texture_evidence, texture_of_kind,
+    NO_TEXTURE, ShapeSpaces, TextureMap, TextureMapping, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,
+    filtered_evidence, texture_evidence, texture_of_kind,
 };
 pub use tint::{TintTable, surface_colour_evidence, tint_evidence, vertex_colour_evidence};
 pub use two_colours::{CheckerTable, StripesTable, TwoColours};

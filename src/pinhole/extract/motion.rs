@@ -1,15 +1,12 @@
 use super::camera_entity::camera_of;
 use super::check::{finite_point, kind_and_name, number};
 use super::lights_of::light_kinds;
-use super::material_maps::{emission_map_evidence, metallic_roughness_evidence};
-use super::normal_map::normal_map_evidence;
 use super::shape_kind::moving_shapes;
-use super::texture::texture_evidence;
+use super::texture::TEXTURES;
 use super::velocity::{moves_while_open, shutter_has_duration, shutter_of, velocity_of};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{
-    Checker, EmissionMap, ImageTexture, MetallicRoughnessMap, Motion, NormalMap, SceneError, Shutter, Stripes,
-    UsesMaterial, called,
+    Motion, SceneError, Shutter, UsesMaterial, called,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -114,18 +111,10 @@ fn check_movers(scene: &Census<'_>) -> Result<(), SceneError> {
             return refused(light, "light", "given", accepted);
         }
     }
-    let maps = [normal_map_evidence, metallic_roughness_evidence, emission_map_evidence];
-    if !(texture_evidence(scene).needed || maps.iter().any(|of_map| of_map(scene).needed)) {
-        return Ok(());
-    }
     for &(_, shape) in moving_shapes(scene).iter() {
         let own = scene.entity(shape);
         let used = scene.get::<UsesMaterial>(shape).and_then(|used| scene.get_entity(used.0).ok());
-        let texture = |own: EntityRef<'_>| {
-            let coloured = own.contains::<Checker>() || own.contains::<Stripes>() || own.contains::<ImageTexture>();
-            let mapped = own.contains::<MetallicRoughnessMap>() || own.contains::<EmissionMap>();
-            coloured || mapped || own.contains::<NormalMap>()
-        };
+        let texture = |own: EntityRef<'_>| TEXTURES.iter().any(|texture| (texture.is_on)(own));
         if texture(own) || used.is_some_and(texture) {
             let accepted = "while the shutter is open nothing with a texture may move";
             return refused(shape, "shape", "given to one with a texture", accepted);

@@ -5,58 +5,49 @@ use super::pose::pose;
 use super::shape_kind::shape_entities;
 use crate::material::{components_in_words, material_entities, one_material};
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{Checker, ImageTexture, Rgb, SceneError, Stripes, TextureBy};
+use crate::scene::{Checker, Feeds, ImageTexture, Rgb, SceneError, Stripes, Texture, TextureBy, for_each_texture};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// The row of a material without a texture of some kind.
 pub const NO_TEXTURE: u32 = u32::MAX;
 
-/// A kind of texture.
-pub trait Texture: Component {
-    /// Its name in messages.
-    const WORD: &'static str;
-    /// Its name in the plan's counts.
-    const NOUN: &'static str;
-    /// How it is mapped.
-    fn by(&self) -> TextureBy;
-    /// Whether it is filtered over a pixel's footprint.
-    fn filter(&self) -> bool;
+/// A texture without its type.
+pub(super) struct Registered {
+    word: &'static str,
+    noun: &'static str,
+    pattern: &'static str,
+    feeds: Feeds,
+    owners: fn(&Census<'_>) -> Arc<[Entity]>,
+    pub is_on: fn(EntityRef<'_>) -> bool,
+    evidence: fn(&Census<'_>, &str, &dyn Fn(TextureBy, bool) -> bool) -> Evidence,
 }
 
-impl Texture for Checker {
-    const WORD: &'static str = "checker";
-    const NOUN: &'static str = "checkered material";
-    fn by(&self) -> TextureBy {
-        self.by
-    }
-    fn filter(&self) -> bool {
-        self.filter
-    }
-}
-
-impl Texture for Stripes {
-    const WORD: &'static str = "stripes";
-    const NOUN: &'static str = "striped material";
-    fn by(&self) -> TextureBy {
-        self.by
-    }
-    fn filter(&self) -> bool {
-        self.filter
+impl Registered {
+    const fn of<T: Texture>() -> Self {
+        Self {
+            word: T::WORD,
+            noun: T::NOUN,
+            pattern: T::PATTERN,
+            feeds: T::FEEDS,
+            owners: |scene| scene.entities::<With<T>>(),
+            is_on: |entity| entity.contains::<T>(),
+            evidence: |scene, noun, such| {
+                texture_of_kind(scene, noun, |texture: &T| such(texture.by(), texture.is_filtered()))
+            },
+        }
     }
 }
 
-impl Texture for ImageTexture {
-    const WORD: &'static str = "image texture";
-    const NOUN: &'static str = "image texture";
-    fn by(&self) -> TextureBy {
-        self.by
-    }
-    fn filter(&self) -> bool {
-        self.filter
-    }
+macro_rules! registered {
+    ($($texture:ident),+) => {
+        /// All textures.
+        pub(super) const TEXTURES: &[Registered] = &[$(Registered::of::<crate::scene::$texture>()),+];
+    };
 }
+for_each_texture!(registered);
 
 /// Evidence that a shape is made of a material with such a texture.
 pub fn texture_of_kind<T: Texture>(scene: &Census<'_>, noun: &str, such: impl Fn(&T) -> bool) -> Evidence {
@@ -66,39 +57,43 @@ pub fn texture_of_kind<T: Texture>(scene: &Census<'_>, noun: &str, such: impl Fn
     })
 }
 
-/// Evidence that a shape is made of a material with a texture of any kind.
+/// Evidence that a shape is made of a material with such a texture of colours, of any kind.
+fn colours_evidence(
+    scene: &Census<'_>,
+    noun: impl Fn(&Registered) -> String,
+    such: impl Fn(TextureBy, bool) -> bool,
+) -> Evidence {
+    let of_colours = TEXTURES.iter().filter(|own| own.feeds == Feeds::Colour);
+    of_colours.map(|own| (own.evidence)(scene, &noun(own), &such)).reduce(Evidence::or).unwrap_or_default()
+}
+
+/// Evidence that a shape is made of a material with a texture of colours.
 pub fn texture_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| colours_evidence(scene, |own| own.noun.into(), |_, _| true))
+}
+
+/// Evidence that a texture is filtered; those of other things than colours are not mentioned where none is.
+pub fn filtered_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
-        texture_of_kind::<Checker>(scene, Checker::NOUN, |_| true)
-            .or(texture_of_kind::<Stripes>(scene, Stripes::NOUN, |_| true))
-            .or(texture_of_kind::<ImageTexture>(scene, ImageTexture::NOUN, |_| true))
+        let noun = |own: &Registered| format!("filtered {}", own.pattern);
+        let colours = colours_evidence(scene, noun, |_, is_filtered| is_filtered);
+        let others = TEXTURES.iter().filter(|own| own.feeds != Feeds::Colour);
+        let others = others.map(|own| (own.evidence)(scene, &noun(own), &|_, is_filtered| is_filtered));
+        others.filter(|other| other.needed).fold(colours, Evidence::or)
     })
 }
 
-/// Evidence that a texture of colours is filtered.
-pub(super) fn filtered_texture_evidence(scene: &Census<'_>) -> Evidence {
-    texture_of_kind(scene, "filtered checker", Checker::filter)
-        .or(texture_of_kind(scene, "filtered stripe pattern", Stripes::filter))
-        .or(texture_of_kind(scene, "filtered image", ImageTexture::filter))
-}
-
-/// Evidence that a texture is mapped by uv.
+/// Evidence that a texture of colours is mapped by uv.
 pub fn by_uv_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
-        texture_of_kind::<Checker>(scene, "checker by uv", |texture| texture.by == TextureBy::Uv)
-            .or(texture_of_kind::<Stripes>(scene, "stripe pattern by uv", |texture| texture.by == TextureBy::Uv))
-            .or(texture_of_kind::<ImageTexture>(scene, "image by uv", |texture| texture.by == TextureBy::Uv))
+        colours_evidence(scene, |own| format!("{} by uv", own.pattern), |by, _| by == TextureBy::Uv)
     })
 }
 
-/// Evidence that a texture is mapped by uv and filtered.
+/// Evidence that a texture of colours is mapped by uv and filtered.
 pub fn filtered_by_uv_evidence(scene: &Census<'_>) -> Evidence {
-    fn such<T: Texture>(texture: &T) -> bool {
-        texture.by() == TextureBy::Uv && texture.filter()
-    }
-    texture_of_kind(scene, "filtered checker by uv", such::<Checker>)
-        .or(texture_of_kind(scene, "filtered stripe pattern by uv", such::<Stripes>))
-        .or(texture_of_kind(scene, "filtered image by uv", such::<ImageTexture>))
+    let noun = |own: &Registered| format!("filtered {} by uv", own.pattern);
+    colours_evidence(scene, noun, |by, is_filtered| by == TextureBy::Uv && is_filtered)
 }
 
 /// The origin of a texture's coordinates.
@@ -196,28 +191,34 @@ fn size_of_texture<T: Texture>(scene: &Census<'_>, material: Entity, size: f64) 
     positive_length(&kind_and_name(scene, T::WORD, material), "size", size)
 }
 
-/// Checks that every texture belongs to a material, and that a material has at most one.
+/// Checks that every texture of a material belongs to one, that its BSDF takes what the texture gives, and that it has one
+/// texture of colours at most.
 fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
     let materials: BTreeSet<Entity> = material_entities(scene).iter().copied().collect();
-    let mut owned: Vec<(Entity, &str)> = Vec::new();
-    owned.extend(scene.entities::<With<Checker>>().iter().map(|&owner| (owner, Checker::WORD)));
-    owned.extend(scene.entities::<With<Stripes>>().iter().map(|&owner| (owner, Stripes::WORD)));
-    owned.extend(scene.entities::<With<ImageTexture>>().iter().map(|&owner| (owner, ImageTexture::WORD)));
+    let of_materials = TEXTURES.iter().filter(|own| own.feeds != Feeds::Emission);
+    let mut owned: Vec<(Entity, &Registered)> =
+        of_materials.flat_map(|own| (own.owners)(scene).iter().map(move |&owner| (owner, own)).collect::<Vec<_>>()).collect();
     owned.sort_by_key(|(owner, _)| owner.index());
-    for (at, &(owner, word)) in owned.iter().enumerate() {
-        let who = kind_and_name(scene, word, owner);
+    for (at, &(owner, own)) in owned.iter().enumerate() {
+        let who = kind_and_name(scene, own.word, owner);
         if !materials.contains(&owner) {
-            let accepted = "a texture belongs on an entity that is a material, such as one with a Matte";
+            let accepted = "it belongs on an entity that is a material, such as one with a Matte";
             return Err(SceneError::new(who, "material", "missing", accepted));
         }
-        let own = one_material(scene, owner)?;
-        if !own.textured {
-            let textured = components_in_words("a ", |own| own.textured);
-            let accepted = format!("a texture colours diffuse reflection, as of {textured}");
-            return Err(SceneError::new(who, "material", own.word, accepted));
+        let material = one_material(scene, owner)?;
+        if !material.takes(own.feeds) {
+            let takers = components_in_words("a ", |material| material.takes(own.feeds));
+            let given = match own.feeds {
+                Feeds::Colour => "a texture colours diffuse reflection",
+                Feeds::MetallicRoughness => "it gives a metallic and a roughness",
+                Feeds::Normal => "it tilts normals",
+                Feeds::Emission => "it changes an emission",
+            };
+            return Err(SceneError::new(who, "material", material.word, format!("{given}, as of {takers}")));
         }
-        if let Some((_, other)) = owned.get(at + 1).filter(|(other, _)| *other == owner) {
-            let value = format!("given twice, as {word} and as {other}");
+        let is_second = |(other, of): &&(Entity, &Registered)| *other == owner && [own.feeds, of.feeds] == [Feeds::Colour; 2];
+        if let Some((_, other)) = owned[at + 1..].iter().take_while(|(other, _)| *other == owner).find(is_second) {
+            let value = format!("given twice, as {} and as {}", own.word, other.word);
             return Err(SceneError::new(who, "texture", value, "a material may have one texture only"));
         }
     }

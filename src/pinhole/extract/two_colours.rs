@@ -1,7 +1,7 @@
 use super::check::{kind_and_name, reflectance, triple};
-use super::texture::{Texture, check_beside_colour, rows_of_kind};
+use super::texture::{check_beside_colour, rows_of_kind};
 use crate::plan::{Census, Table};
-use crate::scene::{Checker, Rgb, SceneError, Stripes};
+use crate::scene::{Checker, Rgb, SceneError, Stripes, Texture};
 use bevy_ecs::prelude::*;
 
 /// Textures of one kind that consist of two colours, in spawn order.
@@ -30,7 +30,7 @@ impl TwoColours {
                 colours.push(reflectance(&who, field, colour)?.to_array());
                 check_beside_colour(scene, material, (&who, field, triple(colour.to_vec())), colour)?;
             }
-            table.filter.push(texture.filter());
+            table.filter.push(texture.is_filtered());
         }
         Ok(table)
     }

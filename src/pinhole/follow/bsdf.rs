@@ -10,13 +10,11 @@ use crate::extract::{
     glass_contact_evidence, mis_evidence, needed_if, traced_evidence,
 };
 use crate::intersect::{Contacts, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces};
-use crate::material::{Bsdf, BsdfClass, Site, Transport};
+use crate::material::{Bsdf, BsdfClass, Parameters, Site, Transport};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, WorldRays, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
-use crate::shade::{
-    LightPdfs, LightRays, MetallicRoughness, ReflectionView, ReflectionViewItem, SurfaceColours, lit_evidence,
-};
+use crate::shade::{LightPdfs, LightRays, ParameterColumns, ReflectionView, ReflectionViewItem, lit_evidence};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 
@@ -25,22 +23,16 @@ pub(super) const fn transport(from_light: bool) -> Transport {
     if from_light { Transport::Importance } else { Transport::Radiance }
 }
 
-/// What a BSDF is evaluated for at a surface of a tile.
+/// What a BSDF is evaluated for at a surface of a tile with these parameters.
 #[inline(always)]
 pub(super) fn site<B: Bsdf>(
     materials: &MaterialTable,
     interface: &Interface<'_>,
-    (colours, row, material): (Option<&SurfaceColours>, usize, usize),
+    (parameters, row, material): (Parameters, usize, usize),
     transport: Transport,
 ) -> Site {
-    Site {
-        row: materials.row[material] as usize,
-        colour: colours.map_or_else(|| materials.colour[material], |colours| colours.get(row)),
-        eta: if B::TRANSMITS { interface.eta(materials.interior[material], row) } else { 1.0 },
-        reflectance: None,
-        transport,
-        mapped: if B::MAPPED { interface.mapped(row) } else { None },
-    }
+    let eta = if B::TRANSMITS { interface.eta(materials.interior[material], row) } else { 1.0 };
+    Site { row: materials.row[material] as usize, parameters, eta, reflectance: None, transport }
 }
 
 // ANCHOR: sample_bsdf
@@ -49,9 +41,9 @@ pub fn sample_bsdf<B: Bsdf, const FROM_LIGHT: bool>(
     sampling: Res<Shared<SamplingTable>>,
     (materials, bsdf, glass): (Res<Shared<MaterialTable>>, Res<Shared<B>>, Option<Res<Shared<GlassTable>>>),
     (mut list, mut points, mut choices): (Local<Vec<u32>>, Local<Vec<[f64; 2]>>, Local<Vec<f64>>),
-    mut tiles: Query<(BsdfView, DrawsView, Option<&SurfaceColours>, InterfaceView, &MaterialRows)>,
+    mut tiles: Query<(BsdfView, DrawsView, ParameterColumns, InterfaceView, &MaterialRows)>,
 ) {
-    for (BsdfViewItem { rays, paths, surfaces, shading, mut scattered }, draws, colours, interface, rows) in &mut tiles
+    for (BsdfViewItem { rays, paths, surfaces, shading, mut scattered }, draws, columns, interface, rows) in &mut tiles
     {
         let interface = Interface::new(interface, glass.as_deref());
         let has_bsdf = |row: &u32| materials.kind[surfaces.material[*row as usize] as usize] == B::KIND;
@@ -64,7 +56,8 @@ pub fn sample_bsdf<B: Bsdf, const FROM_LIGHT: bool>(
         }
         scattered.append(&list, |number, row| {
             ScatteredRay::leaving::<B>(row, (rays, paths), (surfaces, shading), |surface, to_eye| {
-                let of_row = (colours, row, surface.material as usize);
+                let material = surface.material as usize;
+                let of_row = (columns.get(&materials, row, material), row, material);
                 let site = site::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
                 bsdf.sample(&site, to_eye, points[number], choices.get(number).copied().unwrap_or_default())
             })
@@ -83,8 +76,6 @@ pub struct LightWeightView {
     pub surfaces: &'static Surfaces,
     /// Their shading normals, where they have any.
     pub shading: Option<&'static ShadingNormals>,
-    /// Their colours, where textures give them any.
-    pub colours: Option<&'static SurfaceColours>,
     /// The pdfs with which the shadow rays were sampled.
     pub pdfs: &'static LightPdfs,
     /// The shadow rays.
@@ -95,9 +86,9 @@ pub struct LightWeightView {
 /// Weights every light sample at a surface with this BSDF against BSDF sampling.
 pub fn mis_bsdf<B: Bsdf>(
     (materials, bsdf, glass): (Res<Shared<MaterialTable>>, Res<Shared<B>>, Option<Res<Shared<GlassTable>>>),
-    mut tiles: Query<(LightWeightView, InterfaceView)>,
+    mut tiles: Query<(LightWeightView, ParameterColumns, InterfaceView)>,
 ) {
-    for (LightWeightViewItem { eye, surfaces, shading, colours, pdfs, mut rays }, interface) in &mut tiles {
+    for (LightWeightViewItem { eye, surfaces, shading, pdfs, mut rays }, columns, interface) in &mut tiles {
         let interface = Interface::new(interface, glass.as_deref());
         for ray in 0..rays.rows() {
             let (row, by_light) = (rays.path[ray] as usize, pdfs.pdf[ray]);
@@ -110,7 +101,8 @@ pub fn mis_bsdf<B: Bsdf>(
             let local_from_world = B::frame(normal).transpose();
             let [to_light, to_eye] =
                 [rays.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
-            let site = site::<B>(&materials, &interface, (colours, row, material), Transport::Radiance);
+            let of_row = (columns.get(&materials, row, material), row, material);
+            let site = site::<B>(&materials, &interface, of_row, Transport::Radiance);
             let by_bsdf = bsdf.pdf(&site, to_light, to_eye);
             rays.weight_by(ray, power_heuristic(by_light, by_bsdf));
         }
@@ -118,52 +110,39 @@ pub fn mis_bsdf<B: Bsdf>(
 }
 // ANCHOR_END: mis_bsdf
 
-/// Adds the light of each unblocked shadow ray that a surface with this BSDF reflects or transmits to the eye, but for
-/// its Lambertian part.
+// ANCHOR: add_direct_light
+/// Adds the light of each unblocked shadow ray that a surface with this BSDF reflects or transmits to the eye.
 pub fn add_direct_light<B: Bsdf, const FROM_LIGHT: bool>(
     (materials, bsdf, glass): (Res<Shared<MaterialTable>>, Res<Shared<B>>, Option<Res<Shared<GlassTable>>>),
-    mut tiles: Query<(ReflectionView, Option<&SurfaceColours>, InterfaceView)>,
+    mut tiles: Query<(ReflectionView, ParameterColumns, InterfaceView)>,
 ) {
-    let tables = (&**materials, &**bsdf);
-    for (view, colours, interface) in &mut tiles {
+    for (view, columns, interface) in &mut tiles {
+        let ReflectionViewItem { eye, surfaces, shading, light, shadow: hits, mut radiance } = view;
         let interface = Interface::new(interface, glass.as_deref());
-        // Where no image gives anything, the loop has no branch for it.
-        if B::MAPPED && interface.is_mapped() {
-            reflect_rows(tables, view, colours, &interface, transport(FROM_LIGHT));
-        } else {
-            reflect_rows(tables, view, colours, &interface.unmapped(), transport(FROM_LIGHT));
+        for ray in 0..light.rows() {
+            let row = light.path[ray] as usize;
+            let surface = surfaces.get(row);
+            let material = surface.material as usize;
+            if materials.kind[material] != B::KIND || hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) {
+                continue;
+            }
+            // A BSDF is a function of two directions in the frame of the surface.
+            let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |normals| normals.get(row));
+            let local_from_world = B::frame(normal).transpose();
+            let [to_light, to_eye] =
+                [light.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
+            let of_row = (columns.get(&materials, row, material), row, material);
+            let site = site::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
+            // The cosine is in the irradiance.
+            let (bsdf, irradiance) = (bsdf.eval(&site, to_light, to_eye), light.irradiance(ray));
+            let [r, g, b] = [0, 1, 2].map(|part| (bsdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
+            radiance.r[row] += r;
+            radiance.g[row] += g;
+            radiance.b[row] += b;
         }
     }
 }
-
-/// Adds what the surfaces of one tile reflect or transmit.
-#[inline(always)]
-fn reflect_rows<B: Bsdf>(
-    (materials, bsdf): (&MaterialTable, &B),
-    ReflectionViewItem { eye, surfaces, shading, light, shadow: hits, mut radiance }: ReflectionViewItem<'_, '_>,
-    colours: Option<&SurfaceColours>,
-    interface: &Interface<'_>,
-    transport: Transport,
-) {
-    for ray in 0..light.rows() {
-        let row = light.path[ray] as usize;
-        let surface = surfaces.get(row);
-        let material = surface.material as usize;
-        if materials.kind[material] != B::KIND || hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) {
-            continue;
-        }
-        let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |normals| normals.get(row));
-        let local_from_world = B::frame(normal).transpose();
-        let [to_light, to_eye] =
-            [light.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
-        let site = site::<B>(materials, interface, (colours, row, material), transport);
-        let (bsdf, irradiance) = (bsdf.lobes(&site, to_light, to_eye), light.irradiance(ray));
-        let [r, g, b] = [0, 1, 2].map(|part| (bsdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
-        radiance.r[row] += r;
-        radiance.g[row] += g;
-        radiance.b[row] += b;
-    }
-}
+// ANCHOR_END: add_direct_light
 
 /// The stage that samples a BSDF: for paths from both sides where radiance and importance are scattered alike.
 pub fn sample_stage<B: Bsdf>() -> Stage {
@@ -206,11 +185,9 @@ pub fn connections_stage<B: Bsdf>() -> Stage {
     at_interfaces::<B>(stage).on_light_paths().when(|scene| traced_evidence(scene).and(|| bsdf_evidence::<B>(scene)))
 }
 
-/// Requests what is known of the media at surfaces that transmit light, and of nothing of the kind elsewhere; and maps
-/// where the BSDF can have any.
+/// Requests what is known of the media at surfaces that transmit light, and of nothing of the kind elsewhere.
 pub(super) fn at_interfaces<B: Bsdf>(stage: Stage) -> Stage {
     let never = |_: &Census<'_>| Evidence::default();
-    let stage = if B::MAPPED { stage } else { stage.reads_where::<MetallicRoughness>(never) };
     if B::TRANSMITS {
         stage
             .reads_where::<SurfaceSides>(bsdf_evidence::<B>)

@@ -4,11 +4,9 @@ use crate::extract::{GlassTable, NO_ROW};
 use crate::intersect::{Contacts, GlassCrossing, SurfaceSides};
 use crate::material::{fresnel, layered_reflectance};
 use crate::plan::Shared;
-use crate::shade::MetallicRoughness;
 use bevy_ecs::query::QueryData;
 
-/// What is known of surfaces beside their colour: the media on both sides, where light is transmitted, and what images
-/// give them.
+/// What is known of the media on both sides of surfaces, where light is transmitted.
 #[derive(QueryData)]
 pub struct InterfaceView {
     /// The sides on which surfaces were hit.
@@ -19,8 +17,6 @@ pub struct InterfaceView {
     deeper: Option<&'static DeeperMedia>,
     /// The surfaces that are crossed together with them, where any may coincide.
     contacts: Option<&'static Contacts>,
-    /// Metallic and roughness, where images give them.
-    mapped: Option<&'static MetallicRoughness>,
 }
 
 /// The same, with the table of the media.
@@ -30,32 +26,13 @@ pub(super) struct Interface<'a> {
     media: Option<&'a Media>,
     deeper: Option<&'a DeeperMedia>,
     contacts: Option<&'a Contacts>,
-    mapped: Option<&'a MetallicRoughness>,
 }
 
 impl<'a> Interface<'a> {
     #[inline(always)]
     pub fn new(view: InterfaceViewItem<'a, '_>, glass: Option<&'a Shared<GlassTable>>) -> Self {
-        let InterfaceViewItem { sides, media, deeper, contacts, mapped } = view;
-        Self { glass: glass.map(|glass| &**glass), sides, media, deeper, contacts, mapped }
-    }
-
-    /// Whether images give metallic and roughness to any surface of the scene.
-    #[inline(always)]
-    pub fn is_mapped(&self) -> bool {
-        self.mapped.is_some()
-    }
-
-    /// The same without what images give.
-    #[inline(always)]
-    pub fn unmapped(self) -> Self {
-        Self { mapped: None, ..self }
-    }
-
-    /// The metallic and the roughness that an image gives a row's surface; none where no image does.
-    #[inline(always)]
-    pub fn mapped(&self, row: usize) -> Option<[f64; 2]> {
-        self.mapped.and_then(|mapped| mapped.get(row))
+        let InterfaceViewItem { sides, media, deeper, contacts } = view;
+        Self { glass: glass.map(|glass| &**glass), sides, media, deeper, contacts }
     }
 
     /// The media on the near and the far side of a row's surface, where `own` fills the shape; without a column of

@@ -1,7 +1,8 @@
 use super::deeper_media::{Carrier, deeper_media_evidence};
 use super::{DeeperMedia, MediumStack, Scattered};
 use crate::extract::{
-    GlassBodyTable, GlassTable, MaterialTable, NO_ROW, absorption_evidence, followed_evidence, glass_contact_evidence,
+    GlassBody, GlassBodyTable, GlassTable, MaterialTable, NO_ROW, absorption_evidence, end_close_to_glass_evidence,
+    followed_evidence, glass_contact_evidence,
     glass_evidence, glass_overlaps,
 };
 use crate::intersect::{Contacts, GlassCrossing, SurfaceSides, Surfaces};
@@ -87,13 +88,8 @@ pub fn start_media(
             let (origin, time) = (rays.origin_of(row), times.map_or(0.0, |times| times.time[row]));
             // All rays of a pinhole camera start at one point.
             if last != Some((origin, time)) {
-                around.clear();
-                for &body in &*near {
-                    let body = &bodies.row[body as usize];
-                    let windings = if body.bounds.contains(origin) { body.windings(origin, time) } else { 0 };
-                    around.extend((0..windings).map(|_| body.glass));
-                }
-                around.sort_by_key(|&row| (std::cmp::Reverse(glass.priority[row as usize]), row));
+                let near = near.iter().map(|&body| &bodies.row[body as usize]);
+                list_around(near, &glass, (origin, time), &mut around);
                 last = Some((origin, time));
             }
             let (stack, beyond) = MediumStack::of(&around);
@@ -105,6 +101,21 @@ pub fn start_media(
     }
 }
 // ANCHOR_END: start_media
+
+/// Lists the glass of the bodies that are around a point, at a time since the shutter opened, by their priority.
+pub(super) fn list_around<'b>(
+    bodies: impl IntoIterator<Item = &'b GlassBody>,
+    glass: &GlassTable,
+    (point, time): (DVec3, f64),
+    around: &mut Vec<u32>,
+) {
+    around.clear();
+    for body in bodies {
+        let windings = if body.bounds.contains(point) { body.windings(point, time) } else { 0 };
+        around.extend((0..windings).map(|_| body.glass));
+    }
+    around.sort_by_key(|&row| (std::cmp::Reverse(glass.priority[row as usize]), row));
+}
 
 /// Lists the bodies whose boxes overlap the box around the origins of a tile's rays.
 fn list_near(bodies: &GlassBodyTable, rays: &WorldRays, near: &mut Vec<u32>) {
@@ -202,5 +213,7 @@ pub fn media_evidence(scene: &Census<'_>) -> Evidence {
     let (absorbs, overlaps) = (absorption_evidence(scene), glass_overlaps(scene));
     let touches = glass_contact_evidence(scene);
     let known = absorbs.or(overlaps);
-    if touches.needed { known.or(touches) } else { known }
+    let known = if touches.needed { known.or(touches) } else { known };
+    let close = end_close_to_glass_evidence(scene);
+    if close.needed { known.or(close) } else { known }
 }

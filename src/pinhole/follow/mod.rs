@@ -38,11 +38,14 @@ mod scattered;
 mod shading_adjoint;
 mod specular;
 mod splat;
+mod starts_on_glass;
 mod stop;
 mod unsampled;
 mod view;
 
-pub use absorb::{absorb_in_glass, absorb_shadow_rays, absorb_shadow_stage, absorb_stage};
+pub use absorb::{
+    absorb_at_start, absorb_at_start_stage, absorb_in_glass, absorb_shadow_rays, absorb_shadow_stage, absorb_stage,
+};
 pub use beer::{absorbed, transmittance};
 pub use beyond_contacts::{
     leave_contacts, leave_contacts_stage, leave_contacts_to_lights, leave_contacts_to_lights_stage,
@@ -74,5 +77,9 @@ pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_st
 pub use shading_adjoint::{correct_for_shading_normals, shading_adjoint, shading_adjoint_stage};
 pub use specular::{sample_specular, specular_from_lights_stage, specular_stage, split_rays, split_stage};
 pub use splat::{Splats, keep_specular, keep_specular_stage, splat_light, splat_stage};
+#[doc(hidden)]
+pub use starts_on_glass::{
+    block_across_surfaces, block_across_surfaces_stage, leave_glass_at_start, leave_glass_at_start_stage,
+};
 pub use stop::{Stop, is_whole};
 pub use unsampled::check_materials_are_followed;

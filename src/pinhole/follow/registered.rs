@@ -1,7 +1,7 @@
 use super::bsdf::{connections_stage, direct_light_stage, mis_stage, sample_from_lights_stage, sample_stage};
 use super::bsdf_rows::classify_bsdf_stage;
 use super::specular::{specular_from_lights_stage, specular_stage, split_stage};
-use crate::material::{Bsdf, BsdfClass, for_each_bsdf};
+use crate::material::{Bsdf, BsdfClass, MaterialKind, for_each_bsdf};
 use crate::plan::Stage;
 
 /// What the stages of a BSDF are for.
@@ -28,6 +28,8 @@ pub enum BsdfRole {
 pub struct BsdfStage {
     /// What it is for.
     pub role: BsdfRole,
+    /// The BSDF's kind.
+    pub kind: MaterialKind,
     /// How the BSDF scatters.
     pub class: BsdfClass,
     /// Whether it transmits light.
@@ -39,7 +41,7 @@ pub struct BsdfStage {
 /// The stages of a BSDF.
 fn stages_of<B: Bsdf>() -> Vec<BsdfStage> {
     use BsdfRole::*;
-    let of = |role, stage| BsdfStage { role, class: B::CLASS, transmits: B::TRANSMITS, stage };
+    let of = |role, stage| BsdfStage { role, kind: B::KIND, class: B::CLASS, transmits: B::TRANSMITS, stage };
     let mut stages: Vec<BsdfStage> = Vec::new();
     if B::CLASS == BsdfClass::Specular {
         stages.push(of(Classify, classify_bsdf_stage::<B>));
@@ -52,9 +54,7 @@ fn stages_of<B: Bsdf>() -> Vec<BsdfStage> {
     }
     stages.push(of(MisWeights, mis_stage::<B>));
     stages.push(of(Sample, sample_stage::<B>));
-    if B::LOBES {
-        stages.push(of(Evaluate, direct_light_stage::<B>));
-    }
+    stages.push(of(Evaluate, direct_light_stage::<B>));
     if B::TRANSMITS {
         stages.push(of(Connections, connections_stage::<B>));
         stages.push(of(SampleFromLights, sample_from_lights_stage::<B>));

@@ -61,7 +61,8 @@ pub fn sample_specular<B: Bsdf, const FROM_LIGHT: bool>(
         scattered.append(&list.row, |number, row| {
             let (surface, direction) = (surfaces.get(row), rays.direction_of(row));
             let normal = mirroring_normal(shading, row, surface.normal.as_dvec3(), direction);
-            let of_row = (None, row, surface.material as usize);
+            let material = surface.material as usize;
+            let of_row = (materials.parameters(material), row, material);
             let reflectance = layers::<B>(&interface, row, -direction.dot(normal));
             let site = Site { reflectance, ..site::<B>(&materials, &interface, of_row, transport(FROM_LIGHT)) };
             let number = numbers.get(number).copied().unwrap_or_default();
@@ -88,7 +89,8 @@ pub fn split_rays<B: Bsdf>(
             scattered.append(&list.row, |_, row| {
                 let (surface, direction) = (surfaces.get(row), rays.direction_of(row));
                 let normal = mirroring_normal(shading, row, surface.normal.as_dvec3(), direction);
-                let of_row = (None, row, surface.material as usize);
+                let material = surface.material as usize;
+            let of_row = (materials.parameters(material), row, material);
                 let reflectance = layers::<B>(&interface, row, -direction.dot(normal));
                 let site = Site { reflectance, ..site::<B>(&materials, &interface, of_row, transport(false)) };
                 let ray = ray(paths, row, &surface, bsdf.specular_directions(&site, direction, normal)[which]);

@@ -3,6 +3,7 @@
 use super::light::Light;
 use super::start::{LightStart, StartDraws};
 use super::targets::Targets;
+use glam::DVec3;
 
 /// A light of the list.
 pub trait ListedLight: Light {
@@ -54,6 +55,12 @@ macro_rules! registry {
             #[inline(always)]
             pub fn start(&self, targets: &Targets, draws: &StartDraws) -> LightStart {
                 match self { $(Self::$kind(light) => light.start(targets, draws),)+ }
+            }
+
+            /// From where it shines; none for a light without a position.
+            pub fn position(&self) -> Option<DVec3> {
+                let bounds = match self { $(Self::$kind(light) => light.bounds(),)+ };
+                bounds.map(|bounds| bounds.around.least)
             }
 
             /// The power that it emits, of which a light without a position sends what passes through `across` square

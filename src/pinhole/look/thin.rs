@@ -11,13 +11,14 @@ pub fn unresolved_glass(scene: &Census<'_>) -> Result<Vec<String>> {
         let [name, of] = [one, other].map(|shape| shape_name(scene, shape));
         if one == other {
             format!(
-                "the {name} is {apart:.1e} thin, less than single precision keeps apart at its distance from the camera: \
-                 both of its sides reflect, but it absorbs nothing, and on something opaque it is not there"
+                "the {name} is {apart:.1e} thick, which single precision does not always keep apart at its distance from \
+                 the camera: both of its sides reflect, but where it does not, nothing is absorbed between them, and on \
+                 something opaque the {name} is not there"
             )
         } else {
             format!(
-                "the {name} and the {of} are {apart:.1e} apart, less than single precision keeps apart at their distance \
-                 from the camera: they are taken to touch"
+                "the {name} and the {of} are {apart:.1e} apart, which single precision does not always keep apart at their \
+                 distance from the camera: where it does not, they are taken to touch"
             )
         }
     };

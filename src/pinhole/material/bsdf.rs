@@ -1,6 +1,6 @@
 use super::{MaterialKind, frame_of};
 use crate::plan::Table;
-use crate::scene::{Rgb, SceneError};
+use crate::scene::{Feeds, Rgb, SceneError};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
@@ -26,27 +26,43 @@ pub enum Transport {
     Importance,
 }
 
+/// The parameters of a surface at a point, each of which a texture may give; a BSDF reads those that it has.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Parameters {
+    /// The colour: red, green, blue, from 0 to 1; black for none.
+    pub colour: [f64; 3],
+    /// How much of it is metal, from 0 to 1.
+    pub metallic: f64,
+    /// The perceived roughness, from 0 to 1.
+    pub roughness: f64,
+}
+
+impl Parameters {
+    /// Those of a surface that has a colour and nothing else.
+    pub const fn coloured(colour: [f64; 3]) -> Self {
+        Self { colour, metallic: 0.0, roughness: 0.0 }
+    }
+}
+
 /// What a BSDF is evaluated for: a row of its table, and what the scene says of the surface there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Site {
     /// The row of the BSDF's table.
     pub row: usize,
-    /// The surface's colour, from a texture or else from the [`MaterialTable`](super::MaterialTable).
-    pub colour: [f64; 3],
+    /// The surface's parameters, from textures or else from the [`MaterialTable`](super::MaterialTable).
+    pub parameters: Parameters,
     /// The index of refraction beyond the surface over that on the side of the eye; 1 for an opaque material.
     pub eta: f64,
     /// The reflectance of a smooth surface, where layers lie there that are too thin to be kept apart.
     pub reflectance: Option<f64>,
     /// What the path carries.
     pub transport: Transport,
-    /// The metallic and the perceived roughness, each from 0 to 1, where an image gives them in place of the table.
-    pub mapped: Option<[f64; 2]>,
 }
 
 impl Site {
-    /// A row of a table of opaque materials, on a surface of this colour.
-    pub const fn opaque(row: usize, colour: [f64; 3]) -> Self {
-        Self { row, colour, eta: 1.0, reflectance: None, transport: Transport::Radiance, mapped: None }
+    /// A row of a table of opaque materials, on a surface with these parameters.
+    pub const fn opaque(row: usize, parameters: Parameters) -> Self {
+        Self { row, parameters, eta: 1.0, reflectance: None, transport: Transport::Radiance }
     }
 }
 
@@ -137,16 +153,10 @@ pub trait Bsdf: Table + Named {
     const NOUN: &'static str;
     /// How it scatters.
     const CLASS: BsdfClass;
-    /// Whether the surface's colour is the albedo of a Lambertian part, which one stage evaluates for all materials.
-    const LAMBERTIAN: bool = false;
-    /// Whether it scatters anything beside its Lambertian part.
-    const LOBES: bool = true;
     /// Whether light passes through the surface.
     const TRANSMITS: bool = false;
-    /// Whether a texture may give the surface its colour.
-    const TEXTURED: bool = false;
-    /// Whether an image may give its metallic and roughness.
-    const MAPPED: bool = false;
+    /// What textures may give it in place of its own; its normal they always may.
+    const TAKES: &'static [Feeds] = &[];
     /// Whether its lobes can be so narrow that the length of a normal rounded to f32 shows in them.
     const NARROW: bool = false;
 
@@ -161,10 +171,10 @@ pub trait Bsdf: Table + Named {
         Self::KIND
     }
 
-    /// The surface's colour, black for none.
+    /// The surface's parameters where no texture gives others.
     ///
     /// Errors: the first of the component's values that is invalid.
-    fn colour(component: &Self::Component, who: &str) -> Result<[f64; 3], SceneError>;
+    fn parameters(component: &Self::Component, who: &str) -> Result<Parameters, SceneError>;
 
     /// What fills a closed shape of this material.
     ///
@@ -181,11 +191,6 @@ pub trait Bsdf: Table + Named {
     /// The BSDF in 1/sr: red, green, blue.
     fn eval(&self, _site: &Site, _to_light: DVec3, _to_eye: DVec3) -> [f64; 3] {
         [0.0; 3]
-    }
-
-    /// The BSDF without its Lambertian part.
-    fn lobes(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        self.eval(site, to_light, to_eye)
     }
 
     /// The pdf with which [`Self::sample`] chooses `to_light`, in 1/sr.

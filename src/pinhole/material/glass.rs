@@ -1,4 +1,4 @@
-use super::{Bsdf, BsdfClass, Example, Interior, Site, SpecularSample, Transport, fresnel, mirror_direction, refract};
+use super::{Bsdf, BsdfClass, Example, Interior, Parameters, Site, SpecularSample, Transport, fresnel, mirror_direction, refract};
 use crate::check::{light_colour, number};
 use crate::plan::{Census, Table};
 use crate::scene::{Glass, SceneError};
@@ -88,8 +88,8 @@ impl Bsdf for SmoothGlass {
     const CLASS: BsdfClass = BsdfClass::Specular;
     const TRANSMITS: bool = true;
 
-    fn colour(glass: &Glass, who: &str) -> Result<[f64; 3], SceneError> {
-        checked_interior(who, glass).map(|_| [0.0; 3])
+    fn parameters(glass: &Glass, who: &str) -> Result<Parameters, SceneError> {
+        checked_interior(who, glass).map(|_| Parameters::default())
     }
 
     fn interior(glass: &Glass, who: &str) -> Result<Option<Interior>, SceneError> {

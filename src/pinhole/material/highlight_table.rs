@@ -1,8 +1,8 @@
 use super::registered::entities_of_kind;
-use super::{Bsdf, BsdfClass, BsdfSample, Example, Highlight, Lobe, Named, Site};
+use super::{Bsdf, BsdfClass, BsdfSample, Example, Highlight, Lobe, Named, Parameters, Site};
 use crate::check::{kind_and_name, number, reflectance, triple};
 use crate::plan::{Census, Table};
-use crate::scene::{Rgb, SceneError};
+use crate::scene::{Feeds, Rgb, SceneError};
 use glam::DVec3;
 use std::marker::PhantomData;
 
@@ -62,12 +62,11 @@ where
     const WORD: &'static str = L::WORD;
     const NOUN: &'static str = L::NOUN;
     const CLASS: BsdfClass = BsdfClass::Diffuse;
-    const LAMBERTIAN: bool = true;
-    const TEXTURED: bool = true;
+    const TAKES: &'static [Feeds] = &[Feeds::Colour];
     const NARROW: bool = true;
 
-    fn colour(own: &L::Component, who: &str) -> Result<[f64; 3], SceneError> {
-        Ok(diffuse_and_specular::<L>(own, who)?[0])
+    fn parameters(own: &L::Component, who: &str) -> Result<Parameters, SceneError> {
+        Ok(Parameters::coloured(diffuse_and_specular::<L>(own, who)?[0]))
     }
 
     fn albedo_beside_colour(own: &L::Component) -> Option<Rgb> {
@@ -76,23 +75,17 @@ where
 
     #[inline(always)]
     fn eval(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        Highlight::new(self, site.row, site.colour).brdf(to_light, to_eye)
-    }
-
-    #[inline(always)]
-    fn lobes(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        let height = L::value(self.peak[site.row], self.exponent[site.row], to_light, to_eye);
-        self.specular[site.row].map(|part| part * height)
+        Highlight::new(self, site.row, site.parameters.colour).brdf(to_light, to_eye)
     }
 
     #[inline(always)]
     fn pdf(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> f64 {
-        Highlight::new(self, site.row, site.colour).pdf(to_light, to_eye)
+        Highlight::new(self, site.row, site.parameters.colour).pdf(to_light, to_eye)
     }
 
     #[inline(always)]
     fn sample(&self, site: &Site, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
-        Highlight::new(self, site.row, site.colour).sample(to_eye, numbers, choice)
+        Highlight::new(self, site.row, site.parameters.colour).sample(to_eye, numbers, choice)
     }
 
     fn chooses(&self) -> bool {

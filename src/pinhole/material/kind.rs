@@ -26,7 +26,6 @@ macro_rules! kinds {
             /// The number of kinds.
             pub const COUNT: usize = [$(MaterialKind::$kind),+].len();
             const CLASSES: [BsdfClass; Self::COUNT] = [$(<crate::material::$table>::CLASS),+];
-            const LAMBERTIAN: [bool; Self::COUNT] = [$(<crate::material::$table>::LAMBERTIAN),+];
             const TRANSMITS: [bool; Self::COUNT] = [$(<crate::material::$table>::TRANSMITS),+];
         }
     };
@@ -39,12 +38,6 @@ impl MaterialKind {
     #[inline(always)]
     pub const fn is_specular(self) -> bool {
         matches!(Self::CLASSES[self as usize], BsdfClass::Specular)
-    }
-
-    /// Whether the surface's colour is a Lambertian albedo.
-    #[inline(always)]
-    pub const fn is_lambertian(self) -> bool {
-        Self::LAMBERTIAN[self as usize]
     }
 
     /// Whether light passes through its surface.

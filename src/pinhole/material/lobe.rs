@@ -1,8 +1,8 @@
-use super::{BsdfSample, HighlightTable, cosine_direction, cosine_pdf, frame_of};
+use super::{BsdfSample, HighlightTable, cosine_direction, cosine_pdf, frame_of, lambertian};
 use crate::scene::Rgb;
 use bevy_ecs::prelude::Component;
 use glam::DVec3;
-use std::f64::consts::{FRAC_1_PI, TAU};
+use std::f64::consts::TAU;
 
 /// The specular lobe of a material that has one beside its diffuse reflection; directions are unit vectors in the
 /// frame of the surface, whose normal is +z.
@@ -72,7 +72,8 @@ impl<'a, L: Lobe> Highlight<'a, L> {
     pub fn brdf(&self, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
         let (peak, specular) = (self.lobes.peak[self.row], self.lobes.specular[self.row]);
         let value = L::value(peak, self.lobes.exponent[self.row], to_light, to_eye);
-        [0, 1, 2].map(|part| self.colour[part] * FRAC_1_PI + specular[part] * value)
+        let diffuse = lambertian(self.colour);
+        [0, 1, 2].map(|part| diffuse[part] + specular[part] * value)
     }
 
     /// The pdf with which [`Self::sample`] chooses `to_light`, in 1/sr.

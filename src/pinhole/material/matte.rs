@@ -1,9 +1,19 @@
-use super::{Bsdf, BsdfClass, BsdfSample, Example, Site, cosine_direction, cosine_pdf};
+use super::{Bsdf, BsdfClass, BsdfSample, Example, Parameters, Site, cosine_direction, cosine_pdf};
 use crate::check::reflectance;
 use crate::plan::{Census, Table};
-use crate::scene::{Matte, Rgb, SceneError};
+use crate::scene::{Feeds, Matte, Rgb, SceneError};
 use glam::DVec3;
 use std::f64::consts::FRAC_1_PI;
+
+// ANCHOR: lambertian
+/// The BRDF of a matte surface, colour / π in 1/sr: red, green, blue.
+///
+/// It is the same for all directions (Lambert); its cosine-weighted integral over the hemisphere is the colour.
+#[inline(always)]
+pub fn lambertian(colour: [f64; 3]) -> [f64; 3] {
+    colour.map(|part| part * FRAC_1_PI)
+}
+// ANCHOR_END: lambertian
 
 /// Lambertian reflection, which has no parameter but the surface's colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,24 +37,19 @@ impl Bsdf for MatteTable {
     const WORD: &'static str = "matte";
     const NOUN: &'static str = "matte surface";
     const CLASS: BsdfClass = BsdfClass::Diffuse;
-    const LAMBERTIAN: bool = true;
-    const LOBES: bool = false;
-    const TEXTURED: bool = true;
+    const TAKES: &'static [Feeds] = &[Feeds::Colour];
 
-    fn colour(matte: &Matte, who: &str) -> Result<[f64; 3], SceneError> {
-        Ok(reflectance(who, "colour", matte.colour)?.to_array())
+    fn parameters(matte: &Matte, who: &str) -> Result<Parameters, SceneError> {
+        Ok(Parameters::coloured(reflectance(who, "colour", matte.colour)?.to_array()))
     }
 
+    // ANCHOR: eval_matte
+    /// The same for all directions; that light arrives from above the surface, its cosine says.
     #[inline(always)]
-    fn eval(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        let above = to_light.z > 0.0 && to_eye.z > 0.0;
-        site.colour.map(|colour| if above { colour * FRAC_1_PI } else { 0.0 })
+    fn eval(&self, site: &Site, _to_light: DVec3, _to_eye: DVec3) -> [f64; 3] {
+        lambertian(site.parameters.colour)
     }
-
-    #[inline(always)]
-    fn lobes(&self, _: &Site, _: DVec3, _: DVec3) -> [f64; 3] {
-        [0.0; 3]
-    }
+    // ANCHOR_END: eval_matte
 
     #[inline(always)]
     fn pdf(&self, _: &Site, to_light: DVec3, _: DVec3) -> f64 {
@@ -57,7 +62,7 @@ impl Bsdf for MatteTable {
     #[inline(always)]
     fn sample(&self, site: &Site, _to_eye: DVec3, numbers: [f64; 2], _choice: f64) -> Option<BsdfSample> {
         let to_light = cosine_direction(numbers);
-        Some(BsdfSample { to_light, pdf: to_light.z * FRAC_1_PI, weight: site.colour })
+        Some(BsdfSample { to_light, pdf: to_light.z * FRAC_1_PI, weight: site.parameters.colour })
     }
     // ANCHOR_END: sample_matte
 

@@ -1,8 +1,5 @@
 use super::registered::entities_of_kind;
-use super::{
-    Bsdf, BsdfClass, BsdfSample, Example, MaterialKind, MultipleScattering, Named, Site, cosine_direction, ggx_brdf,
-    ggx_sample, visible_pdf,
-};
+use super::{Bsdf, BsdfClass, BsdfSample, Example, MaterialKind, MultipleScattering, Named, Parameters, Site, cosine_direction, ggx_brdf, ggx_sample, visible_pdf};
 use crate::check::{kind_and_name, number, reflectance};
 use crate::plan::{Census, Table};
 use crate::scene::{Metal, Rgb, SceneError};
@@ -80,8 +77,8 @@ impl Bsdf for MetalTable {
         if metal.roughness < SMOOTHEST_METAL { MaterialKind::Mirror } else { Self::KIND }
     }
 
-    fn colour(metal: &Metal, who: &str) -> Result<[f64; 3], SceneError> {
-        checked(who, metal).map(|_| [0.0; 3])
+    fn parameters(metal: &Metal, who: &str) -> Result<Parameters, SceneError> {
+        checked(who, metal).map(|_| Parameters::default())
     }
 
     #[inline(always)]

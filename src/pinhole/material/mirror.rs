@@ -1,6 +1,6 @@
 use super::metal::smooth_colour;
 use super::registered::entities_of_kind;
-use super::{Bsdf, BsdfClass, Example, Named, Site, SpecularSample, mirror_direction};
+use super::{Bsdf, BsdfClass, Example, Named, Parameters, Site, SpecularSample, mirror_direction};
 use crate::check::{kind_and_name, reflectance};
 use crate::plan::{Census, Table};
 use crate::scene::{Mirror, SceneError};
@@ -39,8 +39,8 @@ impl Bsdf for MirrorTable {
     const NOUN: &'static str = "mirror";
     const CLASS: BsdfClass = BsdfClass::Specular;
 
-    fn colour(mirror: &Mirror, who: &str) -> Result<[f64; 3], SceneError> {
-        reflectance(who, "colour", mirror.colour).map(|_| [0.0; 3])
+    fn parameters(mirror: &Mirror, who: &str) -> Result<Parameters, SceneError> {
+        reflectance(who, "colour", mirror.colour).map(|_| Parameters::default())
     }
 
     // ANCHOR: sample_mirror

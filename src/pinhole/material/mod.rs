@@ -60,7 +60,7 @@ macro_rules! for_each_bsdf {
 pub(crate) use for_each_bsdf;
 
 pub use blinn_phong::{BlinnPhongLobe, BlinnPhongTable, blinn_phong_peak, half_vector_cosine};
-pub use bsdf::{Bsdf, BsdfClass, BsdfSample, Example, Interior, Named, Site, SpecularSample, StageNames, Transport};
+pub use bsdf::{Bsdf, BsdfClass, BsdfSample, Example, Interior, Named, Parameters, Site, SpecularSample, StageNames, Transport};
 pub use erased::ErasedBsdf;
 pub use frame::{cosine_direction, cosine_pdf, frame_of};
 pub use fresnel::{fresnel, fresnel_parts, mirror_direction, refract};
@@ -70,7 +70,7 @@ pub use highlight::highlight;
 pub use highlight_table::HighlightTable;
 pub use kind::MaterialKind;
 pub use lobe::{Highlight, Lobe};
-pub use matte::MatteTable;
+pub use matte::{MatteTable, lambertian};
 pub use metal::{MetalTable, SMOOTHEST_METAL};
 pub use mirror::MirrorTable;
 pub use multiple_scattering::{ByCosine, MultipleScattering, multiple_scattering_albedo, single_scattering};

@@ -158,7 +158,7 @@ impl MultipleScattering {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::{Bsdf, BsdfSample, MetalTable, Site, ggx_brdf, ggx_g1};
+    use crate::material::{Bsdf, BsdfSample, MetalTable, Parameters, Site, ggx_brdf, ggx_g1};
     use crate::measure::chi_squared::{Bins, p_value};
     use crate::measure::hemisphere::Quadrature;
     use crate::measure::ray_aim::Draws;
@@ -166,7 +166,7 @@ mod tests {
 
     const ALPHAS: [f64; 7] = [0.01, 0.03, 0.05, 0.1, 0.3, 0.6, 1.0];
 
-    const FIRST: Site = Site::opaque(0, [0.0; 3]);
+    const FIRST: Site = Site::opaque(0, Parameters::coloured([0.0; 3]));
 
     fn lobes(alpha: f64, colour: f64) -> MultipleScattering {
         let mut several = MultipleScattering::default();

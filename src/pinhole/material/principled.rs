@@ -1,11 +1,11 @@
-use super::principled_energy::{Between, Energy, EnergyTable, alpha_of, grazing};
+use super::principled_energy::{Energy, EnergyTable, alpha_of, grazing};
 use super::registered::entities_of_kind;
 use super::{
-    Bsdf, BsdfClass, BsdfSample, Example, Named, Site, cosine_direction, cosine_pdf, ggx_brdf, ggx_sample, visible_pdf,
+    Bsdf, BsdfClass, BsdfSample, Example, Named, Parameters, Site, cosine_direction, cosine_pdf, ggx_brdf, ggx_sample, visible_pdf,
 };
 use crate::check::{kind_and_name, number, reflectance};
 use crate::plan::{Census, Table};
-use crate::scene::{MetallicRoughnessMap, Principled, Rgb, SceneError};
+use crate::scene::{Feeds, MetallicRoughnessMap, Principled, Rgb, SceneError};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::f64::consts::FRAC_1_PI;
@@ -16,27 +16,25 @@ const MOST_INDEX: f64 = 1e9;
 /// Principled materials, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PrincipledTable {
-    /// How much of each is metal, from 0 to 1.
-    pub metallic: Vec<f64>,
-    /// GGX's α, from 0.001 to 1.
-    pub alpha: Vec<f64>,
     /// The reflectance of the dielectric at normal incidence, from 0 to 1.
     pub dielectric: Vec<f64>,
-    /// The row of each α's energies, which are there once for equal ones.
+    /// The roughness of each where no texture gives another.
+    roughness: Vec<f64>,
+    /// The row of the energies of that roughness, which are there once for equal ones.
     energy_of: Vec<u32>,
     energy: Vec<EnergyTable>,
-    /// The energies of all roughnesses, if an image gives any material its own.
+    /// The energies of all roughnesses, if a texture gives any material another than its own.
     by_roughness: &'static [EnergyTable],
 }
 
 /// A principled surface at one point.
 #[derive(Clone, Copy)]
-struct Surface<E> {
+struct Surface<'a> {
     colour: [f64; 3],
     metallic: f64,
     alpha: f64,
     dielectric: f64,
-    energy: E,
+    energy: Energy<'a>,
 }
 
 impl PrincipledTable {
@@ -48,53 +46,26 @@ impl PrincipledTable {
             self.energy.len() as u32 - 1
         });
         let amplitude = (own.ior - 1.0) / (own.ior + 1.0);
-        self.metallic.push(own.metallic);
-        self.alpha.push(alpha);
         self.dielectric.push(amplitude * amplitude);
+        self.roughness.push(own.roughness);
         self.energy_of.push(energy_of);
     }
 
-    /// The surface of a row without an image of metallic and roughness.
+    /// The surface at a point.
     #[inline(always)]
-    fn own(&self, site: &Site) -> Surface<&EnergyTable> {
-        let (metallic, alpha, dielectric) = (self.metallic[site.row], self.alpha[site.row], self.dielectric[site.row]);
-        let energy = &self.energy[self.energy_of[site.row] as usize];
-        Surface { colour: site.colour, metallic, alpha, dielectric, energy }
-    }
-
-    /// The surface where an image gives metallic and roughness.
-    #[inline(always)]
-    fn mapped(&self, site: &Site, [metallic, roughness]: [f64; 2]) -> Surface<Between<'_>> {
-        let energy = Between::of(self.by_roughness, roughness);
-        let dielectric = self.dielectric[site.row];
-        Surface { colour: site.colour, metallic, alpha: alpha_of(roughness), dielectric, energy }
-    }
-
-    // What follows stays out of the code of scenes without such an image.
-
-    #[inline(never)]
-    fn eval_mapped(&self, site: &Site, of_image: [f64; 2], to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        self.mapped(site, of_image).eval(to_light, to_eye)
-    }
-
-    #[inline(never)]
-    fn pdf_mapped(&self, site: &Site, of_image: [f64; 2], to_light: DVec3, to_eye: DVec3) -> f64 {
-        self.mapped(site, of_image).pdf(to_light, to_eye)
-    }
-
-    #[inline(never)]
-    fn sample_mapped(
-        &self,
-        site: &Site,
-        of_image: [f64; 2],
-        to_eye: DVec3,
-        (numbers, choice): ([f64; 2], f64),
-    ) -> Option<BsdfSample> {
-        self.mapped(site, of_image).sample(to_eye, numbers, choice)
+    fn at(&self, site: &Site) -> Surface<'_> {
+        let Parameters { colour, metallic, roughness } = site.parameters;
+        // A material's own roughness has energies of its own; others lie between two of many.
+        let energy = if roughness == self.roughness[site.row] {
+            Energy::of(&self.energy[self.energy_of[site.row] as usize], roughness)
+        } else {
+            Energy::between(self.by_roughness, roughness)
+        };
+        Surface { colour, metallic, alpha: alpha_of(roughness), dielectric: self.dielectric[site.row], energy }
     }
 }
 
-impl<E: Energy> Surface<E> {
+impl Surface<'_> {
     /// The reflectance at normal incidence, of the dielectric and the metal together.
     #[inline(always)]
     fn at_normal_incidence(&self) -> [f64; 3] {
@@ -186,7 +157,7 @@ impl Table for PrincipledTable {
         let (mut table, mut known) = (Self::default(), HashMap::new());
         for entity in entities_of_kind(scene, Self::KIND) {
             let own = scene.get::<Principled>(entity).copied().unwrap_or_default();
-            Self::colour(&own, &kind_and_name(scene, Self::WORD, entity))?;
+            Self::parameters(&own, &kind_and_name(scene, Self::WORD, entity))?;
             table.push(&own, &mut known);
             if scene.get::<MetallicRoughnessMap>(entity).is_some() {
                 table.by_roughness = EnergyTable::of_all_roughnesses();
@@ -196,7 +167,7 @@ impl Table for PrincipledTable {
     }
 
     fn bytes(&self) -> usize {
-        let rows = self.alpha.len() * (3 * size_of::<f64>() + size_of::<u32>());
+        let rows = self.dielectric.len() * (2 * size_of::<f64>() + size_of::<u32>());
         rows + size_of_val(&self.energy[..]) + size_of_val(self.by_roughness)
     }
 }
@@ -207,10 +178,9 @@ impl Bsdf for PrincipledTable {
     const WORD: &'static str = "principled";
     const NOUN: &'static str = "principled surface";
     const CLASS: BsdfClass = BsdfClass::Glossy;
-    const TEXTURED: bool = true;
-    const MAPPED: bool = true;
+    const TAKES: &'static [Feeds] = &[Feeds::Colour, Feeds::MetallicRoughness];
 
-    fn colour(own: &Principled, who: &str) -> Result<[f64; 3], SceneError> {
+    fn parameters(own: &Principled, who: &str) -> Result<Parameters, SceneError> {
         for (field, value) in [("metallic", own.metallic), ("roughness", own.roughness)] {
             if !(0.0..=1.0).contains(&value) {
                 return Err(SceneError::new(who, field, number(value), "it must be a number from 0 to 1"));
@@ -219,31 +189,23 @@ impl Bsdf for PrincipledTable {
         if !(1.0..=MOST_INDEX).contains(&own.ior) {
             return Err(SceneError::new(who, "ior", number(own.ior), "it must be a number from 1 to 1e9"));
         }
-        Ok(reflectance(who, "base_colour", own.base_colour)?.to_array())
+        let colour = reflectance(who, "base_colour", own.base_colour)?.to_array();
+        Ok(Parameters { colour, metallic: own.metallic, roughness: own.roughness })
     }
 
     #[inline(always)]
     fn eval(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        match site.mapped {
-            None => self.own(site).eval(to_light, to_eye),
-            Some(of_image) => self.eval_mapped(site, of_image, to_light, to_eye),
-        }
+        self.at(site).eval(to_light, to_eye)
     }
 
     #[inline(always)]
     fn pdf(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> f64 {
-        match site.mapped {
-            None => self.own(site).pdf(to_light, to_eye),
-            Some(of_image) => self.pdf_mapped(site, of_image, to_light, to_eye),
-        }
+        self.at(site).pdf(to_light, to_eye)
     }
 
     #[inline(always)]
     fn sample(&self, site: &Site, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
-        match site.mapped {
-            None => self.own(site).sample(to_eye, numbers, choice),
-            Some(of_image) => self.sample_mapped(site, of_image, to_eye, (numbers, choice)),
-        }
+        self.at(site).sample(to_eye, numbers, choice)
     }
 
     fn chooses(&self) -> bool {

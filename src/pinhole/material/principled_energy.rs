@@ -23,43 +23,14 @@ pub(super) fn alpha_of(roughness: f64) -> f64 {
     (roughness * roughness).max(SMOOTHEST_METAL)
 }
 
-/// The directional albedos of single scattering at one α, for Schlick's reflectance F₀ + (1 − F₀)(1 − cos θ)⁵, which is
-/// linear in F₀.
-pub(super) trait Energy: Copy {
-    /// What is lost at this cosine where F₀ = 1.
-    fn lost(&self, cosine: f64) -> f64;
-    /// What the factor (1 − cos θ)⁵ leaves at this cosine, less what it would leave of smooth microfacets.
-    fn more_at_grazing(&self, cosine: f64) -> f64;
-    /// The hemispherical averages of what is lost, and of what the factor leaves.
-    fn average(&self) -> [f64; 2];
-
-    /// What the factor (1 − cos θ)⁵ leaves at this cosine.
-    #[inline(always)]
-    fn left_at_grazing(&self, cosine: f64) -> f64 {
-        grazing(cosine) * (1.0 - self.lost(cosine)) + self.more_at_grazing(cosine)
-    }
-
-    /// The part of what is lost that leaves after further scatterings (Fdez-Agüera 2019).
-    #[inline(always)]
-    fn again(&self, normal: f64) -> f64 {
-        // The hemispherical average of Schlick's reflectance.
-        multiple_scattering_albedo(normal + (1.0 - normal) / 21.0, self.average()[0])
-    }
-
-    /// The albedo of the specular reflection of a dielectric that reflects `normal` at normal incidence, where single
-    /// scattering loses `lost` and leaves `left` at grazing.
-    #[inline(always)]
-    fn of_dielectric(&self, normal: f64, lost: f64, left: f64) -> f64 {
-        normal * (1.0 - lost) + (1.0 - normal) * left + self.again(normal) * lost
-    }
-}
-
-/// The same, tabulated by the cosine.
+/// The directional albedos of single scattering at one α, tabulated by the cosine, for Schlick's reflectance
+/// F₀ + (1 − F₀)(1 − cos θ)⁵, which is linear in F₀.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct EnergyTable {
     lost: ByCosine,
     grazing: ByCosine,
-    average: [f64; 2],
+    /// The hemispherical average of what the factor (1 − cos θ)⁵ leaves.
+    average: f64,
     /// The average of what is lost over α², which changes less with α than the average itself.
     lost_over_square: f64,
 }
@@ -69,14 +40,13 @@ impl EnergyTable {
     pub fn new(alpha: f64) -> Self {
         let more = |cosine: f64| single_scattering(cosine, alpha, |facing| grazing(facing) - grazing(cosine));
         let (lost, more) = (ByCosine::lost(alpha), ByCosine::new(alpha, more));
-        let average = lost.average();
-        let lost_over_square = average / (alpha * alpha);
-        let mut energy = Self { average: [average, 0.0], lost, grazing: more, lost_over_square };
+        let lost_over_square = lost.average() / (alpha * alpha);
+        let mut energy = Self { average: 0.0, lost, grazing: more, lost_over_square };
         let term = |at: u32| {
             let root = (f64::from(at) + 0.5) / f64::from(STEPS);
-            4.0 * root * root * root * (&energy).left_at_grazing(root * root) / f64::from(STEPS)
+            4.0 * root * root * root * Energy::of(&energy, alpha.sqrt()).left_at_grazing(root * root) / f64::from(STEPS)
         };
-        energy.average[1] = (0..STEPS).map(term).sum();
+        energy.average = (0..STEPS).map(term).sum();
         energy
     }
 
@@ -91,61 +61,71 @@ impl EnergyTable {
     }
 }
 
-impl Energy for &EnergyTable {
-    #[inline(always)]
-    fn lost(&self, cosine: f64) -> f64 {
-        self.lost.at(cosine)
-    }
-
-    #[inline(always)]
-    fn more_at_grazing(&self, cosine: f64) -> f64 {
-        self.grazing.at(cosine)
-    }
-
-    #[inline(always)]
-    fn average(&self) -> [f64; 2] {
-        self.average
-    }
-}
-
-/// The energies between those of two roughnesses next to each other.
+/// The albedos at one roughness: those of a table, or of two of roughnesses next to it.
 ///
 /// The tables' steps are steps of μ (1 + α) / (μ + α), over which little changes with α, so these are interpolated
 /// rather than the values at one cosine.
 #[derive(Clone, Copy)]
-pub(super) struct Between<'a> {
+pub(super) struct Energy<'a> {
     alpha: f64,
     tables: [&'a EnergyTable; 2],
     t: f64,
 }
 
-impl<'a> Between<'a> {
-    /// Those of a perceived roughness.
+impl<'a> Energy<'a> {
+    /// Those of a perceived roughness that a table is of.
     #[inline(always)]
-    pub fn of(all: &'a [EnergyTable], roughness: f64) -> Self {
+    pub fn of(table: &'a EnergyTable, roughness: f64) -> Self {
+        Self { alpha: alpha_of(roughness), tables: [table; 2], t: 0.0 }
+    }
+
+    /// Those of a perceived roughness between two of all.
+    #[inline(always)]
+    pub fn between(all: &'a [EnergyTable], roughness: f64) -> Self {
         let smoothest = SMOOTHEST_METAL.sqrt().sqrt();
         let place = ((roughness.sqrt() - smoothest) / (1.0 - smoothest)).clamp(0.0, 1.0) * (all.len() - 1) as f64;
         let step = (place as usize).min(all.len() - 2);
         Self { alpha: alpha_of(roughness), tables: [&all[step], &all[step + 1]], t: place - step as f64 }
     }
-}
 
-impl Energy for Between<'_> {
+    /// What is lost at this cosine where F₀ = 1.
     #[inline(always)]
-    fn lost(&self, cosine: f64) -> f64 {
+    pub fn lost(&self, cosine: f64) -> f64 {
         ByCosine::between(self.tables.map(|table| &table.lost), self.t, self.alpha, cosine)
     }
 
+    /// What the factor (1 − cos θ)⁵ leaves at this cosine, less what it would leave of smooth microfacets.
     #[inline(always)]
-    fn more_at_grazing(&self, cosine: f64) -> f64 {
+    pub fn more_at_grazing(&self, cosine: f64) -> f64 {
         ByCosine::between(self.tables.map(|table| &table.grazing), self.t, self.alpha, cosine)
     }
 
+    /// The hemispherical averages of what is lost, and of what the factor leaves.
     #[inline(always)]
-    fn average(&self) -> [f64; 2] {
+    pub fn average(&self) -> [f64; 2] {
         let between = |[low, high]: [f64; 2]| (1.0 - self.t) * low + self.t * high;
         let over_square = between(self.tables.map(|table| table.lost_over_square));
-        [self.alpha * self.alpha * over_square, between(self.tables.map(|table| table.average[1]))]
+        [self.alpha * self.alpha * over_square, between(self.tables.map(|table| table.average))]
+    }
+
+    /// What the factor (1 − cos θ)⁵ leaves at this cosine.
+    #[inline(always)]
+    pub fn left_at_grazing(&self, cosine: f64) -> f64 {
+        grazing(cosine) * (1.0 - self.lost(cosine)) + self.more_at_grazing(cosine)
+    }
+
+    /// The part of what is lost that leaves after further scatterings (Fdez-Agüera 2019).
+    #[inline(always)]
+    pub fn again(&self, normal: f64) -> f64 {
+        // The hemispherical average of Schlick's reflectance.
+        multiple_scattering_albedo(normal + (1.0 - normal) / 21.0, self.average()[0])
+    }
+
+    /// The albedo of the specular reflection of a dielectric that reflects `normal` at normal incidence, where single
+    /// scattering loses `lost` and leaves `left` at grazing.
+    #[inline(always)]
+    pub fn of_dielectric(&self, normal: f64, lost: f64, left: f64) -> f64 {
+        normal * (1.0 - lost) + (1.0 - normal) * left + self.again(normal) * lost
     }
 }
 
@@ -162,8 +142,8 @@ mod tests {
         for step in 0..ROUGHNESSES {
             let root = smoothest + (1.0 - smoothest) * (step as f64 + 0.5) / ROUGHNESSES as f64;
             let roughness = root * root;
-            let (own, between) = (EnergyTable::new(alpha_of(roughness)), Between::of(all, roughness));
-            let own = &own;
+            let (own, between) = (EnergyTable::new(alpha_of(roughness)), Energy::between(all, roughness));
+            let own = Energy::of(&own, roughness);
             for cosine in [0.0, 0.001, 0.01, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0] {
                 let lost = (own.lost(cosine) - between.lost(cosine)).abs();
                 let left = (own.left_at_grazing(cosine) - between.left_at_grazing(cosine)).abs();
@@ -182,7 +162,7 @@ mod tests {
     fn roughnesses_beyond_the_ends_are_those_of_the_ends() {
         let all = EnergyTable::of_all_roughnesses();
         for (roughness, table) in [(0.0, &all[0]), (0.03, &all[0]), (1.0, &all[ROUGHNESSES])] {
-            let between = Between::of(all, roughness);
+            let (between, table) = (Energy::between(all, roughness), Energy::of(table, roughness));
             for cosine in [0.01, 0.5, 1.0] {
                 assert!((between.lost(cosine) - table.lost(cosine)).abs() < 1e-12, "{roughness}, {cosine}");
             }

@@ -1,9 +1,9 @@
 //! The materials of a scene, by what the list of BSDFs says of their components.
 
-use super::{Bsdf, BsdfClass, ErasedBsdf, Interior, MaterialKind, for_each_bsdf};
+use super::{Bsdf, BsdfClass, ErasedBsdf, Interior, MaterialKind, Parameters, for_each_bsdf};
 use crate::check::kind_and_name;
 use crate::plan::{Census, TableKind, united};
-use crate::scene::{Rgb, SceneError};
+use crate::scene::{Feeds, Rgb, SceneError};
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
 
@@ -18,10 +18,8 @@ pub struct Registration {
     pub class: BsdfClass,
     /// Whether light passes through its surface.
     pub transmits: bool,
-    /// Whether its colour is a Lambertian albedo.
-    pub lambertian: bool,
-    /// Whether a texture may give it its colour.
-    pub textured: bool,
+    /// What textures may give it in place of its own, its normal aside.
+    pub takes: &'static [Feeds],
     /// The name of its component.
     pub component: &'static str,
     /// The component's word in messages.
@@ -34,7 +32,7 @@ pub struct Registration {
     declared: fn(&Census<'_>) -> Arc<[Entity]>,
     carries: fn(&Census<'_>, Entity) -> bool,
     kind_of: fn(&Census<'_>, Entity) -> MaterialKind,
-    colour: fn(&Census<'_>, Entity, &str) -> Result<[f64; 3], SceneError>,
+    parameters: fn(&Census<'_>, Entity, &str) -> Result<Parameters, SceneError>,
     interior: fn(&Census<'_>, Entity, &str) -> Result<Option<Interior>, SceneError>,
     albedo_beside_colour: fn(&Census<'_>, Entity) -> Option<Rgb>,
     /// Its materials for tests, and how far their albedo may fall short of 1 where nothing should be absorbed.
@@ -54,8 +52,7 @@ impl Registration {
             kind: B::KIND,
             class: B::CLASS,
             transmits: B::TRANSMITS,
-            lambertian: B::LAMBERTIAN,
-            textured: B::TEXTURED,
+            takes: B::TAKES,
             component: B::COMPONENT,
             word: B::WORD,
             noun: B::NOUN,
@@ -64,7 +61,9 @@ impl Registration {
             declared: |scene| scene.declared::<With<B::Component>>(),
             carries: |scene, entity| of::<B>(scene, entity).is_some(),
             kind_of: |scene, entity| of::<B>(scene, entity).map_or(B::KIND, B::kind_of),
-            colour: |scene, entity, who| of::<B>(scene, entity).map_or(Ok([0.0; 3]), |own| B::colour(own, who)),
+            parameters: |scene, entity, who| {
+                of::<B>(scene, entity).map_or(Ok(Parameters::default()), |own| B::parameters(own, who))
+            },
             interior: |scene, entity, who| of::<B>(scene, entity).map_or(Ok(None), |own| B::interior(own, who)),
             albedo_beside_colour: |scene, entity| of::<B>(scene, entity).and_then(B::albedo_beside_colour),
             examples: || {
@@ -79,9 +78,14 @@ impl Registration {
         }
     }
 
-    /// The surface's colour, after checking the values of a material that has this component.
-    pub fn colour(&self, scene: &Census<'_>, entity: Entity) -> Result<[f64; 3], SceneError> {
-        (self.colour)(scene, entity, &kind_and_name(scene, self.word, entity))
+    /// Whether textures may give it this.
+    pub(crate) fn takes(&self, feeds: Feeds) -> bool {
+        feeds == Feeds::Normal || self.takes.contains(&feeds)
+    }
+
+    /// The surface's parameters, after checking the values of a material that has this component.
+    pub fn parameters(&self, scene: &Census<'_>, entity: Entity) -> Result<Parameters, SceneError> {
+        (self.parameters)(scene, entity, &kind_and_name(scene, self.word, entity))
     }
 
     /// What fills a closed shape of a material that has this component.

@@ -1,9 +1,6 @@
 use super::glass::checked_interior;
 use super::registered::entities_of_kind;
-use super::{
-    Bsdf, BsdfClass, BsdfSample, Example, Interior, MaterialKind, Named, SMOOTHEST_METAL, Site, Transport, fresnel,
-    ggx_brdf, ggx_d, ggx_g1, mirror_direction, refract, visible_normal, visible_pdf,
-};
+use super::{Bsdf, BsdfClass, BsdfSample, Example, Interior, MaterialKind, Named, Parameters, Site, Transport, SMOOTHEST_METAL, fresnel, ggx_brdf, ggx_d, ggx_g1, mirror_direction, refract, visible_normal, visible_pdf};
 use crate::check::{kind_and_name, number};
 use crate::plan::{Census, Table};
 use crate::scene::{Glass, RoughGlass, SceneError};
@@ -95,9 +92,9 @@ impl Bsdf for RoughGlassTable {
         if own.roughness < SMOOTHEST_METAL { MaterialKind::Glass } else { Self::KIND }
     }
 
-    fn colour(own: &RoughGlass, who: &str) -> Result<[f64; 3], SceneError> {
+    fn parameters(own: &RoughGlass, who: &str) -> Result<Parameters, SceneError> {
         Self::interior(own, who)?;
-        checked_roughness(who, own.roughness).map(|_| [0.0; 3])
+        checked_roughness(who, own.roughness).map(|_| Parameters::default())
     }
 
     fn interior(own: &RoughGlass, who: &str) -> Result<Option<Interior>, SceneError> {

@@ -1,4 +1,4 @@
-use super::{MaterialKind, material_entities, one_material};
+use super::{MaterialKind, Parameters, material_entities, one_material};
 use crate::plan::{Census, Table};
 use crate::scene::SceneError;
 
@@ -14,17 +14,38 @@ pub struct MaterialTable {
     pub row: Vec<u32>,
     /// The colour of each: red, green, blue, from 0 to 1; for most kinds the albedo of diffuse reflection.
     pub colour: Vec<[f64; 3]>,
+    /// How much of each is metal, from 0 to 1.
+    pub metallic: Vec<f64>,
+    /// The perceived roughness of each, from 0 to 1.
+    pub roughness: Vec<f64>,
     /// The row of what fills its shapes in the table of glass; [`NO_ROW`] for opaque materials.
     pub interior: Vec<u32>,
-    /// Whether some material uses its colour otherwise than as a Lambertian albedo.
-    pub other_colours: bool,
 }
 
 impl MaterialTable {
     /// Materials that are opaque and of one row each, as for tests.
     pub fn opaque(kind: Vec<MaterialKind>, colour: Vec<[f64; 3]>) -> Self {
         let count = kind.len();
-        Self { kind, row: vec![0; count], colour, interior: vec![NO_ROW; count], other_colours: false }
+        Self {
+            kind,
+            row: vec![0; count],
+            colour,
+            metallic: vec![0.0; count],
+            roughness: vec![0.0; count],
+            interior: vec![NO_ROW; count],
+        }
+    }
+}
+
+impl MaterialTable {
+    /// A material's parameters where no texture gives others.
+    #[inline(always)]
+    pub fn parameters(&self, material: usize) -> Parameters {
+        Parameters {
+            colour: self.colour[material],
+            metallic: self.metallic[material],
+            roughness: self.roughness[material],
+        }
     }
 }
 
@@ -41,9 +62,10 @@ impl Table for MaterialTable {
             table.row.push(*rows);
             *rows += 1;
             table.kind.push(kind);
-            let colour = written.colour(scene, entity)?;
-            table.other_colours |= !kind.is_lambertian() && colour != [0.0; 3];
+            let Parameters { colour, metallic, roughness } = written.parameters(scene, entity)?;
             table.colour.push(colour);
+            table.metallic.push(metallic);
+            table.roughness.push(roughness);
             let is_filled = written.interior(scene, entity)?.is_some();
             table.interior.push(if is_filled { interiors } else { NO_ROW });
             interiors += u32::from(is_filled);
@@ -52,6 +74,6 @@ impl Table for MaterialTable {
     }
 
     fn bytes(&self) -> usize {
-        self.kind.len() * (size_of::<MaterialKind>() + 2 * size_of::<u32>() + size_of::<[f64; 3]>())
+        self.kind.len() * (size_of::<MaterialKind>() + 2 * size_of::<u32>() + size_of::<Parameters>())
     }
 }

@@ -1,5 +1,5 @@
 use super::registered::entities_of_kind;
-use super::{Bsdf, BsdfClass, Example, Named, Site, SpecularSample, fresnel, mirror_direction};
+use super::{Bsdf, BsdfClass, Example, Named, Parameters, Site, SpecularSample, fresnel, mirror_direction};
 use crate::check::{kind_and_name, number, reflectance};
 use crate::plan::{Census, Table};
 use crate::scene::{SceneError, ThinGlass};
@@ -34,7 +34,7 @@ impl Table for ThinGlassTable {
         let mut table = Self::default();
         for entity in entities_of_kind(scene, Self::KIND) {
             let own = scene.get::<ThinGlass>(entity).copied().unwrap_or_default();
-            Self::colour(&own, &kind_and_name(scene, Self::WORD, entity))?;
+            Self::parameters(&own, &kind_and_name(scene, Self::WORD, entity))?;
             table.ior.push(own.ior);
             table.colour.push(own.colour.to_array());
         }
@@ -54,12 +54,12 @@ impl Bsdf for ThinGlassTable {
     const CLASS: BsdfClass = BsdfClass::Specular;
     const TRANSMITS: bool = true;
 
-    fn colour(own: &ThinGlass, who: &str) -> Result<[f64; 3], SceneError> {
+    fn parameters(own: &ThinGlass, who: &str) -> Result<Parameters, SceneError> {
         if !(1.0..=MOST_INDEX).contains(&own.ior) {
             let accepted = format!("it must be a number from 1 to {MOST_INDEX}");
             return Err(SceneError::new(who, "ior", number(own.ior), accepted));
         }
-        reflectance(who, "colour", own.colour).map(|_| [0.0; 3])
+        reflectance(who, "colour", own.colour).map(|_| Parameters::default())
     }
 
     fn chooses(&self) -> bool {
@@ -122,7 +122,7 @@ mod tests {
     fn sampling_agrees_with_splitting() {
         let table = ThinGlassTable { ior: vec![1.5], colour: vec![[1.0, 0.5, 0.0]] };
         let (direction, normal) = (DVec3::new(0.8, 0.0, -0.6), DVec3::Z);
-        let site = Site::opaque(0, [0.0; 3]);
+        let site = Site::opaque(0, Parameters::coloured([0.0; 3]));
         let both = table.specular_directions(&site, direction, normal);
         assert!(both[1].through && both[1].direction == direction && !both[0].through);
         let mut sums = [[0.0; 3]; 2];

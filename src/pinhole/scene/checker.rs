@@ -1,4 +1,4 @@
-use super::{Rgb, TextureBy};
+use super::{Feeds, Rgb, Texture, TextureBy};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -26,5 +26,18 @@ impl Default for Checker {
     fn default() -> Self {
         let (first, second) = (Rgb::grey(0.8), Rgb::grey(0.2));
         Self { first, second, size: 1.0, by: TextureBy::default(), filter: true }
+    }
+}
+
+impl Texture for Checker {
+    const WORD: &'static str = "checker";
+    const NOUN: &'static str = "checkered material";
+    const PATTERN: &'static str = "checker";
+    const FEEDS: Feeds = Feeds::Colour;
+    fn by(&self) -> TextureBy {
+        self.by
+    }
+    fn is_filtered(&self) -> bool {
+        self.filter
     }
 }

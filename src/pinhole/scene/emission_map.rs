@@ -1,4 +1,4 @@
-use super::{UvTransform, Wrap};
+use super::{Feeds, Texture, UvTransform, Wrap};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -25,5 +25,18 @@ pub struct EmissionMap {
 impl Default for EmissionMap {
     fn default() -> Self {
         Self { file: String::new(), size: 1.0, wrap: Wrap::default(), transform: UvTransform::default(), filter: true }
+    }
+}
+
+impl Texture for EmissionMap {
+    const WORD: &'static str = "emission map";
+    const NOUN: &'static str = "emission map";
+    const PATTERN: &'static str = "emission map";
+    const FEEDS: Feeds = Feeds::Emission;
+    fn is_filtered(&self) -> bool {
+        self.filter
+    }
+    fn file(&mut self) -> Option<&mut String> {
+        Some(&mut self.file)
     }
 }

@@ -1,4 +1,4 @@
-use super::{FileKind, TextureBy, UvTransform, Wrap};
+use super::{Feeds, FileKind, Texture, TextureBy, UvTransform, Wrap};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -41,5 +41,21 @@ impl Default for ImageTexture {
             transform: UvTransform::default(),
             filter: true,
         }
+    }
+}
+
+impl Texture for ImageTexture {
+    const WORD: &'static str = "image texture";
+    const NOUN: &'static str = "image texture";
+    const PATTERN: &'static str = "image";
+    const FEEDS: Feeds = Feeds::Colour;
+    fn by(&self) -> TextureBy {
+        self.by
+    }
+    fn is_filtered(&self) -> bool {
+        self.filter
+    }
+    fn file(&mut self) -> Option<&mut String> {
+        Some(&mut self.file)
     }
 }

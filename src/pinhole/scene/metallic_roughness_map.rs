@@ -1,4 +1,4 @@
-use super::{UvTransform, Wrap};
+use super::{Feeds, Texture, UvTransform, Wrap};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -30,5 +30,18 @@ pub struct MetallicRoughnessMap {
 impl Default for MetallicRoughnessMap {
     fn default() -> Self {
         Self { file: String::new(), size: 1.0, wrap: Wrap::default(), transform: UvTransform::default(), filter: true }
+    }
+}
+
+impl Texture for MetallicRoughnessMap {
+    const WORD: &'static str = "metallic–roughness map";
+    const NOUN: &'static str = "metallic–roughness map";
+    const PATTERN: &'static str = "metallic–roughness map";
+    const FEEDS: Feeds = Feeds::MetallicRoughness;
+    fn is_filtered(&self) -> bool {
+        self.filter
+    }
+    fn file(&mut self) -> Option<&mut String> {
+        Some(&mut self.file)
     }
 }

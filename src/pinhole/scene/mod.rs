@@ -69,6 +69,7 @@ mod sphere;
 mod spot_light;
 mod stripes;
 mod texture;
+mod textures;
 mod tint;
 mod torus;
 mod triangle;
@@ -166,7 +167,10 @@ pub use sphere::Sphere;
 pub use spot_light::SpotLight;
 pub use stripes::Stripes;
 #[doc(hidden)]
-pub use texture::{TextureBy, UvTransform, Wrap, WrapMode};
+pub use texture::{Feeds, Texture, TextureBy, UvTransform, Wrap, WrapMode};
+#[doc(hidden)]
+pub use textures::{for_each_texture_file, texture_files};
+pub(crate) use textures::for_each_texture;
 #[doc(hidden)]
 pub use tint::Tint;
 pub use torus::Torus;

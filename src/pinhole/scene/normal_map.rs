@@ -1,4 +1,4 @@
-use super::{UvTransform, Wrap};
+use super::{Feeds, Texture, UvTransform, Wrap};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -30,5 +30,18 @@ pub struct NormalMap {
 impl Default for NormalMap {
     fn default() -> Self {
         Self { file: String::new(), scale: 1.0, size: 1.0, wrap: Wrap::default(), transform: UvTransform::default() }
+    }
+}
+
+impl Texture for NormalMap {
+    const WORD: &'static str = "normal map";
+    const NOUN: &'static str = "normal map";
+    const PATTERN: &'static str = "normal map";
+    const FEEDS: Feeds = Feeds::Normal;
+    fn is_filtered(&self) -> bool {
+        false
+    }
+    fn file(&mut self) -> Option<&mut String> {
+        Some(&mut self.file)
     }
 }

@@ -1,4 +1,4 @@
-use super::{Rgb, TextureBy};
+use super::{Feeds, Rgb, Texture, TextureBy};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -27,5 +27,18 @@ impl Default for Stripes {
     fn default() -> Self {
         let (first, second) = (Rgb::grey(0.8), Rgb::grey(0.2));
         Self { first, second, size: 1.0, across: DVec3::X, by: TextureBy::default(), filter: true }
+    }
+}
+
+impl Texture for Stripes {
+    const WORD: &'static str = "stripes";
+    const NOUN: &'static str = "striped material";
+    const PATTERN: &'static str = "stripe pattern";
+    const FEEDS: Feeds = Feeds::Colour;
+    fn by(&self) -> TextureBy {
+        self.by
+    }
+    fn is_filtered(&self) -> bool {
+        self.filter
     }
 }

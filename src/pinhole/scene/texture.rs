@@ -1,6 +1,44 @@
 use super::{Degrees, SceneError, number};
+use bevy_ecs::component::Mutable;
+use bevy_ecs::prelude::*;
 use glam::{DMat2, DVec2};
 use serde::{Deserialize, Serialize};
+
+/// What a texture gives a surface, in place of what its material or its emission has everywhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feeds {
+    /// The colour, as of diffuse reflection.
+    Colour,
+    /// The metallic and the roughness.
+    MetallicRoughness,
+    /// The shading normal.
+    Normal,
+    /// A factor of the emission.
+    Emission,
+}
+
+/// A texture: a component beside a material, or beside an emission, that changes something of the surface from point to
+/// point.
+pub trait Texture: Component<Mutability = Mutable> {
+    /// Its name in messages.
+    const WORD: &'static str;
+    /// What has it, in the plan's counts.
+    const NOUN: &'static str;
+    /// One such pattern, in the plan's counts.
+    const PATTERN: &'static str;
+    /// What it gives.
+    const FEEDS: Feeds;
+    /// The coordinates that it is evaluated at.
+    fn by(&self) -> TextureBy {
+        TextureBy::Uv
+    }
+    /// Whether it is filtered over a pixel's footprint.
+    fn is_filtered(&self) -> bool;
+    /// The file of its image, if it has one.
+    fn file(&mut self) -> Option<&mut String> {
+        None
+    }
+}
 
 /// The coordinates at which a texture is evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

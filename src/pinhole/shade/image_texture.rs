@@ -25,7 +25,7 @@ pub fn evaluate_images(
             if images.aspect[texture] != 1.0 {
                 at = about_the_middle(at, images.aspect[texture]);
             }
-            at = transformed(at, images.transform[texture]);
+            at = transformed(at, &images.transform[texture]);
             let colour = if images.filter[texture] {
                 image_mean(pyramid, &at, wrap)
             } else {

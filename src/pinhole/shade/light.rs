@@ -1,10 +1,9 @@
-use super::{Radiance, ShadowHits, SurfaceColours};
 use crate::extract::{
-    MaterialTable, area_light_evidence, delta_light_evidence, environment_light_evidence, light_sampling_evidence,
+    area_light_evidence, delta_light_evidence, environment_light_evidence, light_sampling_evidence,
     material_evidence, occlusion_evidence, traced_evidence, unless_occlusion,
 };
-use crate::intersect::{NO_SHAPE, RayColumn, Surface, Surfaces, falling_cosine};
-use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
+use crate::intersect::{RayColumn, Surface, falling_cosine};
+use crate::plan::{Census, Evidence, Stage, TileSystems, column};
 use crate::shapes::RaySlices;
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
@@ -92,17 +91,6 @@ impl RayColumn for LightRays {
     }
 }
 
-// ANCHOR: matte_radiance
-/// The radiance that a matte surface reflects of the irradiance E: (colour / π) · E.
-///
-/// It is the same in all directions (Lambert); the cosine-weighted integral over the hemisphere is colour · E.
-#[inline(always)]
-pub fn matte_radiance(colour: [f64; 3], irradiance: [f64; 3]) -> [f64; 3] {
-    const BRDF: f64 = std::f64::consts::FRAC_1_PI;
-    [colour[0] * irradiance[0] * BRDF, colour[1] * irradiance[1] * BRDF, colour[2] * irradiance[2] * BRDF]
-}
-// ANCHOR_END: matte_radiance
-
 /// The geometry of a ray from a surface to a light.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ShadowRay {
@@ -144,41 +132,10 @@ pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightPdfs>)>) {
     }
 }
 
-// ANCHOR: add_light
-/// Adds the light of each unblocked shadow ray that a matte surface reflects, or the matte part of another.
-pub fn add_light(
-    materials: Res<Shared<MaterialTable>>,
-    mut tiles: Query<(&Surfaces, Option<&SurfaceColours>, &LightRays, Option<&ShadowHits>, &mut Radiance)>,
-) {
-    for (surfaces, colours, rays, hits, mut radiance) in &mut tiles {
-        for ray in 0..rays.rows() {
-            if hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) {
-                continue;
-            }
-            let path = rays.path[ray] as usize;
-            let material = surfaces.material[path] as usize;
-            if materials.other_colours && !materials.kind[material].is_lambertian() {
-                continue;
-            }
-            let colour = colours.map_or_else(|| materials.colour[material], |colours| colours.get(path));
-            let [r, g, b] = matte_radiance(colour, rays.irradiance(ray));
-            radiance.r[path] += r as f32;
-            radiance.g[path] += g as f32;
-            radiance.b[path] += b as f32;
-        }
-    }
-}
-// ANCHOR_END: add_light
-
 /// The stage that clears the list.
 pub fn start_light_stage() -> Stage {
     Stage::new("Clear light rays", TileSystems::Start, start_light)
         .when(|scene| either(lit_evidence(scene), occlusion_evidence(scene)))
-}
-
-/// The stage that evaluates direct light on matte surfaces.
-pub fn light_stage() -> Stage {
-    Stage::new("Evaluate direct light", TileSystems::Shade, add_light).kind(StageKind::Alternative).when(lit_evidence)
 }
 
 /// The first evidence where it is needed, or else the second.

@@ -28,20 +28,24 @@ fn wrapped(at: f64, side: usize, wrap: WrapMode) -> usize {
 #[inline(always)]
 fn texel_point(image: &Texels, at: DVec2, wrap: [WrapMode; 2]) -> DVec2 {
     // Wrap first, then scale: far from the origin the product would lose the fraction.
+    let size = DVec2::new(image.width as f64, image.height as f64);
+    if wrap == [WrapMode::Repeat; 2] {
+        return (at - at.floor()) * size;
+    }
     let near = |at: f64, wrap: WrapMode| match wrap {
         WrapMode::Repeat => at - at.floor(),
         WrapMode::Clamp => at,
         WrapMode::Mirror => at - 2.0 * (0.5 * at).floor(),
     };
-    DVec2::new(near(at.x, wrap[0]) * image.width as f64, near(at.y, wrap[1]) * image.height as f64)
+    DVec2::new(near(at.x, wrap[0]), near(at.y, wrap[1])) * size
 }
 
 /// A point of uv in the image's own coordinates, and its footprint.
 #[inline(always)]
-pub fn transformed(at: TexturePoint, transform: Option<(DMat2, DVec2)>) -> TexturePoint {
+pub fn transformed(at: TexturePoint, transform: &Option<(DMat2, DVec2)>) -> TexturePoint {
     let Some((matrix, offset)) = transform else { return at };
-    let step = |step: DVec3| if step.is_finite() { (matrix * step.truncate()).extend(0.0) } else { DVec3::INFINITY };
-    TexturePoint { point: (matrix * at.point.truncate() + offset).extend(0.0), steps: at.steps.map(step) }
+    let step = |step: DVec3| if step.is_finite() { (*matrix * step.truncate()).extend(0.0) } else { DVec3::INFINITY };
+    TexturePoint { point: (*matrix * at.point.truncate() + *offset).extend(0.0), steps: at.steps.map(step) }
 }
 
 #[inline(always)]

@@ -5,7 +5,7 @@ use super::lookup::{image_mean, nearest_texel, transformed};
 use super::row_slopes::{RowSlopes, with_mesh_slopes};
 use super::texture_point::{UvPointView, UvPointViewItem};
 use crate::extract::{
-    EmissionMapTable, MetallicRoughnessTable, NO_TEXTURE, ShapeSpaces, UvImages, UvSlopes, emission_map_evidence,
+    EmissionMapTable, MaterialTable, MetallicRoughnessTable, NO_TEXTURE, ShapeSpaces, UvImages, UvSlopes, emission_map_evidence,
     filtered_emission_evidence, filtered_roughness_evidence, metallic_roughness_evidence,
 };
 use crate::intersect::{EmissiveRows, MaterialRows, SurfaceUvs, Surfaces};
@@ -13,11 +13,11 @@ use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
 
 column! {
-    /// The metallic and the roughness that images give surfaces; exists only where one does.
+    /// The metallic and the roughness of each surface; exists where an image gives them to any.
     pub struct MetallicRoughness("metallic roughness", "surface", "1", Ray) {
-        /// The metallic, from 0 to 1; −1 where no image gives it.
+        /// The metallic, from 0 to 1.
         metallic: f64,
-        /// The perceived roughness, from 0 to 1; −1 where no image gives it.
+        /// The perceived roughness, from 0 to 1.
         roughness: f64,
     }
 }
@@ -25,13 +25,13 @@ column! {
 impl MetallicRoughness {
     /// Roughness as green and metallic as blue, as in the image.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [0.0, self.roughness[row].max(0.0) as f32, self.metallic[row].max(0.0) as f32]
+        [0.0, self.roughness[row] as f32, self.metallic[row] as f32]
     }
 
-    /// The metallic and the roughness of a row; none where no image gives them.
+    /// The metallic and the roughness of a row.
     #[inline(always)]
-    pub fn get(&self, row: usize) -> Option<[f64; 2]> {
-        (self.roughness[row] >= 0.0).then(|| [self.metallic[row], self.roughness[row]])
+    pub fn get(&self, row: usize) -> [f64; 2] {
+        [self.metallic[row], self.roughness[row]]
     }
 }
 
@@ -64,7 +64,7 @@ impl EmissionFactors {
 fn looked_up(images: &UvImages, map: usize, uv: TexturePoint) -> [f64; 3] {
     let (size, wrap, pyramid) = (images.size[map], images.wrap[map], &images.pyramid[map]);
     let at = TexturePoint { point: uv.point / size, steps: uv.steps.map(|step| step / size) };
-    let at = transformed(at, images.transform[map]);
+    let at = transformed(at, &images.transform[map]);
     if images.filter[map] {
         image_mean(pyramid, &at, wrap)
     } else {
@@ -72,9 +72,9 @@ fn looked_up(images: &UvImages, map: usize, uv: TexturePoint) -> [f64; 3] {
     }
 }
 
-/// Looks up metallic and roughness at every surface whose material has an image of them.
+/// Looks up metallic and roughness at every surface whose material has an image of them; elsewhere they are the material's.
 pub fn evaluate_metallic_roughness(
-    maps: Res<Shared<MetallicRoughnessTable>>,
+    (maps, materials): (Res<Shared<MetallicRoughnessTable>>, Res<Shared<MaterialTable>>),
     spaces: Res<Shared<ShapeSpaces>>,
     slopes: RowSlopes<'_>,
     mut tiles: Query<(&Surfaces, &MaterialRows, UvPointView, &mut MetallicRoughness)>,
@@ -82,18 +82,19 @@ pub fn evaluate_metallic_roughness(
     for (surfaces, list, at, mut found) in &mut tiles {
         let at: UvPointViewItem<'_, '_> = at;
         let (metallic, roughness) = found.slices_mut(surfaces.rows());
-        metallic.fill(-1.0);
-        roughness.fill(-1.0);
+        metallic.fill(0.0);
+        roughness.fill(0.0);
         for &row in &list.row {
             let row = row as usize;
-            let map = maps.of_material[surfaces.material[row] as usize];
+            let material = surfaces.material[row] as usize;
+            let map = maps.of_material[material];
             if map == NO_TEXTURE {
+                (metallic[row], roughness[row]) = (materials.metallic[material], materials.roughness[material]);
                 continue;
             }
             let [_, green, blue] = looked_up(&maps.images, map as usize, at.uv_point(&spaces, &slopes, row));
-            let factors = maps.factors[map as usize];
-            metallic[row] = factors[0] * blue.clamp(0.0, 1.0);
-            roughness[row] = factors[1] * green.clamp(0.0, 1.0);
+            metallic[row] = materials.metallic[material] * blue.clamp(0.0, 1.0);
+            roughness[row] = materials.roughness[material] * green.clamp(0.0, 1.0);
         }
     }
 }

@@ -6,11 +6,11 @@
 //! Space: render space.
 //!
 //! ```
-//! use pinhole::shade::matte_radiance;
+//! use pinhole::material::lambertian;
 //! use std::f64::consts::PI;
 //!
 //! // A diffuse surface of albedo 0.5 under irradiance π reflects radiance 0.5 in every direction.
-//! let radiance = matte_radiance([0.5; 3], [PI; 3]);
+//! let radiance = lambertian([0.5; 3]).map(|brdf| brdf * PI);
 //! assert!(radiance.iter().all(|part| (part - 0.5).abs() < 1e-15));
 //! ```
 
@@ -31,6 +31,7 @@ mod light;
 mod lookup;
 mod material_maps;
 mod normal_map;
+mod parameters;
 mod radiance;
 mod receivers;
 mod row_slopes;
@@ -81,8 +82,7 @@ pub use image_mask::{image_mask_stage, image_mask_stages, mask_image};
 pub use image_texture::{evaluate_images, image_stage};
 #[doc(hidden)]
 pub use light::{
-    LightPdfs, LightRays, add_light, light_distance, light_evidence, light_stage, lit_evidence, matte_radiance,
-    shadow_t_max, start_light, start_light_stage,
+    LightPdfs, LightRays, light_distance, light_evidence, lit_evidence, shadow_t_max, start_light, start_light_stage,
 };
 #[doc(hidden)]
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
@@ -93,6 +93,8 @@ pub use material_maps::{
 };
 #[doc(hidden)]
 pub use normal_map::{copy_normals, copy_normals_stage, map_normals, mapped_normal, normal_map_stage, uv_directions};
+#[doc(hidden)]
+pub use parameters::{ParameterColumns, ParameterColumnsItem};
 #[doc(hidden)]
 pub use radiance::Radiance;
 #[doc(hidden)]

@@ -4,7 +4,7 @@ use super::Group::*;
 use super::{Group, Grouped};
 use crate::follow::BsdfRole::*;
 use crate::follow::{self, BsdfRole, BsdfStage};
-use crate::material::BsdfClass;
+use crate::material::{BsdfClass, MaterialKind};
 use crate::{intersect, rasterise, rays, shade};
 
 /// The group of a shape's stages: those that only a non-uniform scale makes are offered with the transforms.
@@ -59,6 +59,7 @@ fn of_bsdfs(role: BsdfRole) -> Vec<Grouped> {
         (_, _) if stage.transmits => Glass,
         (_, BsdfClass::Specular) => SpecularReflection,
         (_, BsdfClass::Glossy) => GlossyReflection,
+        (Evaluate, BsdfClass::Diffuse) if stage.kind == MaterialKind::Matte => DirectLight,
         (Evaluate, BsdfClass::Diffuse) => Highlights,
         (_, BsdfClass::Diffuse) => PathContinuation,
     };

@@ -14,7 +14,7 @@ use pinhole::intersect::{MaterialRows, Surface, Surfaces};
 use pinhole::lights::{
     PlacedDirectionalLight, PlacedPointLight, PlacedSpotLight, spot_falloff, versine, versine_of_half,
 };
-use pinhole::material::{BlinnPhongTable, PhongTable, highlight, mirror_cosine, phong_peak};
+use pinhole::material::{BlinnPhongTable, MatteTable, PhongTable, highlight, mirror_cosine, phong_peak};
 use pinhole::scene::Degrees;
 use pinhole::shade::{self, LightRays, Radiance};
 use pinhole::shapes::offset_bound;
@@ -154,7 +154,7 @@ fn check_numbers(range: Range<u64>) -> Tally {
         shade::point_light_stage(),
         shade::directional_light_stage(),
         shade::spot_light_stage(),
-        shade::light_stage(),
+        follow::direct_light_stage::<MatteTable>(),
         follow::direct_light_stage::<PhongTable>(),
         follow::direct_light_stage::<BlinnPhongTable>(),
     ];

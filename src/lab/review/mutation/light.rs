@@ -9,7 +9,8 @@ use pinhole::film::{Curve, FilmTile, byte_from_linear, srgb_from_linear};
 use pinhole::intersect::{EmissiveRows, Surfaces};
 use pinhole::lights::irradiance_from_point;
 use pinhole::plan::{Column, Shared};
-use pinhole::shade::{LightRays, Radiance, ShadowHits, matte_radiance};
+use pinhole::material::lambertian;
+use pinhole::shade::{LightRays, Radiance, ShadowHits};
 use std::mem::swap;
 
 /// Radiance that does not start at 0.
@@ -159,7 +160,8 @@ pub fn shadow_forgotten(
         for ray in 0..rays.rows() {
             let path = rays.path[ray] as usize;
             let colour = materials.colour[surfaces.material[path] as usize];
-            let [r, g, b] = matte_radiance(colour, rays.irradiance(ray));
+            let (brdf, irradiance) = (lambertian(colour), rays.irradiance(ray));
+            let [r, g, b] = [0, 1, 2].map(|part| brdf[part] * irradiance[part]);
             radiance.r[path] += r as f32;
             radiance.g[path] += g as f32;
             radiance.b[path] += b as f32;

@@ -9,7 +9,7 @@ use pinhole::intersect::{
     sphere_surface_stage, triangle_stage, triangle_surface_stage,
 };
 use pinhole::look::view_stage;
-use pinhole::material::{BlinnPhongTable, PhongTable};
+use pinhole::material::{BlinnPhongTable, MatteTable, PhongTable};
 use pinhole::plan::Stage;
 use pinhole::rasterise::{box_stage, rasterise_stage};
 use pinhole::rays::{
@@ -18,7 +18,7 @@ use pinhole::rays::{
 };
 use pinhole::shade::{
     area_light_stage, background_stage, checker_stage, colour_stage, directional_light_stage, emissive_stage,
-    environment_stage, footprint_stage, gradient_stage, image_stage, light_stage, moving_shadow_stage,
+    environment_stage, footprint_stage, gradient_stage, image_stage, moving_shadow_stage,
     plane_shadow_stage, point_light_stage, shape_shadow_stage, sphere_shadow_stage, spot_light_stage,
     start_light_stage, start_shadow_stage, stripes_stage, texture_point_stage, unlit_stage,
 };
@@ -135,7 +135,7 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("cuboids-ignored", shape_shadow_stage::<Slabs>, "not looked for", SHAPES, Bug::Instead(|| light::cuboids_ignored.into_configs())),
     bug("movers-ignored", moving_shadow_stage, "not looked for", MOVING, Bug::Instead(|| moving::nothing_moves.into_configs())),
     bug("blue-first", unlit_stage, "blue, green, red", PARALLEL, Bug::After(|| light::blue_first.into_configs())),
-    bug("shadow-forgotten", light_stage, "shadows not looked up", MOST, Bug::Instead(|| light::shadow_forgotten.into_configs())),
+    bug("shadow-forgotten", direct_light_stage::<MatteTable>, "shadows not looked up", MOST, Bug::Instead(|| light::shadow_forgotten.into_configs())),
     bug("phong-forgotten", direct_light_stage::<PhongTable>, "none added", REFLECTION, Bug::Instead(|| light::phong_forgotten.into_configs())),
     bug("blinn-phong-forgotten", direct_light_stage::<BlinnPhongTable>, "none added", REFLECTION, Bug::Instead(|| light::blinn_phong_forgotten.into_configs())),
     bug("emitted-twice", emissive_stage, "added twice", REFLECTION, Bug::Instead(|| light::emitted_twice.into_configs())),

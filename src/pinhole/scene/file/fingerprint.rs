@@ -1,8 +1,8 @@
 use super::word::Word;
 use super::write::spawned;
 use crate::scene::{
-    ChildOf, Disabled, EmbeddedFiles, EmissionMap, Environment, IMAGE_FILE, ImageTexture, MeshGeometry, MeshInstance,
-    MetallicRoughnessMap, Name, NormalMap, Sampler, Sampling, SceneFolder, Statistics, UsesMaterial, read_file,
+    ChildOf, Disabled, EmbeddedFiles, Environment, IMAGE_FILE, MeshGeometry, MeshInstance, Name, Sampler, Sampling,
+    SceneFolder, Statistics, UsesMaterial, read_file, texture_files,
 };
 use bevy_ecs::prelude::*;
 use std::any::TypeId;
@@ -33,13 +33,10 @@ pub fn fingerprint(scene: &World) -> String {
                 text += &format!(" {}: {value}", word.word);
             }
         }
-        let texture = entity.get::<ImageTexture>().map(|texture| &texture.file);
-        let environment = entity.get::<Environment>().map(|environment| &environment.file);
-        let normals = entity.get::<NormalMap>().map(|map| &map.file);
-        let roughness = entity.get::<MetallicRoughnessMap>().map(|map| &map.file);
-        let emission = entity.get::<EmissionMap>().map(|map| &map.file);
-        let named = [texture, normals, environment, roughness, emission].into_iter().flatten();
+        let environment = entity.get::<Environment>().map(|environment| environment.file.clone());
+        let named = texture_files(*entity).into_iter().chain(environment);
         for file in named.filter(|_| !entity.contains::<Disabled>()) {
+            let file = &file;
             let hash = |bytes: &[u8]| fnv(FNV_BASIS, bytes);
             let read = |path: &PathBuf| read_file(path, IMAGE_FILE).ok().map(|bytes| hash(&bytes));
             let held = EmbeddedFiles::find(scene, file)
