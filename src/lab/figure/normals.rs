@@ -1,8 +1,8 @@
 //! Spheres scaled unevenly, lit by wrong normals and by right ones.
 
 use super::Figure;
+use super::acne::Occluders;
 use super::label::Label;
-use super::occluders::Occluders;
 use super::pen::{Pen, RAY, WIDTH};
 use super::picture::Picture;
 use super::svg::{Drawing, Svg};

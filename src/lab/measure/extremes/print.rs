@@ -7,24 +7,19 @@ impl Group {
     /// The words of its table: what is checked, what an input with something to check is, what being wrong is.
     fn words(self) -> [&'static str; 3] {
         match self {
-            Self::Sphere => ["rays against spheres", "hits", "misclassified"],
-            Self::Plane => ["rays against planes", "hits", "misclassified"],
-            Self::Shadow => ["shadow rays", "starts", "wrong"],
+            Self::Shapes => ["rays against every registered shape", "to check", "wrong"],
+            Self::Shadow => ["shadow rays", "to check", "wrong"],
             Self::Camera => ["rays of cameras", "taken", "wrong"],
-            Self::Transform => ["scaled spheres and placements", "to check", "wrong"],
+            Self::Transform => ["placements and look-at", "to check", "wrong"],
             Self::Texture => ["textures and environments", "checked", "wrong"],
             Self::Light => ["highlights and lights", "to check", "wrong"],
             Self::Material => ["mirrors, glass and rough metal", "to check", "wrong"],
             Self::Emitter => ["lights with an area", "to check", "wrong"],
             Self::Transport => ["light paths", "to check", "wrong"],
-            Self::Triangle => ["rays against triangles", "hit", "misclassified"],
+            Self::Triangle => ["closed meshes and barycentrics", "hit", "misclassified"],
             Self::Lens => ["rays through lenses", "checked", "wrong"],
             Self::Sampling => ["numbers and points of samples", "checked", "wrong"],
             Self::Film => ["samples and bytes of films", "checked", "wrong"],
-            Self::Disk => ["disks", "to check", "wrong"],
-            Self::Rectangle => ["rectangles", "to check", "wrong"],
-            Self::Cuboid => ["cuboids", "to check", "wrong"],
-            Self::Shapes => ["rays against every registered shape", "to check", "wrong"],
             Self::Rasterisation => ["triangles projected onto the image, against rays", "to check", "wrong"],
             Self::Hierarchy => ["rays through hierarchies, against testing everything", "to check", "wrong"],
         }
