@@ -158,9 +158,11 @@ fn every_typical_mistake_is_called_by_its_name() {
 }
 
 /// What a report says that the mistake is.
-fn remark(report: &Report) -> &'static str {
+fn remark(report: &Report) -> &str {
     match &report.outcome {
-        Outcome::Wrong(mismatch) | Outcome::OrdinaryRight(mismatch) => mismatch.looks_like.unwrap_or("nothing known"),
+        Outcome::Wrong(mismatch) | Outcome::OrdinaryRight(mismatch) => {
+            mismatch.looks_like.as_deref().unwrap_or("nothing known")
+        }
         _ => "no mistake at all",
     }
 }

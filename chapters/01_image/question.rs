@@ -3,7 +3,7 @@
 use super::mine::mine;
 use pinhole::rays::raster_from_pixel;
 use pinhole_lab::exercise::apart::exact;
-use pinhole_lab::exercise::{Exercise, Mistake, Question, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Part, Question, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Input = (u64, u32);
@@ -40,97 +40,7 @@ fn question() -> Question<Input, [f64; 2]> {
         apart: exact,
         allowed: 0.0,
         measured: "pixels",
-        mistakes: vec![
-            Mistake::new("the half is missing: this is a pixel's top left corner, not its centre", |i| {
-                moved(i, -0.5, -0.5)
-            }),
-            Mistake::new("the half is missing in y: a row is 1 high, and its number names the upper edge", |i| {
-                moved(i, 0.0, -0.5)
-            }),
-            Mistake::new("the half is missing in x: a pixel is 1 wide, and its number names the left edge", |i| {
-                moved(i, -0.5, 0.0)
-            }),
-            Mistake::new("1 is added instead of a half: this is a pixel's bottom right corner, not its centre", |i| {
-                moved(i, 0.5, 0.5)
-            }),
-            Mistake::new("the half is taken off; the centre lies to the right of the corner and below it", |i| {
-                moved(i, -1.0, -1.0)
-            }),
-            Mistake::new(FROM_0, |i| moved(i, 1.0, 1.0)),
-            Mistake::new(FROM_0, |i| moved(i, 0.0, 1.0)),
-            Mistake::new(FROM_0, |i| moved(i, 1.0, 0.0)),
-            Mistake::new("x and y are swapped", |i| turned(moved(i, 0.0, 0.0))),
-            Mistake::new("x and y are swapped, and the half is missing", |i| turned(moved(i, -0.5, -0.5))),
-            Mistake::new(FRACTION, |i| [moved(i, 0.0, 0.0)[0], rows(i) + 0.5]),
-            Mistake::new(FRACTION, |i| [moved(i, 0.0, 0.0)[0], rows(i)]),
-            Mistake::new(
-                "the row is rounded; it is the whole part of the quotient, however close the next row is",
-                |i| [moved(i, 0.0, 0.0)[0], rows(i).round() + 0.5],
-            ),
-            Mistake::new(
-                "the row is rounded; it is the whole part of the quotient, however close the next row is",
-                |i| [moved(i, 0.0, 0.0)[0], rows(i).ceil() + 0.5],
-            ),
-            Mistake::new("x is the index itself; within its row a pixel has the number index % width", |i| {
-                [i.0 as f64 + 0.5, moved(i, 0.0, 0.0)[1]]
-            }),
-            Mistake::new("y points up; in raster space it points down", |i| {
-                [moved(i, 0.0, 0.0)[0], -moved(i, 0.0, 0.0)[1]]
-            }),
-            Mistake::new(NOT_NDC, |i| moved(i, 0.0, 0.0).map(|part| part / f64::from(i.1))),
-            Mistake::new(NOT_NDC, |i| [moved(i, 0.0, 0.0)[0] / f64::from(i.1), moved(i, 0.0, 0.0)[1]]),
-            Mistake::new(
-                "the index was cut to 32 bits, which 65536 × 65536 pixels need more than",
-                |&(index, width)| moved(&(u64::from(index as u32), width), 0.0, 0.0),
-            ),
-            Mistake::new(F32, |&(index, width)| {
-                let (n, w) = (index as f32, width as f32);
-                [n - (n / w).floor() * w + 0.5, (n / w).floor() + 0.5].map(f64::from)
-            }),
-            Mistake::new(F32, |&(index, width)| {
-                let (n, w) = (index as f32, width as f32);
-                [n % w + 0.5, (n / w).floor() + 0.5].map(f64::from)
-            }),
-            Mistake::new(F32, |i| moved(i, 0.0, 0.0).map(|part| f64::from(part as f32))),
-            Mistake::new(
-                "rows are taken to be one pixel longer; a row has exactly `width` pixels",
-                |&(index, width)| moved(&(index, width.saturating_add(1)), 0.0, 0.0),
-            ),
-            Mistake::new(
-                "rows are taken to be one pixel shorter; a row has exactly `width` pixels",
-                |&(index, width)| moved(&(index, (width - 1).max(1)), 0.0, 0.0),
-            ),
-            Mistake::new("pixels are counted from 1; the first is number 0", |&(index, width)| {
-                moved(&(index.saturating_sub(1), width), 0.0, 0.0)
-            }),
-            Mistake::new("1 is added to the index; the first pixel is number 0 already", |&(index, width)| {
-                moved(&(index + 1, width), 0.0, 0.0)
-            }),
-            Mistake::new(FRACTION, |i| [moved(i, 0.0, 0.0)[0], rows(i) + 0.5 / f64::from(i.1)]),
-            Mistake::new("x is the place in the row over the width; in raster space a pixel is 1 wide", |i| {
-                [rows(i).fract() + 0.5, moved(i, 0.0, 0.0)[1]]
-            }),
-            Mistake::new("x is the place in the row over the width; in raster space a pixel is 1 wide", |i| {
-                [rows(i).fract(), moved(i, 0.0, 0.0)[1]]
-            }),
-            Mistake::new("the place is halved, or multiplied by a half that is to be added", |i| {
-                moved(i, -0.5, -0.5).map(|part| part / 2.0)
-            }),
-            Mistake::new(
-                "x and y are the same number; the row is the quotient, and the place in it the remainder",
-                |i| [moved(i, 0.0, 0.0)[0]; 2],
-            ),
-            Mistake::new(
-                "x and y are the same number; the row is the quotient, and the place in it the remainder",
-                |i| [moved(i, 0.0, 0.0)[1]; 2],
-            ),
-            Mistake::new("the row is that of the next pixel; the last one of a row belongs to it still", |i| {
-                [moved(i, 0.0, 0.0)[0], moved(&(i.0 + 1, i.1), 0.0, 0.0)[1]]
-            }),
-            Mistake::new("x is counted from the middle of the row; raster space begins at the left edge", |i| {
-                moved(i, -0.5 * f64::from(i.1), 0.0)
-            }),
-        ],
+        mistakes: mistakes(),
         hints: &[
             "a pixel is a unit square and its number names the top left corner; where is its middle?",
             "first find the pixel: how many whole rows lie before it, and how far along its row is it?",
@@ -139,24 +49,93 @@ fn question() -> Question<Input, [f64; 2]> {
     }
 }
 
+fn mistakes() -> Mistakes<Input, [f64; 2]> {
+    let x = Part::<Input, f64>::new(|i| moved(i, 0.0, 0.0)[0])
+        .say("the half is missing in x: a pixel is 1 wide, and its number names the left edge")
+        .when(|i| moved(i, -0.5, 0.0)[0])
+        .say(FROM_0)
+        .when(|i| moved(i, 1.0, 0.0)[0])
+        .say("x is the index itself; within its row a pixel has the number index % width")
+        .when(|i| i.0 as f64 + 0.5)
+        .say(NOT_NDC)
+        .when(|i| moved(i, 0.0, 0.0)[0] / f64::from(i.1))
+        .say("x is the place in the row over the width; in raster space a pixel is 1 wide")
+        .when(|i| rows(i).fract() + 0.5)
+        .when(|i| rows(i).fract())
+        .say("x is counted from the middle of the row; raster space begins at the left edge")
+        .when(|i| moved(i, -0.5 * f64::from(i.1), 0.0)[0]);
+    let y = Part::<Input, f64>::new(|i| moved(i, 0.0, 0.0)[1])
+        .say("the half is missing in y: a row is 1 high, and its number names the upper edge")
+        .when(|i| moved(i, 0.0, -0.5)[1])
+        .say(FROM_0)
+        .when(|i| moved(i, 0.0, 1.0)[1])
+        .say("y is the index over the width with its fraction; rows are counted whole")
+        .when(|i| rows(i) + 0.5)
+        .when(rows)
+        .when(|i| rows(i) + 0.5 / f64::from(i.1))
+        .say("the row is rounded; it is the whole part of the quotient, however close the next row is")
+        .when(|i| rows(i).round() + 0.5)
+        .when(|i| rows(i).ceil() + 0.5)
+        .say("y points up; in raster space it points down")
+        .when(|i| -moved(i, 0.0, 0.0)[1])
+        .say(NOT_NDC)
+        .when(|i| moved(i, 0.0, 0.0)[1] / f64::from(i.1))
+        .say("the row is that of the next pixel; the last one of a row belongs to it still")
+        .when(|i| moved(&(i.0 + 1, i.1), 0.0, 0.0)[1]);
+    let whole = Part::<[f64; 2], [f64; 2]>::new(|&centre| centre)
+        .say("x and y are swapped")
+        .when(|&[x, y]| [y, x])
+        .say("x and y are the same number; the row is the quotient, and the place in it the remainder")
+        .when(|&[x, _]| [x; 2])
+        .when(|&[_, y]| [y; 2]);
+    Mistakes::<Input, [f64; 2]>::new()
+        .say("the half is missing: this is a pixel's top left corner, not its centre")
+        .when(|i| moved(i, -0.5, -0.5))
+        .say("1 is added instead of a half: this is a pixel's bottom right corner, not its centre")
+        .when(|i| moved(i, 0.5, 0.5))
+        .say("the half is taken off; the centre lies to the right of the corner and below it")
+        .when(|i| moved(i, -1.0, -1.0))
+        .say("x and y are swapped, and the half is missing")
+        .when(|i| {
+            let [x, y] = moved(i, -0.5, -0.5);
+            [y, x]
+        })
+        .say("the index was cut to 32 bits, which 65536 × 65536 pixels need more than")
+        .when(|&(index, width)| moved(&(u64::from(index as u32), width), 0.0, 0.0))
+        .say("f32 is computed in, which has too few digits: it counts in ones up to 16777216 only")
+        .when(|&(index, width)| {
+            let (n, w) = (index as f32, width as f32);
+            [n - (n / w).floor() * w + 0.5, (n / w).floor() + 0.5].map(f64::from)
+        })
+        .when(|&(index, width)| {
+            let (n, w) = (index as f32, width as f32);
+            [n % w + 0.5, (n / w).floor() + 0.5].map(f64::from)
+        })
+        .when(|i| moved(i, 0.0, 0.0).map(|part| f64::from(part as f32)))
+        .say("rows are taken to be one pixel longer; a row has exactly `width` pixels")
+        .when(|&(index, width)| moved(&(index, width.saturating_add(1)), 0.0, 0.0))
+        .say("rows are taken to be one pixel shorter; a row has exactly `width` pixels")
+        .when(|&(index, width)| moved(&(index, (width - 1).max(1)), 0.0, 0.0))
+        .say("pixels are counted from 1; the first is number 0")
+        .when(|&(index, width)| moved(&(index.saturating_sub(1), width), 0.0, 0.0))
+        .say("1 is added to the index; the first pixel is number 0 already")
+        .when(|&(index, width)| moved(&(index + 1, width), 0.0, 0.0))
+        .say("the place is halved, or multiplied by a half that is to be added")
+        .when(|i| moved(i, -0.5, -0.5).map(|part| part / 2.0))
+        .of_parts([x, y], whole)
+}
+
 fn centre(index: u64, width: u32) -> glam::DVec2 {
     let width = u64::from(width);
     raster_from_pixel((index % width) as u32, (index / width) as u32)
 }
 
 const FROM_0: &str = "columns or rows are counted from 1; both are counted from 0";
-const FRACTION: &str = "y is the index over the width with its fraction; rows are counted whole";
 const NOT_NDC: &str = "the place is divided by the width, which gives NDC; in raster space a pixel is 1 wide";
-const F32: &str = "f32 is computed in, which has too few digits: it counts in ones up to 16777216 only";
-
 /// The centre and an offset from it.
 fn moved(&(index, width): &Input, x: f64, y: f64) -> [f64; 2] {
     let centre = centre(index, width);
     [centre.x + x, centre.y + y]
-}
-
-fn turned([x, y]: [f64; 2]) -> [f64; 2] {
-    [y, x]
 }
 
 fn rows(&(index, width): &Input) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::mine::mine;
 use pinhole_lab::exercise::apart::{absolute, option};
-use pinhole_lab::exercise::{Exercise, Mistake, Question, Shown, extremes, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Question, Shown, extremes, probes};
 use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::exact_vector::ExactVector;
 use pinhole_lab::measure::ray_aim::Draws;
@@ -49,99 +49,109 @@ fn question() -> Question<Vector, Option<Vector>> {
         apart: |yours, right| option(yours, right, |yours, right| absolute(yours, right)),
         allowed: 1e-15,
         measured: "in a part",
-        mistakes: vec![
-            Mistake::new(NOT_0, |&v| Some(unit(v).unwrap_or_else(|| plain(v)))),
-            Mistake::new("an infinite part leaves no direction: the answer there is None", |&v| {
+        mistakes: Mistakes::<Vector, Option<Vector>>::new()
+            .say("what has no direction is given one: 0, NaN and infinite parts must give None")
+            .when(|&v| Some(unit(v).unwrap_or_else(|| plain(v))))
+            .when(|&v| unit(v).or_else(|| (v != [0.0; 3]).then(|| plain(v))))
+            .when(|&v| unit(v).or_else(|| (v != [0.0; 3]).then_some([f64::NAN; 3])))
+            .say("an infinite part leaves no direction: the answer there is None")
+            .when(|&v| {
                 if v.iter().any(|part| part.is_nan()) {
                     None
                 } else {
                     unit(v).or_else(|| (!finite(v)).then(|| plain(v)))
                 }
-            }),
-            Mistake::new("an infinite part leaves no direction: the answer there is None", |&v| {
+            })
+            .when(|&v| {
                 let is_infinite = largest(v) == f64::INFINITY && !v.iter().any(|part| part.is_nan());
                 unit(v).or_else(|| is_infinite.then_some([f64::NAN; 3]))
-            }),
-            Mistake::new(AS_IT_STANDS, |&v| finite(plain(v)).then(|| plain(v))),
-            Mistake::new(
-                "an infinite part is divided by an infinite length, and long vectors, whose squares overflow, too: the first \
-                 must give None, and the others need their parts made smaller first",
-                |&v| (length(v) > 0.0).then(|| plain(v)),
-            ),
-            Mistake::new(
-                "the vector is divided by its length whatever that is: 0, NaN and infinite parts must give None, and the \
-                 squares overflow or vanish",
-                |&v| Some(plain(v)),
-            ),
-            Mistake::new(TURNED_AWAY, |&v| (length(v) > 0.0 && length(v).is_finite()).then(|| plain(v))),
-            Mistake::new(ENDS, |&v| (finite(v) && v != [0.0; 3]).then(|| divided(v, v[0].hypot(v[1]).hypot(v[2])))),
-            Mistake::new(ENDS, |&v| {
+            })
+            .say("the vector is divided by its length as it stands, whose squares overflow or vanish")
+            .when(|&v| finite(plain(v)).then(|| plain(v)))
+            .say(
+                "an infinite part is divided by an infinite length, and long vectors, whose squares overflow, too: \
+                 the first must give None, and the others need their parts made smaller first",
+            )
+            .when(|&v| (length(v) > 0.0).then(|| plain(v)))
+            .say(
+                "the vector is divided by its length whatever that is: 0, NaN and infinite parts must give None, \
+                 and the squares overflow or vanish",
+            )
+            .when(|&v| Some(plain(v)))
+            .say(
+                "vectors whose squares overflow or vanish are given None, but they have a direction: divide by the \
+                 largest part first",
+            )
+            .when(|&v| (length(v) > 0.0 && length(v).is_finite()).then(|| plain(v)))
+            .when(|&v| (length(v) > 1e-12 && length(v).is_finite()).then(|| plain(v)))
+            .say(
+                "the length itself overflows, or is rounded coarsely, at the ends of f64: divide by the largest \
+                 part first",
+            )
+            .when(|&v| (finite(v) && v != [0.0; 3]).then(|| divided(v, v[0].hypot(v[1]).hypot(v[2]))))
+            .when(|&v| {
                 let length = v[0].hypot(v[1]).hypot(v[2]);
                 (length > 0.0 && length.is_finite()).then(|| divided(v, length))
-            }),
-            Mistake::new(SHORT, |&v| unit(v).filter(|_| length(v) > 1e-12)),
-            Mistake::new(TURNED_AWAY, |&v| (length(v) > 1e-12 && length(v).is_finite()).then(|| plain(v))),
-            Mistake::new("the vector is divided by its squared length: a square root is missing", |&v| {
-                Some(divided(v, length(v) * length(v)))
-            }),
-            Mistake::new("the vector is divided by the root of its length: one square root is too many", |&v| {
-                Some(divided(v, length(v).sqrt()))
-            }),
-            Mistake::new("the vector is divided by its largest part, which makes that part 1, not the length", |&v| {
+            })
+            .say("short vectors are taken for 0; however short one is, it has a direction")
+            .when(|&v| unit(v).filter(|_| length(v) > 1e-12))
+            .when(|&v| unit(v).filter(|_| length(v) * length(v) > f64::EPSILON))
+            .when(|&v| unit(v).filter(|_| largest(v) > f64::MIN_POSITIVE))
+            .when(|&v| unit(v).filter(|_| largest(v) > 1e-300))
+            .say("the vector is divided by its squared length: a square root is missing")
+            .when(|&v| Some(divided(v, length(v) * length(v))))
+            .say("the vector is divided by the root of its length: one square root is too many")
+            .when(|&v| Some(divided(v, length(v).sqrt())))
+            .say("the vector is divided by its largest part, which makes that part 1, not the length")
+            .when(|&v| {
                 let largest = largest(v);
                 (largest > 0.0 && largest.is_finite()).then(|| divided(v, largest))
-            }),
-            Mistake::new("the length is taken for |x| + |y| + |z|; it is √(x² + y² + z²)", |&v| {
-                unit(v).map(|_| divided(v, v.iter().map(|part| part.abs()).sum()))
-            }),
-            Mistake::new("the length is taken for x + y + z; it is √(x² + y² + z²)", |&v| {
-                unit(v).map(|_| divided(v, v.iter().sum()))
-            }),
-            Mistake::new(
-                "the length is that of the vector divided by its largest part; v itself has `largest` times that length",
-                |&v| unit(v).map(|_| divided(v, length(divided(v, largest(v))))),
-            ),
-            Mistake::new(ONE_0, |&v| unit(v).filter(|_| !v.contains(&0.0))),
-            Mistake::new(SIGN, |&v| unit(v).map(|_| scaled(v, v[0].max(v[1]).max(v[2])))),
-            Mistake::new(SIGN, |&v| unit(v).map(|_| scaled(v, v[0].max(v[1]).max(v[2]))).filter(|&v| finite(v))),
-            Mistake::new("the vector is divided by its smallest part, which may be 0; the largest is meant", |&v| {
-                unit(v).map(|_| scaled(v, v.iter().fold(f64::MAX, |least, part| part.abs().min(least))))
-            }),
-            Mistake::new("the vector is handed back as it is", |&v| unit(v).map(|_| v)),
-            Mistake::new("the direction is turned about", |&v| unit(v).map(|v| v.map(|part| -part))),
-            Mistake::new(SHORT, |&v| unit(v).filter(|_| length(v) * length(v) > f64::EPSILON)),
-            Mistake::new(SHORT, |&v| unit(v).filter(|_| largest(v) > f64::MIN_POSITIVE)),
-            Mistake::new(SHORT, |&v| unit(v).filter(|_| largest(v) > 1e-300)),
-            Mistake::new("only a vector longer than 1 is made shorter; a shorter one is to be made longer", |&v| {
-                unit(v).map(|unit| if length(v) > 1.0 { unit } else { v })
-            }),
-            Mistake::new("the signs are lost; the direction keeps those of v", |&v| unit(v).map(|v| v.map(f64::abs))),
-            Mistake::new("each part is brought to 1 by itself; all are divided by the same length", |&v| {
-                unit(v).map(|_| v.map(f64::signum))
-            }),
-            Mistake::new("f32 is computed in, which has seven digits", |&v| {
-                unit(v).map(|_| plain(v.map(|part| f64::from(part as f32))).map(|part| f64::from(part as f32)))
-            }),
-            Mistake::new(
+            })
+            .say("the length is taken for |x| + |y| + |z|; it is √(x² + y² + z²)")
+            .when(|&v| unit(v).map(|_| divided(v, v.iter().map(|part| part.abs()).sum())))
+            .say("the length is taken for x + y + z; it is √(x² + y² + z²)")
+            .when(|&v| unit(v).map(|_| divided(v, v.iter().sum())))
+            .say(
+                "the length is that of the vector divided by its largest part; v itself has `largest` times that \
+                 length",
+            )
+            .when(|&v| unit(v).map(|_| divided(v, length(divided(v, largest(v))))))
+            .say("one part that is 0 is taken for the vector 0, which has three")
+            .when(|&v| unit(v).filter(|_| !v.contains(&0.0)))
+            .say(
+                "the largest part is taken with its sign, so that a negative one counts as small; compare absolute \
+                 values",
+            )
+            .when(|&v| unit(v).map(|_| scaled(v, v[0].max(v[1]).max(v[2]))))
+            .when(|&v| unit(v).map(|_| scaled(v, v[0].max(v[1]).max(v[2]))).filter(|&v| finite(v)))
+            .say("the vector is divided by its smallest part, which may be 0; the largest is meant")
+            .when(|&v| unit(v).map(|_| scaled(v, v.iter().fold(f64::MAX, |least, part| part.abs().min(least)))))
+            .say("the vector is handed back as it is")
+            .when(|&v| unit(v).map(|_| v))
+            .say("the direction is turned about")
+            .when(|&v| unit(v).map(|v| v.map(|part| -part)))
+            .say("only a vector longer than 1 is made shorter; a shorter one is to be made longer")
+            .when(|&v| unit(v).map(|unit| if length(v) > 1.0 { unit } else { v }))
+            .say("the signs are lost; the direction keeps those of v")
+            .when(|&v| unit(v).map(|v| v.map(f64::abs)))
+            .say("each part is brought to 1 by itself; all are divided by the same length")
+            .when(|&v| unit(v).map(|_| v.map(f64::signum)))
+            .say("f32 is computed in, which has seven digits")
+            .when(|&v| unit(v).map(|_| plain(v.map(|part| f64::from(part as f32))).map(|part| f64::from(part as f32))))
+            .say(
                 "the vector is multiplied by 1 / largest, which is infinite for a subnormal one: divide by the \
                  largest part",
-                |&v| unit(v).map(|_| plain(v.map(|part| part * (1.0 / largest(v))))),
-            ),
-            Mistake::new(NOT_0, |&v| unit(v).or_else(|| (v != [0.0; 3]).then(|| plain(v)))),
-            Mistake::new(NOT_0, |&v| unit(v).or_else(|| (v != [0.0; 3]).then_some([f64::NAN; 3]))),
-            Mistake::new(PASSED_OVER, |&v| unit(v).or_else(|| (largest(v) > 0.0).then_some([f64::NAN; 3]))),
-            Mistake::new(PASSED_OVER, |&v| {
+            )
+            .when(|&v| unit(v).map(|_| plain(v.map(|part| part * (1.0 / largest(v))))))
+            .say("a part that is NaN or infinite leaves no direction, and max passes NaN over: ask all three parts")
+            .when(|&v| unit(v).or_else(|| (largest(v) > 0.0).then_some([f64::NAN; 3])))
+            .when(|&v| {
                 let is_seen = v != [0.0; 3] && (largest(v) > 0.0 || v.iter().all(|part| part.is_nan()));
                 unit(v).or_else(|| is_seen.then_some([f64::NAN; 3]))
-            }),
-            Mistake::new(PASSED_OVER, |&v| {
-                unit(v).or_else(|| (largest(v) > 0.0 && largest(v).is_finite()).then_some([f64::NAN; 3]))
-            }),
-            Mistake::new(
-                "v is divided by its largest part, then by the length of v; the divided vector's own length is meant",
-                |&v| unit(v).map(|_| divided(divided(v, largest(v)), length(v))),
-            ),
-        ],
+            })
+            .when(|&v| unit(v).or_else(|| (largest(v) > 0.0 && largest(v).is_finite()).then_some([f64::NAN; 3])))
+            .say("v is divided by its largest part, then by the length of v; the divided vector's own length is meant")
+            .when(|&v| unit(v).map(|_| divided(divided(v, largest(v)), length(v)))),
         hints: &[
             "divide by the length; then ask what has no direction at all",
             "squares of 1e200 and of 1e-200 do not fit in f64; but the direction of v and that of v / 1e200 are the same",
@@ -167,20 +177,6 @@ fn plain(v: Vector) -> Vector {
 fn largest(v: Vector) -> f64 {
     v.iter().fold(0.0, |largest, part| part.abs().max(largest))
 }
-
-const NOT_0: &str = "what has no direction is given one: 0, NaN and infinite parts must give None";
-const AS_IT_STANDS: &str = "the vector is divided by its length as it stands, whose squares overflow or vanish";
-const TURNED_AWAY: &str = "vectors whose squares overflow or vanish are given None, but they have a direction: divide \
-                           by the largest \
-                           part first";
-const PASSED_OVER: &str =
-    "a part that is NaN or infinite leaves no direction, and max passes NaN over: ask all three parts";
-const ENDS: &str =
-    "the length itself overflows, or is rounded coarsely, at the ends of f64: divide by the largest part first";
-const SHORT: &str = "short vectors are taken for 0; however short one is, it has a direction";
-const ONE_0: &str = "one part that is 0 is taken for the vector 0, which has three";
-const SIGN: &str =
-    "the largest part is taken with its sign, so that a negative one counts as small; compare absolute values";
 
 fn length(v: Vector) -> f64 {
     (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()

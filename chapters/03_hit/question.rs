@@ -4,7 +4,7 @@ use super::mine::mine;
 use glam::{DVec3, Vec3};
 use pinhole::shapes::sphere_intersection;
 use pinhole_lab::exercise::apart::{option, relative};
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::oracle_sphere::{Sphere, line_ts, sphere_hit};
 use pinhole_lab::measure::ray_aim::{self, AimedRay, Draws};
 use pinhole_lab::naive::sphere::hit_f64_plain;
@@ -33,128 +33,128 @@ fn question() -> Question<Input, Answer> {
         apart: |yours, right| option(yours, right, |yours, right| relative(&[*yours], &[*right])),
         allowed: 1e-7,
         measured: "of t",
-        mistakes: vec![
-            Mistake::new(BEHIND, |i| Some(both(i)?[0])),
-            Mistake::new(BEHIND, |i| both(i).map(|[near, far]| if near > 0.0 { near } else { far })),
-            Mistake::new("from inside, nothing is hit: the nearer root is behind, but the farther one is ahead", |i| {
-                both(i).map(|[near, _]| near).filter(|&t| t > 0.0)
-            }),
-            Mistake::new("the farther root is taken where the nearer one is ahead", |i| {
-                both(i).map(|[_, far]| far).filter(|&t| t > 0.0)
-            }),
-            Mistake::new("t = 0 counts as a hit; only t above 0 does", |i| both(i)?.into_iter().find(|&t| t >= 0.0)),
-            Mistake::new(SKIPPED, |i| both(i)?.into_iter().find(|&t| t > 1e-3)),
-            Mistake::new(SKIPPED, |i| both(i)?.into_iter().find(|&t| t > 1e-4)),
-            Mistake::new(SKIPPED, |i| both(i)?.into_iter().find(|&t| t > 1e-6)),
-            Mistake::new("a ray that only touches the sphere misses it; it hits", |i| {
-                ahead(both(i).filter(|[near, far]| near < far))
-            }),
-            Mistake::new(NO_ROOT, |i| both(i).map_or(Some(f64::NAN), |roots| ahead(Some(roots)))),
-            Mistake::new(NO_ROOT, |i| solved(coefficients(i), |[b, a, c]| (b * b - a * c).abs(), 1.0)),
-            Mistake::new(NO_ROOT, |i| solved(coefficients(i), |[b, a, c]| (b * b - a * c).max(0.0), 1.0)),
-            Mistake::new(LENGTH_1, |i| by_chord(i, 1.0, 1.0)),
-            Mistake::new(
-                "half the chord is added to t as a length; t counts in lengths of the direction, so divide it by |R|",
-                |i| by_chord(i, square(i), 1.0),
-            ),
-            Mistake::new("half the chord is divided by R·R; it is a length, so |R| divides it", |i| {
-                by_chord(i, square(i), square(i))
-            }),
-            Mistake::new("f·R is divided by |R| alone; s counts in lengths of R, which divides it once more", |i| {
-                by_chord(i, square(i).sqrt(), square(i).sqrt())
-            }),
-            Mistake::new(
+        mistakes: Mistakes::<Input, Answer>::new()
+            .say("what lies behind the origin is hit too: only t above 0 counts")
+            .when(|i| Some(both(i)?[0]))
+            .when(|i| both(i).map(|[near, far]| if near > 0.0 { near } else { far }))
+            .when(|i| both(i).map(|[near, far]| near.abs().min(far.abs())))
+            .when(|i| both(i).map(|[near, _]| near.abs()))
+            .say("from inside, nothing is hit: the nearer root is behind, but the farther one is ahead")
+            .when(|i| both(i).map(|[near, _]| near).filter(|&t| t > 0.0))
+            .say("the farther root is taken where the nearer one is ahead")
+            .when(|i| both(i).map(|[_, far]| far).filter(|&t| t > 0.0))
+            .say("t = 0 counts as a hit; only t above 0 does")
+            .when(|i| both(i)?.into_iter().find(|&t| t >= 0.0))
+            .say("hits close to the origin are skipped; every t above 0 counts")
+            .when(|i| both(i)?.into_iter().find(|&t| t > 1e-3))
+            .when(|i| both(i)?.into_iter().find(|&t| t > 1e-4))
+            .when(|i| both(i)?.into_iter().find(|&t| t > 1e-6))
+            .say("a ray that only touches the sphere misses it; it hits")
+            .when(|i| ahead(both(i).filter(|[near, far]| near < far)))
+            .say("a ray past the sphere is given a t: where the number under the root is below 0, the answer is None")
+            .when(|i| both(i).map_or(Some(f64::NAN), |roots| ahead(Some(roots))))
+            .when(|i| solved(coefficients(i), |[b, a, c]| (b * b - a * c).abs(), 1.0))
+            .when(|i| solved(coefficients(i), |[b, a, c]| (b * b - a * c).max(0.0), 1.0))
+            .say("the direction is taken to be of length 1; it may have any length")
+            .when(|i| by_chord(i, 1.0, 1.0))
+            .when(|i| {
+                let [b, _, c] = coefficients(i);
+                solved([b, 1.0, c], right_discriminant, 1.0)
+            })
+            .when(|i| solved(coefficients(i), |[b, _, c]| b * b - c, 1.0))
+            .say("half the chord is added to t as a length; t counts in lengths of the direction, so divide it by |R|")
+            .when(|i| by_chord(i, square(i), 1.0))
+            .say("half the chord is divided by R·R; it is a length, so |R| divides it")
+            .when(|i| by_chord(i, square(i), square(i)))
+            .say("f·R is divided by |R| alone; s counts in lengths of R, which divides it once more")
+            .when(|i| by_chord(i, square(i).sqrt(), square(i).sqrt()))
+            .say(
                 "the direction is brought to length 1 and t is left so; t counts in lengths of the direction as it \
                  was given",
-                |i| ahead(both(i)).map(|t| t * square(i).sqrt()),
-            ),
-            Mistake::new("t is multiplied by the direction's length", |i| ahead(both(i)).map(|t| t * square(i))),
-            Mistake::new("the quotient is multiplied by R·R: / 2.0 * a divides by 2 only", |i| {
-                ahead(both(i)).map(|t| t * square(i) * square(i))
-            }),
-            Mistake::new(
-                "b has the wrong sign, so that what is behind comes ahead: b = 2 f·R belongs to f = O − C, not to C − O",
-                |i| ahead(both(i).map(|[near, far]| [-far, -near])),
-            ),
-            Mistake::new("the radius is not squared: c is f·f − r²", |&(o, d, c, r)| {
-                ahead(both(&(o, d, c, r.sqrt())))
-            }),
-            Mistake::new("c is f·f + r²; the radius is to be taken off", |i| {
+            )
+            .when(|i| ahead(both(i)).map(|t| t * square(i).sqrt()))
+            .say("t is multiplied by the direction's length")
+            .when(|i| ahead(both(i)).map(|t| t * square(i)))
+            .say("the quotient is multiplied by R·R: / 2.0 * a divides by 2 only")
+            .when(|i| ahead(both(i)).map(|t| t * square(i) * square(i)))
+            .say(
+                "b has the wrong sign, so that what is behind comes ahead: b = 2 f·R belongs to f = O − C, not to \
+                 C − O",
+            )
+            .when(|i| ahead(both(i).map(|[near, far]| [-far, -near])))
+            .say("the radius is not squared: c is f·f − r²")
+            .when(|&(o, d, c, r)| ahead(both(&(o, d, c, r.sqrt()))))
+            .say("c is f·f + r²; the radius is to be taken off")
+            .when(|i| {
                 let [b, a, c] = coefficients(i);
                 solved([b, a, c + 2.0 * i.3 * i.3], right_discriminant, 1.0)
-            }),
-            Mistake::new("the radius is left out", |&(o, d, c, _)| ahead(both(&(o, d, c, 0.0)))),
-            Mistake::new("the radius is doubled or a diameter", |&(o, d, c, r)| ahead(both(&(o, d, c, 2.0 * r)))),
-            Mistake::new("the radius is halved; it is no diameter", |&(o, d, c, r)| ahead(both(&(o, d, c, r / 2.0)))),
-            Mistake::new(
-                "the centre is left out, as if the sphere were at the origin of the space",
-                |&(o, d, _, r)| ahead(both(&(o, d, [0.0; 3], r))),
-            ),
-            Mistake::new("the ray's origin is left out: f is C − O", |&(_, d, c, r)| {
-                ahead(both(&([0.0; 3], d, c, r)))
-            }),
-            Mistake::new(MIXED, |i| solved(coefficients(i), |[b, a, c]| b * b - 4.0 * a * c, 2.0)),
-            Mistake::new(MIXED, |i| solved(coefficients(i), |[b, a, c]| b * b - 4.0 * a * c, 1.0)),
-            Mistake::new(MIXED, |i| solved(coefficients(i), right_discriminant, 2.0)),
-            Mistake::new(MIXED, |i| solved(coefficients(i), right_discriminant, 0.5)),
-            Mistake::new(MIXED, |i| solved(doubled(i), right_discriminant, 2.0)),
-            Mistake::new(MIXED, |i| solved(doubled(i), right_discriminant, 1.0)),
-            Mistake::new(
-                "this is where the ray comes closest to the centre; it hits the sphere half a chord before",
-                |i| both(i).map(|[near, far]| (near + far) / 2.0).filter(|&t| t > 0.0),
-            ),
-            Mistake::new("the root of the discriminant is missing", |i| {
-                solved(coefficients(i), |[b, a, c]| (b * b - a * c) * (b * b - a * c).abs(), 1.0)
-            }),
-            Mistake::new(
-                "b² − ac (or b² − 4ac) is computed as it stands; far away it is a small difference of huge numbers",
-                |input| {
-                    let &(o, d, c, r) = input;
-                    hit_f64_plain(single(o), single(d), c.into(), r)
-                },
-            ),
-            Mistake::new(
-                "b² − ac (or b² − 4ac) is computed as it stands; far away it is a small difference of huge numbers",
-                |i| solved(coefficients(i), right_discriminant, 1.0),
-            ),
-            Mistake::new(
-                "−b and the root are subtracted where they are nearly equal; c / (−b + root) is the nearer root with all its \
-                 digits",
-                |i| by_chord(i, square(i), square(i).sqrt()),
-            ),
-            Mistake::new(BEHIND, |i| both(i).map(|[near, far]| near.abs().min(far.abs()))),
-            Mistake::new(BEHIND, |i| both(i).map(|[near, _]| near.abs())),
-            Mistake::new(CENTRE, |i| ahead(both(i).filter(|[near, far]| near + far > 0.0))),
-            Mistake::new(CENTRE, |i| ahead(both(i).filter(|[near, far]| near + far >= 0.0))),
-            Mistake::new("the distance across the ray is squared and the radius is not; compare l·l with r²", |i| {
+            })
+            .say("the radius is left out")
+            .when(|&(o, d, c, _)| ahead(both(&(o, d, c, 0.0))))
+            .say("the radius is doubled or a diameter")
+            .when(|&(o, d, c, r)| ahead(both(&(o, d, c, 2.0 * r))))
+            .say("the radius is halved; it is no diameter")
+            .when(|&(o, d, c, r)| ahead(both(&(o, d, c, r / 2.0))))
+            .say("the centre is left out, as if the sphere were at the origin of the space")
+            .when(|&(o, d, _, r)| ahead(both(&(o, d, [0.0; 3], r))))
+            .say("the ray's origin is left out: f is C − O")
+            .when(|&(_, d, c, r)| ahead(both(&([0.0; 3], d, c, r))))
+            .say(
+                "the formula with b and that with half of b are mixed: with b = −2 f·R it has 4ac and 2a, with b = \
+                 −f·R it has ac and a",
+            )
+            .when(|i| solved(coefficients(i), |[b, a, c]| b * b - 4.0 * a * c, 2.0))
+            .when(|i| solved(coefficients(i), |[b, a, c]| b * b - 4.0 * a * c, 1.0))
+            .when(|i| solved(coefficients(i), right_discriminant, 2.0))
+            .when(|i| solved(coefficients(i), right_discriminant, 0.5))
+            .when(|i| solved(doubled(i), right_discriminant, 2.0))
+            .when(|i| solved(doubled(i), right_discriminant, 1.0))
+            .say("this is where the ray comes closest to the centre; it hits the sphere half a chord before")
+            .when(|i| both(i).map(|[near, far]| (near + far) / 2.0).filter(|&t| t > 0.0))
+            .say("the root of the discriminant is missing")
+            .when(|i| solved(coefficients(i), |[b, a, c]| (b * b - a * c) * (b * b - a * c).abs(), 1.0))
+            .say("b² − ac (or b² − 4ac) is computed as it stands; far away it is a small difference of huge numbers")
+            .when(|input| {
+                let &(o, d, c, r) = input;
+                hit_f64_plain(single(o), single(d), c.into(), r)
+            })
+            .when(|i| solved(coefficients(i), right_discriminant, 1.0))
+            .say(
+                "−b and the root are subtracted where they are nearly equal; c / (−b + root) is the nearer root \
+                 with all its digits",
+            )
+            .when(|i| by_chord(i, square(i), square(i).sqrt()))
+            .say("a sphere whose centre is not ahead is passed over; from inside, the ray hits it all the same")
+            .when(|i| ahead(both(i).filter(|[near, far]| near + far > 0.0)))
+            .when(|i| ahead(both(i).filter(|[near, far]| near + far >= 0.0)))
+            .say("the distance across the ray is squared and the radius is not; compare l·l with r²")
+            .when(|i| {
                 let [b, a, c] = coefficients(i);
                 let across = c + i.3 * i.3 - b * b / a;
                 ahead(both(i).filter(|_| across <= i.3))
-            }),
-            Mistake::new("half the chord is r − |l|; by Pythagoras it is √(r² − |l|²)", |i| {
+            })
+            .say("half the chord is r − |l|; by Pythagoras it is √(r² − |l|²)")
+            .when(|i| {
                 let [b, a, c] = coefficients(i);
                 let half = (i.3 - (c + i.3 * i.3 - b * b / a).abs().sqrt()) / a.sqrt();
                 ahead((half >= 0.0).then(|| [-b / a - half, -b / a + half]))
-            }),
-            Mistake::new(LENGTH_1, |i| {
-                let [b, _, c] = coefficients(i);
-                solved([b, 1.0, c], right_discriminant, 1.0)
-            }),
-            Mistake::new(LENGTH_1, |i| solved(coefficients(i), |[b, _, c]| b * b - c, 1.0)),
-            Mistake::new("a is the length of R; it is R·R, the length squared", |i| {
+            })
+            .say("a is the length of R; it is R·R, the length squared")
+            .when(|i| {
                 let [b, a, c] = coefficients(i);
                 solved([b, a.sqrt(), c], right_discriminant, 1.0)
-            }),
-            Mistake::new("brackets are missing: all of −b ∓ root is divided by 2a, not the root alone", |i| {
+            })
+            .say("brackets are missing: all of −b ∓ root is divided by 2a, not the root alone")
+            .when(|i| {
                 let [b, a, c] = doubled(i);
                 let root = (b * b - 4.0 * a * c).sqrt() / (2.0 * a);
                 ahead((root >= 0.0).then_some([-b - root, -b + root]))
-            }),
-            Mistake::new("c is |f| − r; both are squared", |i| {
+            })
+            .say("c is |f| − r; both are squared")
+            .when(|i| {
                 let [b, a, c] = coefficients(i);
                 solved([b, a, (c + i.3 * i.3).sqrt() - i.3], right_discriminant, 1.0)
             }),
-        ],
         hints: &[
             "put O + tR into |x − C| = r: a quadratic equation in t; its smallest root above 0 is asked for",
             "with f = C − O the ray is nearest to the centre at s = f·R / R·R; what is left across it, f − sR, decides \
@@ -232,16 +232,6 @@ fn single(v: [f64; 3]) -> Vec3 {
 fn sphere(centre: [f64; 3], radius: f64) -> Sphere {
     Sphere { centre: centre.into(), radius }
 }
-
-const BEHIND: &str = "what lies behind the origin is hit too: only t above 0 counts";
-const SKIPPED: &str = "hits close to the origin are skipped; every t above 0 counts";
-const CENTRE: &str = "a sphere whose centre is not ahead is passed over; from inside, the ray hits it all the same";
-const LENGTH_1: &str = "the direction is taken to be of length 1; it may have any length";
-const NO_ROOT: &str =
-    "a ray past the sphere is given a t: where the number under the root is below 0, the answer is None";
-const MIXED: &str = "the formula with b and that with half of b are mixed: with b = −2 f·R it has 4ac and 2a, with b \
-                     = −f·R it \
-                     has ac and a";
 
 /// The two roots, exact but for the last rounding.
 fn both(&(o, d, c, r): &Input) -> Option<[f64; 2]> {

@@ -24,7 +24,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "the ray starts on the rectangle and its direction goes from the camera through the square, brought to length 1",
             exercise(c),
-            "rays start apart but spread",
+            "rays spread",
         ),
         (
             "the rays are perpendicular to the rectangle, along the z axis, and the z axis is (0, 0, 1)",
@@ -44,7 +44,7 @@ pub fn all() -> Vec<(&'static str, Exercise, &'static str)> {
         (
             "Every ray goes through its screen point, so I let it start on the rectangle and go on away from the middle, as rays through a picture do.",
             exercise(second_a),
-            "the rays start apart but spread,",
+            "the rays spread",
         ),
         (
             "I thought that the screen point still runs from 0 to 1 with y down, so I brought it to −1 to 1 before I scaled it.",

@@ -5,7 +5,7 @@ use pinhole::extract::tan_half;
 use pinhole::rays::camera_ray_perspective;
 use pinhole::scene::Degrees;
 use pinhole_lab::exercise::apart::relative;
-use pinhole_lab::exercise::{Exercise, Mistake, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Part, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Input = ([f64; 2], f64);
@@ -43,106 +43,7 @@ fn question() -> Question<Input, [f64; 3]> {
         apart: |yours, right| relative(yours, right),
         allowed: 2e-15,
         measured: "of a part",
-        mistakes: vec![
-            Mistake::new("the direction is not of length 1", |&(s, t)| through(s, t, t)),
-            Mistake::new("the direction is divided by its squared length: a square root is missing", |&(s, t)| {
-                let v = through(s, t, t);
-                v.map(|part| part / v.iter().map(|part| part * part).sum::<f64>())
-            }),
-            Mistake::new("the length is that of x and y alone; −1 is a part of the direction, too", |&(s, t)| {
-                let [x, y, z] = through(s, t, t);
-                [x, y, z].map(|part| part / (x * x + y * y).sqrt())
-            }),
-            Mistake::new("the tangent is left out", |&(s, _)| unit(through(s, 1.0, 1.0))),
-            Mistake::new("the tangent is left out", |&(s, _)| through(s, 1.0, 1.0)),
-            Mistake::new("only y is scaled by the tangent; x is in half heights too", |&(s, t)| {
-                unit(through(s, 1.0, t))
-            }),
-            Mistake::new("only x is scaled by the tangent; y is in half heights too", |&(s, t)| {
-                unit(through(s, t, 1.0))
-            }),
-            Mistake::new(DISTANCE, |&([x, y], t)| unit([x, y, -t])),
-            Mistake::new(DISTANCE, |&(s, t)| unit(through(s, 1.0 / t, 1.0 / t))),
-            Mistake::new(BEFORE, |&(s, t)| {
-                let [x, y, z] = unit(through(s, 1.0, 1.0));
-                [x * t, y * t, z]
-            }),
-            Mistake::new(BEFORE, |&(s, t)| unit(through(s, 1.0, 1.0)).map(|part| part * t)),
-            Mistake::new("the tangent is halved; it is that of half the angle already", |&(s, t)| {
-                unit(through(s, t / 2.0, t / 2.0))
-            }),
-            Mistake::new("the tangent is doubled; screen y = 1 is half the height away from the centre", |&(s, t)| {
-                unit(through(s, 2.0 * t, 2.0 * t))
-            }),
-            Mistake::new("the image plane stands at z = +1; the camera looks down −z", |&(s, t)| {
-                let [x, y, z] = unit(through(s, t, t));
-                [x, y, -z]
-            }),
-            Mistake::new("the direction leads from the screen point to the eye; the opposite is meant", |&(s, t)| {
-                unit(through(s, t, t)).map(|part| -part)
-            }),
-            Mistake::new("x and y are turned about, as on the film of a box with a hole", |&([x, y], t)| {
-                unit(through([-x, -y], t, t))
-            }),
-            Mistake::new("y points down; on the screen and in camera space it points up", |&([x, y], t)| {
-                unit(through([x, -y], t, t))
-            }),
-            Mistake::new("x points left; on the screen and in camera space it points right", |&([x, y], t)| {
-                unit(through([-x, y], t, t))
-            }),
-            Mistake::new("x and y are swapped", |&([x, y], t)| unit(through([y, x], t, t))),
-            Mistake::new(TWICE, |&(s, t)| unit(through(s, libm::tan(t), libm::tan(t)))),
-            Mistake::new(TWICE, |&(s, t)| unit(through(s, libm::tan(t / 2.0), libm::tan(t / 2.0)))),
-            Mistake::new(TWICE, |&(s, t)| {
-                let tangent = libm::tan((t / 2.0).to_radians());
-                unit(through(s, tangent, tangent))
-            }),
-            Mistake::new("the tangent is turned back into an angle; the plane's height is asked for", |&(s, t)| {
-                unit(through(s, libm::atan(t), libm::atan(t)))
-            }),
-            Mistake::new(WIDE, |&([x, y], t)| unit(through([x * (480.0 / 270.0), y], t, t))),
-            Mistake::new(WIDE, |&([x, y], t)| unit(through([x / (480.0 / 270.0), y], t, t))),
-            Mistake::new("the screen point is counted from a corner; the screen has its centre at the origin", |i| {
-                let &([x, y], t) = i;
-                unit(through([x - 1.0, y - 1.0], t, t))
-            }),
-            Mistake::new("the tangent is a factor twice; x and y are scaled by it once", |&(s, t)| {
-                unit(through(s, t * t, t * t))
-            }),
-            Mistake::new("only x and y are divided by the length; z is a part of the direction, too", |&(s, t)| {
-                let [x, y, _] = unit(through(s, t, t));
-                [x, y, -1.0]
-            }),
-            Mistake::new("the length is taken for |x| + |y| + |z|; it is √(x² + y² + z²)", |&(s, t)| {
-                let v = through(s, t, t);
-                v.map(|part| part / v.iter().map(|part| part.abs()).sum::<f64>())
-            }),
-            Mistake::new(
-                "angles are taken to be in proportion to the screen; on a plane their tangents are",
-                |&([x, y], t)| {
-                    let half = libm::atan(t);
-                    unit([libm::tan(x * half), libm::tan(y * half), -1.0])
-                },
-            ),
-            Mistake::new(
-                "angles are taken to be in proportion to the screen; on a plane their tangents are",
-                |&([x, y], t)| {
-                    let [x, y] = [x, y].map(|part| part * libm::atan(t));
-                    [libm::sin(x) * libm::cos(y), libm::sin(y), -libm::cos(x) * libm::cos(y)]
-                },
-            ),
-            Mistake::new(TWICE, |&(s, t)| {
-                let tangent = libm::tan(t.to_radians());
-                unit(through(s, tangent, tangent))
-            }),
-            Mistake::new("z is scaled by the tangent, too; the image plane stands at z = −1", |&([x, y], t)| {
-                unit([x * t, y * t, -t])
-            }),
-            Mistake::new("1 is taken off under the root: the square of −1 is 1, and it is added", |&(s, t)| {
-                let [x, y, z] = through(s, t, t);
-                [x, y, z].map(|part| part / (x * x + y * y - 1.0).sqrt())
-            }),
-        ],
+        mistakes: mistakes(),
         hints: &[
             "the eye is the origin: the direction is the point of the image plane itself, brought to length 1",
             "half the plane's height is the tangent; screen y = 1 is its upper edge, and x has the same unit",
@@ -151,8 +52,90 @@ fn question() -> Question<Input, [f64; 3]> {
     }
 }
 
-fn through([x, y]: [f64; 2], across: f64, up: f64) -> [f64; 3] {
-    [x * across, y * up, -1.0]
+fn mistakes() -> Mistakes<Input, [f64; 3]> {
+    let x = Part::<Input, f64>::new(|i| i.0[0])
+        .say("only y is scaled by the tangent; x is in half heights too")
+        .when(|i| i.0[0] / i.1)
+        .say(TURNED)
+        .when(|i| -i.0[0])
+        .say("x points left; on the screen and in camera space it points right")
+        .when(|i| -i.0[0])
+        .say("the aspect is put into x once more; the screen's x has it already, in half heights as y is")
+        .when(|i| i.0[0] * (480.0 / 270.0))
+        .when(|i| i.0[0] / (480.0 / 270.0))
+        .say(CORNER)
+        .when(|i| i.0[0] - 1.0)
+        .say("x and y are swapped")
+        .when(|i| i.0[1]);
+    let y = Part::<Input, f64>::new(|i| i.0[1])
+        .say("only x is scaled by the tangent; y is in half heights too")
+        .when(|i| i.0[1] / i.1)
+        .say("y points down; on the screen and in camera space it points up")
+        .when(|i| -i.0[1])
+        .say(TURNED)
+        .when(|i| -i.0[1])
+        .say(CORNER)
+        .when(|i| i.0[1] - 1.0)
+        .say("x and y are swapped")
+        .when(|i| i.0[0]);
+    let tangent = Part::<Input, f64>::new(|i| i.1)
+        .say("the tangent is left out")
+        .when(|_| 1.0)
+        .say(
+            "the tangent is the plane's distance, or divides x and y: the wider the angle, the wider the rays \
+                 must spread",
+        )
+        .when(|i| 1.0 / i.1)
+        .say("the tangent is halved; it is that of half the angle already")
+        .when(|i| i.1 / 2.0)
+        .say("the tangent is doubled; screen y = 1 is half the height away from the centre")
+        .when(|i| 2.0 * i.1)
+        .say("a tangent is taken of the tangent, which is one already")
+        .when(|i| libm::tan(i.1))
+        .when(|i| libm::tan(i.1 / 2.0))
+        .when(|i| libm::tan(i.1.to_radians()))
+        .when(|i| libm::tan((i.1 / 2.0).to_radians()))
+        .say("the tangent is turned back into an angle; the plane's height is asked for")
+        .when(|i| libm::atan(i.1))
+        .say("the tangent is a factor twice; x and y are scaled by it once")
+        .when(|i| i.1 * i.1);
+    let z = Part::<Input, f64>::new(|_| -1.0)
+        .say("the image plane stands at z = +1; the camera looks down −z")
+        .when(|_| 1.0)
+        .say("z is scaled by the tangent, too; the image plane stands at z = −1")
+        .when(|i| -i.1);
+    let whole = Part::<[f64; 4], [f64; 3]>::new(|v| divided(v, |[x, y, z]| (x * x + y * y + z * z).sqrt()))
+        .say("the direction is not of length 1")
+        .when(through)
+        .say("the direction is divided by its squared length: a square root is missing")
+        .when(|v| divided(v, |[x, y, z]| x * x + y * y + z * z))
+        .say("the length is that of x and y alone; −1 is a part of the direction, too")
+        .when(|v| divided(v, |[x, y, _]| (x * x + y * y).sqrt()))
+        .say("1 is taken off under the root: the square of −1 is 1, and it is added")
+        .when(|v| divided(v, |[x, y, z]| (x * x + y * y - z * z).sqrt()))
+        .say("the length is taken for |x| + |y| + |z|; it is √(x² + y² + z²)")
+        .when(|v| divided(v, |[x, y, z]| x.abs() + y.abs() + z.abs()))
+        .say("only x and y are divided by the length; z is a part of the direction, too")
+        .when(|v| {
+            let [x, y, _] = unit(through(v));
+            [x, y, v[3]]
+        })
+        .say("the direction is brought to length 1 before the tangent widens it; length 1 comes last")
+        .when(|&[x, y, tangent, z]| {
+            let [x, y, z] = unit([x, y, z]);
+            [x * tangent, y * tangent, z]
+        })
+        .when(|&[x, y, tangent, z]| unit([x, y, z]).map(|part| part * tangent))
+        .say("the direction leads from the screen point to the eye; the opposite is meant")
+        .when(|v| unit(through(v)).map(|part| -part));
+    Mistakes::<Input, [f64; 3]>::new()
+        .say("angles are taken to be in proportion to the screen; on a plane their tangents are")
+        .when(|&([x, y], t)| unit([libm::tan(x * libm::atan(t)), libm::tan(y * libm::atan(t)), -1.0]))
+        .when(|&(screen, t)| {
+            let [x, y] = screen.map(|part| part * libm::atan(t));
+            [libm::sin(x) * libm::cos(y), libm::sin(y), -libm::cos(x) * libm::cos(y)]
+        })
+        .of_parts([x, y, tangent, z], whole)
 }
 
 fn unit([x, y, z]: [f64; 3]) -> [f64; 3] {
@@ -160,8 +143,14 @@ fn unit([x, y, z]: [f64; 3]) -> [f64; 3] {
     [x / length, y / length, z / length]
 }
 
-const TWICE: &str = "a tangent is taken of the tangent, which is one already";
-const DISTANCE: &str =
-    "the tangent is the plane's distance, or divides x and y: the wider the angle, the wider the rays must spread";
-const BEFORE: &str = "the direction is brought to length 1 before the tangent widens it; length 1 comes last";
-const WIDE: &str = "the aspect is put into x once more; the screen's x has it already, in half heights as y is";
+/// The point of the image plane.
+fn through(&[x, y, tangent, z]: &[f64; 4]) -> [f64; 3] {
+    [x * tangent, y * tangent, z]
+}
+
+fn divided(of: &[f64; 4], by: fn([f64; 3]) -> f64) -> [f64; 3] {
+    through(of).map(|part| part / by(through(of)))
+}
+
+const TURNED: &str = "x and y are turned about, as on the film of a box with a hole";
+const CORNER: &str = "the screen point is counted from a corner; the screen has its centre at the origin";

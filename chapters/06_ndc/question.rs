@@ -4,7 +4,7 @@ use super::mine::mine;
 use glam::DVec2;
 use pinhole::rays::{ndc_from_raster, raster_from_pixel};
 use pinhole_lab::exercise::apart::exact;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, Shown, probes};
 use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::ray_aim::Draws;
 
@@ -28,102 +28,96 @@ fn question() -> Question<Input, Pixel> {
         apart: exact,
         allowed: 0.0,
         measured: "pixels",
-        mistakes: vec![
-            Mistake::new(NEAREST_PIXEL, |i| Some(scaled(i, 0.0, |n, size| n.clamp(0.0, size - 1.0)))),
-            Mistake::new("nothing is outside: a cast to u32 turns what is below 0 or NaN into 0", |i| {
-                Some(scaled(i, 0.0, |n, _| n))
-            }),
-            Mistake::new("what is below 0, or NaN, is given pixel 0: a cast to u32 does that, so ask before it", |i| {
-                in_image(i, scaled(i, 0.0, |n, _| n))
-            }),
-            Mistake::new(
-                "what is below 0 is given pixel 0: the whole part of −0.2 is 0, so ask before it is taken",
-                |&([x, y], w, h)| {
-                    let pixel = |n: f64, size| if n < 0.0 { Some(0) } else { holder(n, size) };
-                    Some([pixel(x, w)?, pixel(y, h)?])
-                },
-            ),
-            Mistake::new(PASSES, |&([x, y], w, h)| {
+        mistakes: Mistakes::<Input, Pixel>::new()
+            .say("what lies outside is put into the nearest pixel; it belongs to none")
+            .when(|i| Some(scaled(i, 0.0, |n, size| n.clamp(0.0, size - 1.0))))
+            .when(|i| Some(scaled(i, 0.0, |n, size| n.clamp(0.0, size))))
+            .say("nothing is outside: a cast to u32 turns what is below 0 or NaN into 0")
+            .when(|i| Some(scaled(i, 0.0, |n, _| n)))
+            .say("what is below 0, or NaN, is given pixel 0: a cast to u32 does that, so ask before it")
+            .when(|i| in_image(i, scaled(i, 0.0, |n, _| n)))
+            .say("what is below 0 is given pixel 0: the whole part of −0.2 is 0, so ask before it is taken")
+            .when(|&([x, y], w, h)| {
+                let pixel = |n: f64, size| if n < 0.0 { Some(0) } else { holder(n, size) };
+                Some([pixel(x, w)?, pixel(y, h)?])
+            })
+            .say(
+                "NaN passes for inside: every comparison with it is false, so ask whether a point is inside, not \
+                 outside",
+            )
+            .when(|&([x, y], w, h)| {
                 let pixel = |n: f64, size| if n.is_nan() { Some(0) } else { holder(n, size) };
                 Some([pixel(x, w)?, pixel(y, h)?])
-            }),
-            Mistake::new("what lies beyond 1 is given a pixel; it belongs to none", |i| {
-                (i.0[0] >= 0.0 && i.0[1] >= 0.0).then(|| scaled(i, 0.0, |n, _| n))
-            }),
-            Mistake::new("what lies beyond 1 is given a pixel; it belongs to none", |i| {
-                (i.0[0] >= 0.0 && i.0[1] >= 0.0).then(|| scaled(i, 0.0, |n, size| n.min(size - 1.0)))
-            }),
-            Mistake::new("only x is asked whether it is inside; y may be outside, too", |i| {
-                holder(i.0[0], i.1).map(|_| scaled(i, 0.0, |n, _| n))
-            }),
-            Mistake::new("only y is asked whether it is inside; x may be outside, too", |i| {
-                holder(i.0[1], i.2).map(|_| scaled(i, 0.0, |n, _| n))
-            }),
-            Mistake::new("a point counts as inside where either x or y is; both must be", |i| {
-                holder(i.0[0], i.1).or(holder(i.0[1], i.2)).map(|_| scaled(i, 0.0, |n, _| n))
-            }),
-            Mistake::new("1 counts as inside, and gives a pixel that the image does not have", |i| {
-                i.0.iter().all(|n| (0.0..=1.0).contains(n)).then(|| scaled(i, 0.0, |n, _| n))
-            }),
-            Mistake::new("1 counts as inside; the lower and right edges belong to no pixel", |&([x, y], w, h)| {
+            })
+            .say("what lies beyond 1 is given a pixel; it belongs to none")
+            .when(|i| (i.0[0] >= 0.0 && i.0[1] >= 0.0).then(|| scaled(i, 0.0, |n, _| n)))
+            .when(|i| (i.0[0] >= 0.0 && i.0[1] >= 0.0).then(|| scaled(i, 0.0, |n, size| n.min(size - 1.0))))
+            .say("only x is asked whether it is inside; y may be outside, too")
+            .when(|i| holder(i.0[0], i.1).map(|_| scaled(i, 0.0, |n, _| n)))
+            .say("only y is asked whether it is inside; x may be outside, too")
+            .when(|i| holder(i.0[1], i.2).map(|_| scaled(i, 0.0, |n, _| n)))
+            .say("a point counts as inside where either x or y is; both must be")
+            .when(|i| holder(i.0[0], i.1).or(holder(i.0[1], i.2)).map(|_| scaled(i, 0.0, |n, _| n)))
+            .say("1 counts as inside, and gives a pixel that the image does not have")
+            .when(|i| i.0.iter().all(|n| (0.0..=1.0).contains(n)).then(|| scaled(i, 0.0, |n, _| n)))
+            .say("1 counts as inside; the lower and right edges belong to no pixel")
+            .when(|&([x, y], w, h)| {
                 let pixel = |n: f64, size| if n == 1.0 { Some(size - 1) } else { holder(n, size) };
                 Some([pixel(x, w)?, pixel(y, h)?])
-            }),
-            Mistake::new("0 counts as outside; the upper and left edges belong to pixels", |i| {
-                i.0.iter().all(|&n| n > 0.0).then(|| right(i))?
-            }),
-            Mistake::new(ROUNDED, |i| right(i).map(|_| scaled(i, 0.0, |n, _| n.round()))),
-            Mistake::new(ROUNDED, |i| in_image(i, scaled(i, 0.0, |n, _| n.round()))),
-            Mistake::new(ROUNDED, |i| inside(i, |n, _| n.round())),
-            Mistake::new(ROUNDED, |i| right(i).map(|_| scaled(i, 0.0, |n, size| n.round().min(size - 1.0)))),
-            Mistake::new(UP, |i| right(i).map(|_| scaled(i, 0.0, |n, _| n.ceil() - 1.0))),
-            Mistake::new(UP, |i| right(i).map(|_| scaled(i, 0.0, |n, _| n.ceil()))),
-            Mistake::new(HALF, |i| inside(i, |n, _| (n - 0.5).floor())),
-            Mistake::new(HALF, |i| right(i).map(|_| scaled(i, 0.0, |n, _| n - 0.5))),
-            Mistake::new(HALF, |i| in_image(i, scaled(i, 0.0, |n, _| n - 0.5))),
-            Mistake::new(HALF, |i| inside(i, |n, _| (n + 0.5).floor())),
-            Mistake::new("the pixel is a half too far: a pixel reaches from its number to the next", |i| {
-                right(i).map(|_| scaled(i, 0.0, |n, _| n + 0.5))
-            }),
-            Mistake::new(LESS_1, |i| right(i).map(|_| scaled(i, -1.0, |n, _| n))),
-            Mistake::new(LESS_1, |i| right(i).map(|_| scaled(i, -1.0, |n, _| n.round()))),
-            Mistake::new("pixels are counted from 1; the first is number 0", |i| {
-                right(i).map(|pixel| pixel.map(|n| n + 1))
-            }),
-            Mistake::new("y is counted from the bottom; in NDC it points down", |&([x, y], w, h)| {
-                Some([holder(x, w)?, h - 1 - holder(y, h)?])
-            }),
-            Mistake::new("y is counted from the bottom; in NDC it points down", |&([x, y], w, h)| {
-                right(&([x, 1.0 - y], w, h))
-            }),
-            Mistake::new("x is counted from the right; in NDC it points right", |&([x, y], w, h)| {
-                Some([w - 1 - holder(x, w)?, holder(y, h)?])
-            }),
-            Mistake::new("x and y are swapped", |&([x, y], w, h)| Some([holder(y, h)?, holder(x, w)?])),
-            Mistake::new("width and height are swapped", |&(ndc, w, h)| right(&(ndc, h, w))),
-            Mistake::new("both are scaled by the width; y is in heights", |&(ndc, w, _)| right(&(ndc, w, w))),
-            Mistake::new("both are scaled by the height; x is in widths", |&(ndc, _, h)| right(&(ndc, h, h))),
-            Mistake::new("NDC are taken to run from −1 to 1; they run from 0 to 1", |&([x, y], w, h)| {
-                right(&([(x + 1.0) / 2.0, (y + 1.0) / 2.0], w, h))
-            }),
-            Mistake::new("f32 is computed in, which has too few digits for a large image", |&([x, y], w, h)| {
+            })
+            .say("0 counts as outside; the upper and left edges belong to pixels")
+            .when(|i| i.0.iter().all(|&n| n > 0.0).then(|| right(i))?)
+            .say("the product is rounded to the nearest; a pixel reaches from its number to the next")
+            .when(|i| right(i).map(|_| scaled(i, 0.0, |n, _| n.round())))
+            .when(|i| in_image(i, scaled(i, 0.0, |n, _| n.round())))
+            .when(|i| inside(i, |n, _| n.round()))
+            .when(|i| right(i).map(|_| scaled(i, 0.0, |n, size| n.round().min(size - 1.0))))
+            .say("the product is rounded up; a point on an edge belongs to the right or the lower pixel")
+            .when(|i| right(i).map(|_| scaled(i, 0.0, |n, _| n.ceil() - 1.0)))
+            .when(|i| right(i).map(|_| scaled(i, 0.0, |n, _| n.ceil())))
+            .say(
+                "a half is put in or taken off; it belongs to a pixel's centre, but any point of the pixel is \
+                 asked for",
+            )
+            .when(|i| inside(i, |n, _| (n - 0.5).floor()))
+            .when(|i| right(i).map(|_| scaled(i, 0.0, |n, _| n - 0.5)))
+            .when(|i| in_image(i, scaled(i, 0.0, |n, _| n - 0.5)))
+            .when(|i| inside(i, |n, _| (n + 0.5).floor()))
+            .say("the pixel is a half too far: a pixel reaches from its number to the next")
+            .when(|i| right(i).map(|_| scaled(i, 0.0, |n, _| n + 0.5)))
+            .say("the point is scaled by the size less 1; n pixels are n wide")
+            .when(|i| right(i).map(|_| scaled(i, -1.0, |n, _| n)))
+            .when(|i| right(i).map(|_| scaled(i, -1.0, |n, _| n.round())))
+            .say("pixels are counted from 1; the first is number 0")
+            .when(|i| right(i).map(|pixel| pixel.map(|n| n + 1)))
+            .say("y is counted from the bottom; in NDC it points down")
+            .when(|&([x, y], w, h)| Some([holder(x, w)?, h - 1 - holder(y, h)?]))
+            .when(|&([x, y], w, h)| right(&([x, 1.0 - y], w, h)))
+            .say("x is counted from the right; in NDC it points right")
+            .when(|&([x, y], w, h)| Some([w - 1 - holder(x, w)?, holder(y, h)?]))
+            .say("x and y are swapped")
+            .when(|&([x, y], w, h)| Some([holder(y, h)?, holder(x, w)?]))
+            .say("width and height are swapped")
+            .when(|&(ndc, w, h)| right(&(ndc, h, w)))
+            .say("both are scaled by the width; y is in heights")
+            .when(|&(ndc, w, _)| right(&(ndc, w, w)))
+            .say("both are scaled by the height; x is in widths")
+            .when(|&(ndc, _, h)| right(&(ndc, h, h)))
+            .say("NDC are taken to run from −1 to 1; they run from 0 to 1")
+            .when(|&([x, y], w, h)| right(&([(x + 1.0) / 2.0, (y + 1.0) / 2.0], w, h)))
+            .say("f32 is computed in, which has too few digits for a large image")
+            .when(|&([x, y], w, h)| {
                 let pixel = |n: f64, size: u32| holder(n, size).map(|_| (n as f32 * size as f32) as u32);
                 Some([pixel(x, w)?, pixel(y, h)?])
-            }),
-            Mistake::new(TRUNCATED, |i| inside(i, |n, _| n.trunc())),
-            Mistake::new(TRUNCATED, |i| inside(i, |n, _| n as i64 as f64)),
-            Mistake::new("what lies outside comes in again on the other side; it belongs to no pixel", |i| {
-                Some(scaled(i, 0.0, |n, size| n.rem_euclid(size)))
-            }),
-            Mistake::new("what lies outside comes in again on the other side; it belongs to no pixel", |i| {
-                Some(scaled(i, 0.0, |n, size| n.max(0.0) % size))
-            }),
-            Mistake::new(NEAREST_PIXEL, |i| Some(scaled(i, 0.0, |n, size| n.clamp(0.0, size)))),
-            Mistake::new(
-                "NDC are taken to run from −1 to 1 with y up; they run from 0 to 1, and y points down",
-                |&([x, y], w, h)| right(&([(x + 1.0) / 2.0, (1.0 - y) / 2.0], w, h)),
-            ),
-        ],
+            })
+            .say("what is less than a pixel below 0, or NaN, is given pixel 0: ask before the whole part is taken")
+            .when(|i| inside(i, |n, _| n.trunc()))
+            .when(|i| inside(i, |n, _| n as i64 as f64))
+            .say("what lies outside comes in again on the other side; it belongs to no pixel")
+            .when(|i| Some(scaled(i, 0.0, |n, size| n.rem_euclid(size))))
+            .when(|i| Some(scaled(i, 0.0, |n, size| n.max(0.0) % size)))
+            .say("NDC are taken to run from −1 to 1 with y up; they run from 0 to 1, and y points down")
+            .when(|&([x, y], w, h)| right(&([(x + 1.0) / 2.0, (1.0 - y) / 2.0], w, h))),
         hints: &[
             "undo the division by the size, then ask in which unit square the raster point lies",
             "the whole part of x · width is the pixel, but what is below 0, at 1, above it, or NaN is outside; \
@@ -184,15 +178,6 @@ fn holder(n: f64, size: u32) -> Option<u32> {
     Some(if Dyadic::of(rounded) > product { rounded - 1 } else { rounded })
 }
 
-const NEAREST_PIXEL: &str = "what lies outside is put into the nearest pixel; it belongs to none";
-const PASSES: &str =
-    "NaN passes for inside: every comparison with it is false, so ask whether a point is inside, not outside";
-const ROUNDED: &str = "the product is rounded to the nearest; a pixel reaches from its number to the next";
-const UP: &str = "the product is rounded up; a point on an edge belongs to the right or the lower pixel";
-const HALF: &str =
-    "a half is put in or taken off; it belongs to a pixel's centre, but any point of the pixel is asked for";
-const LESS_1: &str = "the point is scaled by the size less 1; n pixels are n wide";
-
 fn right(&([x, y], width, height): &Input) -> Pixel {
     Some([holder(x, width)?, holder(y, height)?])
 }
@@ -213,6 +198,3 @@ fn inside(input: &Input, whole: fn(f64, f64) -> f64) -> Pixel {
     let along = |n: f64, size: u32| (0.0..f64::from(size)).contains(&whole(n * f64::from(size), 0.0));
     (along(x, width) && along(y, height)).then(|| scaled(input, 0.0, whole))
 }
-
-const TRUNCATED: &str =
-    "what is less than a pixel below 0, or NaN, is given pixel 0: ask before the whole part is taken";

@@ -5,7 +5,7 @@ use glam::DMat3;
 use pinhole::extract::tan_half;
 use pinhole::scene::{Degrees, FovAxis};
 use pinhole_lab::exercise::apart::relative;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, probes};
 use pinhole_lab::measure::oracle_camera::ExactCamera;
 use pinhole_lab::measure::ray_aim::Draws;
 use std::f64::consts::{PI, SQRT_2};
@@ -41,135 +41,128 @@ fn question() -> Question<Input, f64> {
         apart: |yours, right| relative(&[*yours], &[*right]),
         allowed: 1e-10,
         measured: "of the angle",
-        mistakes: vec![
-            Mistake::new("the angle is handed back as it is, whatever it is measured across", |&(angle, ..)| angle),
-            Mistake::new("the angle itself is divided by the aspect; it is the tangent of its half that scales", |i| {
-                i.0 / across(i)
-            }),
-            Mistake::new(
-                "the angle itself is multiplied by the aspect; it is the tangent of its half that scales, and it is \
-                 divided",
-                |i| i.0 * across(i),
-            ),
-            Mistake::new("tan takes the degrees for radians", |i| {
-                2.0 * libm::atan(libm::tan(i.0 / 2.0) / across(i)) * 180.0 / PI
-            }),
-            Mistake::new("tan takes the degrees for radians, and atan's radians are taken for degrees", |i| {
-                2.0 * libm::atan(libm::tan(i.0 / 2.0) / across(i))
-            }),
-            Mistake::new("the answer is in radians; degrees are asked for", |i| vertical(i).to_radians()),
-            Mistake::new(FULL, |i| libm::atan(libm::tan(i.0.to_radians()) / across(i)).to_degrees()),
-            Mistake::new(FULL, |i| (i.0.to_radians().tan() / across(i)).atan().to_degrees()),
-            Mistake::new(FULL, |i| degrees(libm::tan(i.0.to_radians()) / across(i))),
-            Mistake::new(FULL, |i| degrees(i.0.to_radians().tan() / across(i))),
-            Mistake::new("the answer is half the angle", |i| vertical(i) / 2.0),
-            Mistake::new("the tangent is multiplied by the aspect; the height is what is shorter", |i| {
-                degrees(tan_half(Degrees(i.0)) * across(i))
-            }),
-            Mistake::new("the tangent is halved or the aspect doubled; they are in proportion as they are", |i| {
-                degrees(tan_half(Degrees(i.0)) / across(i) / 2.0)
-            }),
-            Mistake::new(SINE, |i| {
-                2.0 * libm::asin((libm::sin(i.0.to_radians() / 2.0) / across(i)).min(1.0)).to_degrees()
-            }),
-            Mistake::new(SINE, |i| 2.0 * libm::asin(libm::sin(i.0.to_radians() / 2.0) / across(i)).to_degrees()),
-            Mistake::new(SINE, |i| 2.0 * libm::atan(libm::sin(i.0.to_radians() / 2.0) / across(i)).to_degrees()),
-            Mistake::new("this is the tangent of half the angle; the angle is asked for", |i| {
-                tan_half(Degrees(i.0)) / across(i)
-            }),
-            Mistake::new("the aspect divides whole numbers, 480 / 270 = 1: make them f64 first", |i| {
+        mistakes: Mistakes::<Input, f64>::new()
+            .say("the angle is handed back as it is, whatever it is measured across")
+            .when(|&(angle, ..)| angle)
+            .say("the angle itself is divided by the aspect; it is the tangent of its half that scales")
+            .when(|i| i.0 / across(i))
+            .say(
+                "the angle itself is multiplied by the aspect; it is the tangent of its half that scales, and it \
+                 is divided",
+            )
+            .when(|i| i.0 * across(i))
+            .say("tan takes the degrees for radians")
+            .when(|i| 2.0 * libm::atan(libm::tan(i.0 / 2.0) / across(i)) * 180.0 / PI)
+            .say("tan takes the degrees for radians, and atan's radians are taken for degrees")
+            .when(|i| 2.0 * libm::atan(libm::tan(i.0 / 2.0) / across(i)))
+            .say("the answer is in radians; degrees are asked for")
+            .when(|i| vertical(i).to_radians())
+            .say("the tangent is taken of the full angle; the triangle at the eye has half of it")
+            .when(|i| libm::atan(libm::tan(i.0.to_radians()) / across(i)).to_degrees())
+            .when(|i| (i.0.to_radians().tan() / across(i)).atan().to_degrees())
+            .when(|i| degrees(libm::tan(i.0.to_radians()) / across(i)))
+            .when(|i| degrees(i.0.to_radians().tan() / across(i)))
+            .say("the answer is half the angle")
+            .when(|i| vertical(i) / 2.0)
+            .say("the tangent is multiplied by the aspect; the height is what is shorter")
+            .when(|i| degrees(tan_half(Degrees(i.0)) * across(i)))
+            .say("the tangent is halved or the aspect doubled; they are in proportion as they are")
+            .when(|i| degrees(tan_half(Degrees(i.0)) / across(i) / 2.0))
+            .say("sines are taken to be in proportion to the sides; on a plane tangents are")
+            .when(|i| 2.0 * libm::asin((libm::sin(i.0.to_radians() / 2.0) / across(i)).min(1.0)).to_degrees())
+            .when(|i| 2.0 * libm::asin(libm::sin(i.0.to_radians() / 2.0) / across(i)).to_degrees())
+            .when(|i| 2.0 * libm::atan(libm::sin(i.0.to_radians() / 2.0) / across(i)).to_degrees())
+            .say("this is the tangent of half the angle; the angle is asked for")
+            .when(|i| tan_half(Degrees(i.0)) / across(i))
+            .say("the aspect divides whole numbers, 480 / 270 = 1: make them f64 first")
+            .when(|i| {
                 let aspect = f64::from(i.2 / i.3);
                 along(i, |_| heights(i.1, aspect))
-            }),
-            Mistake::new("the aspect is height / width; it is width / height", |i| {
-                along(i, |_| heights(i.1, f64::from(i.3) / f64::from(i.2)))
-            }),
-            Mistake::new(HORIZONTAL, |i| along_if(i, FovAxis::Horizontal, |_| 1.0)),
-            Mistake::new(HORIZONTAL, |i| along_if(i, FovAxis::Horizontal, |aspect| 1.0 / aspect)),
-            Mistake::new("the vertical angle is changed; it is the answer itself", |i| {
-                along_if(i, FovAxis::Vertical, |aspect| aspect)
-            }),
-            Mistake::new("the vertical angle is changed; it is the answer itself", |i| {
-                along_if(i, FovAxis::Vertical, |aspect| 1.0 / aspect)
-            }),
-            Mistake::new(DIAGONAL, |i| along_if(i, FovAxis::Diagonal, |_| 1.0)),
-            Mistake::new(DIAGONAL, |i| along_if(i, FovAxis::Diagonal, |aspect| aspect)),
-            Mistake::new(DIAGONAL, |i| along_if(i, FovAxis::Diagonal, |aspect| aspect + 1.0)),
-            Mistake::new(DIAGONAL, |i| along_if(i, FovAxis::Diagonal, |aspect| (aspect + 1.0) / 2.0)),
-            Mistake::new(DIAGONAL, |i| along_if(i, FovAxis::Diagonal, |aspect| aspect.sqrt())),
-            Mistake::new(DIAGONAL, |i| {
+            })
+            .say("the aspect is height / width; it is width / height")
+            .when(|i| along(i, |_| heights(i.1, f64::from(i.3) / f64::from(i.2))))
+            .say(
+                "the horizontal angle is taken for the vertical one, or its tangent multiplied by the aspect; it \
+                 is divided",
+            )
+            .when(|i| along_if(i, FovAxis::Horizontal, |_| 1.0))
+            .when(|i| along_if(i, FovAxis::Horizontal, |aspect| 1.0 / aspect))
+            .say("the vertical angle is changed; it is the answer itself")
+            .when(|i| along_if(i, FovAxis::Vertical, |aspect| aspect))
+            .when(|i| along_if(i, FovAxis::Vertical, |aspect| 1.0 / aspect))
+            .say("the diagonal is taken for something else: it is √(width² + height²) / height heights")
+            .when(|i| along_if(i, FovAxis::Diagonal, |_| 1.0))
+            .when(|i| along_if(i, FovAxis::Diagonal, |aspect| aspect))
+            .when(|i| along_if(i, FovAxis::Diagonal, |aspect| aspect + 1.0))
+            .when(|i| along_if(i, FovAxis::Diagonal, |aspect| (aspect + 1.0) / 2.0))
+            .when(|i| along_if(i, FovAxis::Diagonal, |aspect| aspect.sqrt()))
+            .when(|i| {
                 let [w, h] = [i.2, i.3].map(f64::from);
                 along_if(i, FovAxis::Diagonal, move |_| (w * w + h * h).sqrt())
-            }),
-            Mistake::new(
-                "the diagonal is compared with the width; it is √(width² + height²) / height heights long",
-                |i| along_if(i, FovAxis::Diagonal, |aspect| (aspect * aspect + 1.0).sqrt() / aspect),
-            ),
-            Mistake::new(OTHER_SIDE, |i| {
-                along_if(i, FovAxis::Diagonal, |aspect| (aspect * aspect + 1.0).sqrt() / aspect.max(1.0))
-            }),
-            Mistake::new(OTHER_SIDE, |i| {
-                along_if(i, FovAxis::Diagonal, |aspect| (aspect * aspect + 1.0).sqrt() / aspect.min(1.0))
-            }),
-            Mistake::new(
-                "the square root of the diagonal is missing: it is √(width² + height²) / height heights long",
-                |i| along_if(i, FovAxis::Diagonal, |aspect| aspect * aspect + 1.0),
-            ),
-            Mistake::new(
-                "the smaller and the larger side are swapped: of a wide image the height is the smaller",
-                |i| {
-                    along(i, |aspect| match i.1 {
-                        FovAxis::Smaller => aspect.max(1.0),
-                        FovAxis::Larger => aspect.min(1.0),
-                        other => heights(other, aspect),
-                    })
-                },
-            ),
-            Mistake::new("the smaller and the larger side are taken to be the height and the width", |i| {
+            })
+            .say("the diagonal is compared with the width; it is √(width² + height²) / height heights long")
+            .when(|i| along_if(i, FovAxis::Diagonal, |aspect| (aspect * aspect + 1.0).sqrt() / aspect))
+            .say(
+                "the diagonal is compared with another side than the height; it is √(width² + height²) / height \
+                 heights long",
+            )
+            .when(|i| along_if(i, FovAxis::Diagonal, |aspect| (aspect * aspect + 1.0).sqrt() / aspect.max(1.0)))
+            .when(|i| along_if(i, FovAxis::Diagonal, |aspect| (aspect * aspect + 1.0).sqrt() / aspect.min(1.0)))
+            .say("the square root of the diagonal is missing: it is √(width² + height²) / height heights long")
+            .when(|i| along_if(i, FovAxis::Diagonal, |aspect| aspect * aspect + 1.0))
+            .say("the smaller and the larger side are swapped: of a wide image the height is the smaller")
+            .when(|i| {
+                along(i, |aspect| match i.1 {
+                    FovAxis::Smaller => aspect.max(1.0),
+                    FovAxis::Larger => aspect.min(1.0),
+                    other => heights(other, aspect),
+                })
+            })
+            .say("the smaller and the larger side are taken to be the height and the width")
+            .when(|i| {
                 along(i, |aspect| match i.1 {
                     FovAxis::Smaller => 1.0,
                     FovAxis::Larger => aspect,
                     other => heights(other, aspect),
                 })
-            }),
-            Mistake::new("the smaller and the larger side are taken to be the width and the height", |i| {
+            })
+            .say("the smaller and the larger side are taken to be the width and the height")
+            .when(|i| {
                 along(i, |aspect| match i.1 {
                     FovAxis::Smaller => aspect,
                     FovAxis::Larger => 1.0,
                     other => heights(other, aspect),
                 })
-            }),
-            Mistake::new(TWO_SIDES, |i| along_if(i, FovAxis::Smaller, |_| 1.0)),
-            Mistake::new(TWO_SIDES, |i| along_if(i, FovAxis::Smaller, |aspect| aspect.max(1.0 / aspect))),
-            Mistake::new(TWO_SIDES, |i| along_if(i, FovAxis::Smaller, |aspect| aspect)),
-            Mistake::new(TWO_SIDES, |i| along_if(i, FovAxis::Larger, |aspect| aspect)),
-            Mistake::new(TWO_SIDES, |i| along_if(i, FovAxis::Larger, |_| 1.0)),
-            Mistake::new(TWO_SIDES, |i| along_if(i, FovAxis::Larger, |aspect| aspect.max(1.0 / aspect))),
-            Mistake::new("the tangent is taken for an angle; atan leads back to it", |i| {
-                (2.0 * tan_half(Degrees(i.0)) / across(i)).to_degrees()
-            }),
-            Mistake::new(TWO_SIDES, |i| along_if(i, FovAxis::Smaller, |aspect| aspect.min(1.0 / aspect))),
-            Mistake::new(TWO_SIDES, |i| along_if(i, FovAxis::Smaller, |aspect| 1.0 / aspect.min(1.0))),
-            Mistake::new(TWO_SIDES, |i| along_if(i, FovAxis::Larger, |aspect| 1.0 / aspect.max(1.0))),
-            Mistake::new(TWO_SIDES, |i| along_if(i, FovAxis::Larger, |aspect| aspect.min(1.0))),
-            Mistake::new("the diagonal's tangent is multiplied by its length in heights; it is divided", |i| {
-                along_if(i, FovAxis::Diagonal, |aspect| 1.0 / (aspect * aspect + 1.0).sqrt())
-            }),
-            Mistake::new("cosines are taken to be in proportion to the sides; on a plane tangents are", |i| {
-                2.0 * libm::acos(libm::cos(i.0.to_radians() / 2.0) / across(i)).to_degrees()
-            }),
-            Mistake::new("only the horizontal angle is changed; the other axes have lengths of their own, too", |i| {
-                if i.1 == FovAxis::Horizontal { vertical(i) } else { i.0 }
-            }),
-            Mistake::new("the diagonal's squares do not fit in u32: make width and height f64 first", |i| {
+            })
+            .say(
+                "the smaller or the larger side is always taken for the same one; which is which depends on the \
+                 image",
+            )
+            .when(|i| along_if(i, FovAxis::Smaller, |_| 1.0))
+            .when(|i| along_if(i, FovAxis::Smaller, |aspect| aspect.max(1.0 / aspect)))
+            .when(|i| along_if(i, FovAxis::Smaller, |aspect| aspect))
+            .when(|i| along_if(i, FovAxis::Larger, |aspect| aspect))
+            .when(|i| along_if(i, FovAxis::Larger, |_| 1.0))
+            .when(|i| along_if(i, FovAxis::Larger, |aspect| aspect.max(1.0 / aspect)))
+            .when(|i| along_if(i, FovAxis::Smaller, |aspect| aspect.min(1.0 / aspect)))
+            .when(|i| along_if(i, FovAxis::Smaller, |aspect| 1.0 / aspect.min(1.0)))
+            .when(|i| along_if(i, FovAxis::Larger, |aspect| 1.0 / aspect.max(1.0)))
+            .when(|i| along_if(i, FovAxis::Larger, |aspect| aspect.min(1.0)))
+            .say("the tangent is taken for an angle; atan leads back to it")
+            .when(|i| (2.0 * tan_half(Degrees(i.0)) / across(i)).to_degrees())
+            .say("the diagonal's tangent is multiplied by its length in heights; it is divided")
+            .when(|i| along_if(i, FovAxis::Diagonal, |aspect| 1.0 / (aspect * aspect + 1.0).sqrt()))
+            .say("cosines are taken to be in proportion to the sides; on a plane tangents are")
+            .when(|i| 2.0 * libm::acos(libm::cos(i.0.to_radians() / 2.0) / across(i)).to_degrees())
+            .say("only the horizontal angle is changed; the other axes have lengths of their own, too")
+            .when(|i| if i.1 == FovAxis::Horizontal { vertical(i) } else { i.0 })
+            .say("the diagonal's squares do not fit in u32: make width and height f64 first")
+            .when(|i| {
                 let squares = i.2.wrapping_mul(i.2).wrapping_add(i.3.wrapping_mul(i.3));
                 along_if(i, FovAxis::Diagonal, |_| f64::from(squares).sqrt() / f64::from(i.3))
-            }),
-            Mistake::new(
-                "the diagonal is taken to be √2 heights, as in a square; it is √(width² + height²), over the height",
-                |i| along_if(i, FovAxis::Diagonal, |_| SQRT_2),
-            ),
-        ],
+            })
+            .say("the diagonal is taken to be √2 heights, as in a square; it is √(width² + height²), over the height")
+            .when(|i| along_if(i, FovAxis::Diagonal, |_| SQRT_2)),
         hints: &[
             "at distance 1 the angle spans 2 tan(angle / 2) along its axis; how much is that along the height?",
             "half the height is tan(angle / 2) divided by how many heights its axis is long: 1, width / height, …, \
@@ -212,16 +205,6 @@ fn across(&(_, axis, width, height): &Input) -> f64 {
 fn degrees(tangent: f64) -> f64 {
     2.0 * libm::atan(tangent) * (180.0 / PI)
 }
-
-const FULL: &str = "the tangent is taken of the full angle; the triangle at the eye has half of it";
-const SINE: &str = "sines are taken to be in proportion to the sides; on a plane tangents are";
-const HORIZONTAL: &str =
-    "the horizontal angle is taken for the vertical one, or its tangent multiplied by the aspect; it is divided";
-const DIAGONAL: &str = "the diagonal is taken for something else: it is √(width² + height²) / height heights";
-const OTHER_SIDE: &str = "the diagonal is compared with another side than the height; it is √(width² + height²) / \
-                          height heights long";
-const TWO_SIDES: &str =
-    "the smaller or the larger side is always taken for the same one; which is which depends on the image";
 
 /// The vertical angle, where the axis is so many heights long as a function of the aspect says.
 fn along(&(angle, _, width, height): &Input, heights: impl Fn(f64) -> f64) -> f64 {

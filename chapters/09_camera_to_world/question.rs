@@ -3,7 +3,7 @@
 use super::mine::mine;
 use glam::{DMat3, DQuat, DVec3};
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Part, Probe, Question, Shown, probes};
 use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::exact_vector::ExactVector;
 use pinhole_lab::measure::ray_aim::Draws;
@@ -33,78 +33,7 @@ fn question() -> Question<Input, Vector> {
         apart: |yours, right| absolute(yours, right),
         allowed: 1e-9,
         measured: "in a part",
-        mistakes: vec![
-            Mistake::new(
-                "the normal is mapped as a direction is; where the map stretches unevenly it tips over",
-                |i| (matrix(i) * normal(i)).normalize().into(),
-            ),
-            Mistake::new("the normal is mapped as a direction is, and not brought to length 1", |i| {
-                (matrix(i) * normal(i)).into()
-            }),
-            Mistake::new("the normal is not of length 1", |i| (inverse_transpose(i) * normal(i)).into()),
-            Mistake::new("the normal is not of length 1", |i| (cofactors(i) * normal(i)).into()),
-            Mistake::new("the normal is divided by its squared length: a square root is missing", |i| {
-                let n = inverse_transpose(i) * normal(i);
-                (n / n.length_squared()).into()
-            }),
-            Mistake::new("the inverse is not transposed, or the columns are taken for rows", |i| {
-                (matrix(i).inverse() * normal(i)).normalize().into()
-            }),
-            Mistake::new("the inverse is not transposed, or the columns are taken for rows", |i| {
-                (cofactors(i).transpose() * normal(i)).normalize().into()
-            }),
-            Mistake::new(
-                "the normal is multiplied by the transpose; in Mᵀn' = n the unknown is n', so the transpose must be \
-                 inverted",
-                |i| (matrix(i).transpose() * normal(i)).normalize().into(),
-            ),
-            Mistake::new("a mirroring map turns the normal inside out: the sign of the determinant is missing", |i| {
-                (cofactors(i) * normal(i)).normalize().into()
-            }),
-            Mistake::new(
-                "the normal points inward: nothing may turn it, for the inverse transpose keeps its side",
-                |i| (-(inverse_transpose(i) * normal(i)).normalize()).into(),
-            ),
-            Mistake::new(OLD_SIDE, |i| towards(inverse_transpose(i) * normal(i), normal(i))),
-            Mistake::new(OLD_SIDE, |i| towards(matrix(i) * normal(i), normal(i))),
-            Mistake::new(SHEARED, |i| (scaled_axes(i, 2) * normal(i)).normalize().into()),
-            Mistake::new(SHEARED, |i| (scaled_axes(i, 2) * normal(i)).into()),
-            Mistake::new("the scale is left out, as if the map only turned", |i| {
-                (scaled_axes(i, 1) * normal(i)).normalize().into()
-            }),
-            Mistake::new("the scale is left out, as if the map only turned", |i| {
-                (scaled_axes(i, 1) * normal(i)).into()
-            }),
-            Mistake::new(ORDER, |i| crossed(i, DVec3::new(1.0, -1.0, 1.0), true)),
-            Mistake::new(ORDER, |i| crossed(i, DVec3::new(1.0, -1.0, 1.0), false)),
-            Mistake::new(ORDER, |i| crossed(i, DVec3::new(-1.0, 1.0, 1.0), true)),
-            Mistake::new(ORDER, |i| crossed(i, DVec3::new(1.0, 1.0, -1.0), true)),
-            Mistake::new(ORDER, |i| crossed(i, DVec3::NEG_ONE, false)),
-            Mistake::new(
-                "the cross products are given to the wrong parts: x of the normal goes with y × z, y with z × x, z \
-                 with x × y",
-                |i| {
-                    let [x, y, z] = i.1;
-                    (inverse_transpose(i) * DVec3::new(z, x, y)).normalize().into()
-                },
-            ),
-            Mistake::new("the normal is handed back as it is; it turns with its surface", |i| i.1),
-            Mistake::new(
-                "the normal is multiplied by the inverse, which is not transposed, and not brought to length 1",
-                |i| (matrix(i).inverse() * normal(i)).into(),
-            ),
-            Mistake::new("the normal is multiplied by the transpose, and not brought to length 1", |i| {
-                (matrix(i).transpose() * normal(i)).into()
-            }),
-            Mistake::new(
-                "the normal is mapped as a direction is, and only turned where the map mirrors; uneven stretching \
-                 tips it over",
-                |i| (matrix(i) * normal(i) * matrix(i).determinant()).normalize().into(),
-            ),
-            Mistake::new("only the numbers on the diagonal count; a map that turns has others", |i| {
-                (normal(i) / DVec3::new(i.0[0][0], i.0[1][1], i.0[2][2])).normalize().into()
-            }),
-        ],
+        mistakes: mistakes(),
         hints: &[
             "the normal must stay at a right angle to everything that lies in the surface: n · v = 0 must become \
              n' · Mv = 0",
@@ -114,6 +43,66 @@ fn question() -> Question<Input, Vector> {
              only the sign is left in a unit vector, and in a mirroring map it is −1",
         ],
     }
+}
+
+fn mistakes() -> Mistakes<Input, Vector> {
+    let turned = Part::<Input, DVec3>::new(|i| inverse_transpose(i) * normal(i))
+        .say("the normal is mapped as a direction is; where the map stretches unevenly it tips over")
+        .when(|i| matrix(i) * normal(i))
+        .say("the inverse is not transposed, or the columns are taken for rows")
+        .when(|i| matrix(i).inverse() * normal(i))
+        .when(|i| cofactors(i).transpose() * normal(i))
+        .say(
+            "the normal is multiplied by the transpose; in Mᵀn' = n the unknown is n', so the transpose must \
+                 be inverted",
+        )
+        .when(|i| matrix(i).transpose() * normal(i))
+        .say("a mirroring map turns the normal inside out: the sign of the determinant is missing")
+        .when(|i| cofactors(i) * normal(i))
+        .say("the normal points inward: nothing may turn it, for the inverse transpose keeps its side")
+        .when(|i| -(inverse_transpose(i) * normal(i)))
+        .say(
+            "the normal is turned to the side of the old one; a rotation may rightly take it beyond 90° from \
+                 there",
+        )
+        .when(|i| towards(inverse_transpose(i) * normal(i), normal(i)))
+        .when(|i| towards(matrix(i) * normal(i), normal(i)))
+        .say(
+            "the normal is divided by the length of each column; that is right only while the columns are at \
+                 right angles",
+        )
+        .when(|i| scaled_axes(i, 2) * normal(i))
+        .say("the scale is left out, as if the map only turned")
+        .when(|i| scaled_axes(i, 1) * normal(i))
+        .say("a cross product is in the wrong order: they go round, y × z, z × x, x × y")
+        .when(|i| inverse_transpose(i) * (normal(i) * DVec3::new(1.0, -1.0, 1.0)))
+        .when(|i| inverse_transpose(i) * (normal(i) * DVec3::new(-1.0, 1.0, 1.0)))
+        .when(|i| inverse_transpose(i) * (normal(i) * DVec3::new(1.0, 1.0, -1.0)))
+        .when(|i| cofactors(i) * (normal(i) * DVec3::new(1.0, -1.0, 1.0)))
+        .when(|i| cofactors(i) * -normal(i))
+        .say(
+            "the cross products are given to the wrong parts: x of the normal goes with y × z, y with z × x, z \
+                 with x × y",
+        )
+        .when(|i| inverse_transpose(i) * DVec3::new(i.1[2], i.1[0], i.1[1]))
+        .say("the normal is handed back as it is; it turns with its surface")
+        .when(normal)
+        .say(
+            "the normal is mapped as a direction is, and only turned where the map mirrors; uneven stretching \
+                 tips it over",
+        )
+        .when(|i| matrix(i) * normal(i) * matrix(i).determinant())
+        .say("only the numbers on the diagonal count; a map that turns has others")
+        .when(|i| normal(i) / DVec3::new(i.0[0][0], i.0[1][1], i.0[2][2]));
+    let brought_to_1 = Part::<[DVec3; 1], Vector>::new(|[v]| v.normalize().into())
+        .say("the normal is not of length 1")
+        .when(|&[v]| v.into())
+        .say("the normal is divided by its squared length: a square root is missing")
+        .when(|&[v]| (v / v.length_squared()).into());
+    Mistakes::<Input, Vector>::new()
+        .say("the normal is not of length 1")
+        .when(|i| (cofactors(i) * normal(i)).into())
+        .of_parts([turned], brought_to_1)
 }
 
 fn asked() -> Vec<Probe<Input>> {
@@ -179,12 +168,6 @@ fn inverse_transpose(input: &Input) -> DMat3 {
     matrix(input).inverse().transpose()
 }
 
-const SHEARED: &str =
-    "the normal is divided by the length of each column; that is right only while the columns are at right angles";
-const OLD_SIDE: &str = "the normal is turned to the side of the old one; a rotation may rightly take it beyond 90° \
-                        from there";
-const ORDER: &str = "a cross product is in the wrong order: they go round, y × z, z × x, x × y";
-
 fn normal(&(_, normal): &Input) -> DVec3 {
     normal.into()
 }
@@ -194,18 +177,12 @@ fn cofactors(input: &Input) -> DMat3 {
     inverse_transpose(input) * matrix(input).determinant()
 }
 
-/// With these signs of the cross products, and with the determinant's or without it.
-fn crossed(input: &Input, signs: DVec3, by_determinant: bool) -> Vector {
-    let matrix = if by_determinant { inverse_transpose(input) } else { cofactors(input) };
-    (matrix * (normal(input) * signs)).normalize().into()
-}
-
 /// The columns, each over a power of its length.
 fn scaled_axes(input: &Input, power: i32) -> DMat3 {
     let [a, b, c] = input.0.map(|column| DVec3::from(column) / DVec3::from(column).length().powi(power));
     DMat3::from_cols(a, b, c)
 }
 
-fn towards(vector: DVec3, side: DVec3) -> Vector {
-    (vector.normalize() * if vector.dot(side) < 0.0 { -1.0 } else { 1.0 }).into()
+fn towards(vector: DVec3, side: DVec3) -> DVec3 {
+    if vector.dot(side) < 0.0 { -vector } else { vector }
 }

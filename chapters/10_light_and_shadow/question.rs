@@ -4,7 +4,7 @@ use super::mine::mine;
 use glam::DVec3;
 use pinhole::{lights, shade};
 use pinhole_lab::exercise::apart::relative;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Part, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use std::f64::consts::PI;
 
@@ -37,100 +37,103 @@ fn question() -> Question<Input, f64> {
         apart: |yours, right| relative(&[*yours], &[*right]),
         allowed: 1e-10,
         measured: "of the radiance",
-        mistakes: vec![
-            Mistake::new("a surface that faces away sends on a negative light; it gets none", |i| {
-                faded(i, cosine(i), 2)
-            }),
-            Mistake::new("a surface that faces away sends on a negative light; it gets none", |i| {
-                if distance(i) == 0.0 { 0.0 } else { faded(i, cosine(i), 2) }
-            }),
-            Mistake::new("a surface that faces away is lit from behind: the cosine lost its sign", |i| {
-                faded(i, cosine(i).abs(), 2)
-            }),
-            Mistake::new("a surface that faces away is lit from behind: the cosine lost its sign", |i| {
-                if distance(i) == 0.0 { 0.0 } else { faded(i, cosine(i).abs(), 2) }
-            }),
-            Mistake::new(
-                "where the light is at the very point, 0 / 0 is NaN: no direction leads to it, so no light",
-                |i| if distance(i) == 0.0 { f64::NAN } else { radiance(i, cosine(i)) },
-            ),
-            Mistake::new(
-                "where the light is at the very point, its distance of 0 is divided by: no direction leads to it, so \
-                 no light",
-                |i| if distance(i) == 0.0 { f64::INFINITY } else { radiance(i, cosine(i)) },
-            ),
-            Mistake::new(CLOSE, |i| if distance(i) < 1e-3 { 0.0 } else { right(i) }),
-            Mistake::new(CLOSE, |i| radiance(i, cosine(i)) * f64::from(u8::from(to_light(i).length_squared() > 1e-12))),
-            Mistake::new(
-                "the light thins out with the distance once, not twice: either it is not squared, or the vector to the light was \
-                 not of length 1 when its cosine was taken",
-                |i| faded(i, lit(i), 1),
-            ),
-            Mistake::new("the light does not thin out with the distance", |i| faded(i, lit(i), 0)),
-            Mistake::new(
-                "the light does not thin out, and the vector to it was not of length 1 when its cosine was taken",
-                |i| faded(i, lit(i), -1),
-            ),
-            Mistake::new(TOO_MUCH, |i| faded(i, lit(i), 3)),
-            Mistake::new(TOO_MUCH, |i| faded(i, lit(i), 4)),
-            Mistake::new("the BRDF is colour / π; the π is missing", |i| PI * right(i)),
-            Mistake::new("the BRDF is colour / π; it is not multiplied by π", |i| PI * PI * right(i)),
-            Mistake::new(
-                "the BRDF is colour / π, not colour / 2π: the cosine halves what the hemisphere's 2π gives",
-                |i| right(i) / 2.0,
-            ),
-            Mistake::new(SPHERE, |i| right(i) / (4.0 * PI)),
-            Mistake::new(SPHERE, |i| right(i) / 4.0),
-            Mistake::new("the intensity is divided by π as well; only the colour is", |i| right(i) / PI),
-            Mistake::new("the cosine is missing: oblique light spreads over a larger area", |i| {
-                if cosine(i) > 0.0 { faded(i, 1.0, 2) } else { 0.0 }
-            }),
-            Mistake::new("the cosine is missing: oblique light spreads over a larger area", |i| faded(i, 1.0, 2)),
-            Mistake::new("the cosine is squared; the light spreads over a larger area once", |i| {
-                faded(i, lit(i) * lit(i), 2)
-            }),
-            Mistake::new("the angle itself is taken, not its cosine", |i| faded(i, libm::acos(cosine(i)).max(0.0), 2)),
-            Mistake::new("the sine is taken; light straight from above falls fully", |i| {
-                if cosine(i) > 0.0 { faded(i, (1.0 - cosine(i) * cosine(i)).sqrt(), 2) } else { 0.0 }
-            }),
-            Mistake::new(TURNED, |i| radiance(i, -cosine(i))),
-            Mistake::new(TURNED, |i| faded(i, (-cosine(i)).max(0.0), 2)),
-            Mistake::new(TURNED, |i| faded(i, -cosine(i), 2)),
-            Mistake::new("the distance is measured from the origin; it is that from position to light", |i| {
-                sent(i, lit(i), DVec3::from(i.4).length_squared())
-            }),
-            Mistake::new("the position is left out: the light is seen from there, not from the origin", |i| {
-                right(&(i.0, i.1, [0.0; 3], i.3, i.4))
-            }),
-            Mistake::new("the position is added; the vector to the light is light − position", |i| {
-                right(&(i.0, i.1, i.2.map(|part| -part), i.3, i.4))
-            }),
-            Mistake::new("the colour is left out", |i| right(&(1.0, i.1, i.2, i.3, i.4))),
-            Mistake::new("the intensity is left out", |i| right(&(i.0, 1.0, i.2, i.3, i.4))),
-            Mistake::new("this is what arrives, the irradiance; the surface sends colour / π of it on", |i| {
-                PI * right(&(1.0, i.1, i.2, i.3, i.4))
-            }),
-            Mistake::new("the cosine is taken at the origin; the direction to the light is light − position", |i| {
-                let light = DVec3::from(i.4);
-                radiance(i, DVec3::from(i.3).dot(light) / light.length())
-            }),
-            Mistake::new("the answer is cut off at 1; radiance may be as large as it likes", |i| right(i).min(1.0)),
-            Mistake::new("the normal is not asked where it points: only its y counts, as if it pointed up", |i| {
-                radiance(i, to_light(i).y / distance(i))
-            }),
-            Mistake::new("the cosine is halved and has 1/2 added, which lights what faces away", |i| {
-                faded(i, 0.5 * cosine(i) + 0.5, 2)
-            }),
-            Mistake::new("1 is added to d²; the light thins out with the distance squared alone", |i| {
-                sent(i, lit(i), 1.0 + to_light(i).length_squared())
-            }),
-        ],
+        mistakes: mistakes(),
         hints: &[
             "three factors: what the surface sends on, colour / π; how obliquely the light falls; how far it came",
             "with v = light − position and d its length the cosine is normal · v / d, and the light thins out with d²",
             "colour / π · intensity · cosine / d² where the cosine is above 0; 0 where it is not, and where d is 0",
         ],
     }
+}
+
+fn mistakes() -> Mistakes<Input, f64> {
+    let brdf = Part::<Input, f64>::new(|i| i.0 / PI)
+        .say("the BRDF is colour / π; the π is missing")
+        .when(|i| i.0)
+        .say("the BRDF is colour / π; it is not multiplied by π")
+        .when(|i| i.0 * PI)
+        .say("the BRDF is colour / π, not colour / 2π: the cosine halves what the hemisphere's 2π gives")
+        .when(|i| i.0 / (2.0 * PI))
+        .say("the colour is left out")
+        .when(|_| 1.0 / PI)
+        .say("this is what arrives, the irradiance; the surface sends colour / π of it on")
+        .when(|_| 1.0);
+    let intensity = Part::<Input, f64>::new(|i| i.1)
+        .say("the intensity is divided by 4π; it is what the light sends into each steradian already")
+        .when(|i| i.1 / (4.0 * PI))
+        .when(|i| i.1 / 4.0)
+        .say("the intensity is divided by π as well; only the colour is")
+        .when(|i| i.1 / PI)
+        .say("the intensity is left out")
+        .when(|_| 1.0);
+    let falls = Part::<Input, f64>::new(lit)
+        .say("a surface that faces away sends on a negative light; it gets none")
+        .when(cosine)
+        .when(|i| if distance(i) == 0.0 { 0.0 } else { cosine(i) })
+        .say("a surface that faces away is lit from behind: the cosine lost its sign")
+        .when(|i| cosine(i).abs())
+        .when(|i| if distance(i) == 0.0 { 0.0 } else { cosine(i).abs() })
+        .say("where the light is at the very point, 0 / 0 is NaN: no direction leads to it, so no light")
+        .when(|i| if distance(i) == 0.0 { f64::NAN } else { lit(i) })
+        .say("a light close by counts as one at the very point; only a distance of 0 does")
+        .when(|i| if distance(i) < 1e-3 { 0.0 } else { lit(i) })
+        .when(|i| if distance(i) < 1e-6 { 0.0 } else { lit(i) })
+        .say("the cosine is missing: oblique light spreads over a larger area")
+        .when(|i| f64::from(u8::from(cosine(i) > 0.0)))
+        .when(|_| 1.0)
+        .say("the cosine is squared; the light spreads over a larger area once")
+        .when(|i| lit(i) * lit(i))
+        .say("the angle itself is taken, not its cosine")
+        .when(|i| libm::acos(cosine(i)).max(0.0))
+        .say("the sine is taken; light straight from above falls fully")
+        .when(|i| if cosine(i) > 0.0 { (1.0 - cosine(i) * cosine(i)).sqrt() } else { 0.0 })
+        .say("the direction leads from the light to the surface; the opposite is meant")
+        .when(|i| (-cosine(i)).max(0.0))
+        .when(|i| -cosine(i))
+        .say("the cosine is taken at the origin; the direction to the light is light − position")
+        .when(|i| (DVec3::from(i.3).dot(i.4.into()) / DVec3::from(i.4).length()).max(0.0))
+        .say("the normal is not asked where it points: only its y counts, as if it pointed up")
+        .when(|i| (to_light(i).y / distance(i)).max(0.0))
+        .say("the cosine is halved and has 1/2 added, which lights what faces away")
+        .when(|i| 0.5 * cosine(i) + 0.5);
+    let thinned = Part::<Input, f64>::new(|i| distance(i).powi(2))
+        .say(
+            "the light thins out with the distance once, not twice: either it is not squared, or the vector to \
+                 the light was not of length 1 when its cosine was taken",
+        )
+        .when(distance)
+        .say("the light does not thin out with the distance")
+        .when(|_| 1.0)
+        .say("the light does not thin out, and the vector to it was not of length 1 when its cosine was taken")
+        .when(|i| 1.0 / distance(i))
+        .say(
+            "the light thins out too fast: a distance is divided by once too often, beside the d² there is \
+                 only the d of the cosine",
+        )
+        .when(|i| distance(i).powi(3))
+        .when(|i| distance(i).powi(4))
+        .say("the distance is measured from the origin; it is that from position to light")
+        .when(|i| DVec3::from(i.4).length_squared())
+        .say("1 is added to d²; the light thins out with the distance squared alone")
+        .when(|i| 1.0 + distance(i).powi(2));
+    let whole = Part::<[f64; 4], f64>::new(
+        |&[brdf, intensity, falls, thinned]| {
+            if falls == 0.0 { 0.0 } else { brdf * intensity * falls / thinned }
+        },
+    );
+    Mistakes::<Input, f64>::new()
+        .say(
+            "where the light is at the very point, its distance of 0 is divided by: no direction leads to it, \
+                 so no light",
+        )
+        .when(|i| if distance(i) == 0.0 { f64::INFINITY } else { right(i) })
+        .say("the position is left out: the light is seen from there, not from the origin")
+        .when(|i| right(&(i.0, i.1, [0.0; 3], i.3, i.4)))
+        .say("the position is added; the vector to the light is light − position")
+        .when(|i| right(&(i.0, i.1, i.2.map(|part| -part), i.3, i.4)))
+        .say("the answer is cut off at 1; radiance may be as large as it likes")
+        .when(|i| right(i).min(1.0))
+        .of_parts([brdf, intensity, falls, thinned], whole)
 }
 
 fn asked() -> Vec<Probe<Input>> {
@@ -196,22 +199,10 @@ fn sent(&(colour, intensity, ..): &Input, cosine: f64, distance_squared: f64) ->
     shade::matte_radiance([colour; 3], irradiance)[0]
 }
 
-const TURNED: &str = "the direction leads from the light to the surface; the opposite is meant";
-const CLOSE: &str = "a light close by counts as one at the very point; only a distance of 0 does";
-const TOO_MUCH: &str = "the light thins out too fast: a distance is divided by once too often, beside the d² there is \
-                        only the d of the \
-                        cosine";
-const SPHERE: &str = "the intensity is divided by 4π; it is what the light sends into each steradian already";
-
 fn right(input: &Input) -> f64 {
     radiance(input, cosine(input))
 }
 
 fn lit(input: &Input) -> f64 {
     cosine(input).max(0.0)
-}
-
-/// Thinned out with this power of the distance.
-fn faded(input: &Input, cosine: f64, power: i32) -> f64 {
-    sent(input, cosine, distance(input).powi(power))
 }

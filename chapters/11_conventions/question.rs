@@ -1,9 +1,8 @@
 //! Chapter 11: a direction of a camera with other axes, in pinhole's.
 
 use super::mine::mine;
-use Flag::{Always, Never, Opposite, Right};
 use pinhole_lab::exercise::apart::exact;
-use pinhole_lab::exercise::{Exercise, Mistake, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Part, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Vector = [f64; 3];
@@ -49,101 +48,7 @@ fn question() -> Question<Input, Vector> {
         apart: exact,
         allowed: 0.0,
         measured: "in a part",
-        mistakes: vec![
-            Mistake::new("the direction is handed back as it is; no axis is turned", |&(v, ..)| v),
-            Mistake::new("each axis is turned about where its flag is true; x right and y up are pinhole's own", |i| {
-                signed(i, [Opposite, Opposite, Right])
-            }),
-            Mistake::new(
-                "z is turned where it should not be: pinhole's points back, so theirs turns where it points ahead",
-                |i| signed(i, [Right, Right, Opposite]),
-            ),
-            Mistake::new("all three axes are turned where they should not be, and not where they should", |i| {
-                signed(i, [Opposite, Opposite, Opposite])
-            }),
-            Mistake::new("z is never turned", |i| signed(i, [Right, Right, Never])),
-            Mistake::new("z is always turned; it turns where it points ahead", |i| signed(i, [Right, Right, Always])),
-            Mistake::new("x is turned where it points right, as it does in pinhole's", |i| {
-                signed(i, [Opposite, Right, Right])
-            }),
-            Mistake::new("x is never turned", |i| signed(i, [Never, Right, Right])),
-            Mistake::new("x is always turned; it turns where it points left", |i| signed(i, [Always, Right, Right])),
-            Mistake::new("y is turned where it points up, as it does in pinhole's", |i| {
-                signed(i, [Right, Opposite, Right])
-            }),
-            Mistake::new("y is never turned", |i| signed(i, [Right, Never, Right])),
-            Mistake::new("y is always turned; it turns where it points down", |i| signed(i, [Right, Always, Right])),
-            Mistake::new(TWO, |i| signed(i, [Never, Never, Right])),
-            Mistake::new(TWO, |i| signed(i, [Right, Never, Never])),
-            Mistake::new(TWO, |i| signed(i, [Never, Right, Never])),
-            Mistake::new(TWO, |i| signed(i, [Opposite, Right, Opposite])),
-            Mistake::new(TWO, |i| signed(i, [Right, Opposite, Opposite])),
-            Mistake::new("the flags of x and y are swapped", |&(v, x, y, z)| right(&(v, y, x, z))),
-            Mistake::new("the flags of y and z are swapped", |&(v, x, y, z)| right(&(v, x, !z, !y))),
-            Mistake::new(
-                "a left-handed camera is mended by its x alone; each axis turns by itself",
-                |&(v, x, y, z)| turned(v, x == (y == z), false, false),
-            ),
-            Mistake::new(
-                "a left-handed camera is mended by its z alone; each axis turns by itself",
-                |&(v, x, y, z)| turned(v, false, false, x == (y == z)),
-            ),
-            Mistake::new(HALF_TURN, |&(v, x, y, z)| turned(v, !x ^ z, !y, z)),
-            Mistake::new(HALF_TURN, |&(v, x, y, z)| turned(v, !x, !y ^ z, z)),
-            Mistake::new(HALF_TURN, |&(v, x, y, z)| turned(v, !x ^ !y, !y, z)),
-            Mistake::new(HALF_TURN, |&(v, x, y, z)| turned(v, !x, !y, z ^ !y)),
-            Mistake::new(HALF_TURN, |&(v, x, y, z)| turned(v, !x, !y ^ !x, z)),
-            Mistake::new(HALF_TURN, |&(v, x, y, z)| turned(v, !x, !y, z ^ !x)),
-            Mistake::new(
-                "the whole direction is turned about where one flag asks for it; each flag changes one sign",
-                |&(v, x, y, z)| turned(v, !x ^ !y ^ z, !x ^ !y ^ z, !x ^ !y ^ z),
-            ),
-            Mistake::new(CHANGED, |&(v, x, y, z)| swapped(v, !x, false, z, !y, 1.0)),
-            Mistake::new(CHANGED, |&(v, x, y, z)| swapped(v, !x, false, z, !y, -1.0)),
-            Mistake::new(CHANGED, |&(v, x, y, z)| swapped(v, !x, true, z, !y, 1.0)),
-            Mistake::new(CHANGED, |&(v, x, y, z)| swapped(v, !x, !y, z, z, 1.0)),
-            Mistake::new(ONE, |&(v, x, y, z)| turned(v, !x, x && !y, x && y && z)),
-            Mistake::new(ONE, |&(v, x, y, z)| turned(v, !x && y && !z, !y && !z, z)),
-            Mistake::new("the answer is brought to length 1; the length stays what it is", |i| {
-                let v = right(i);
-                let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-                if length == 0.0 { v } else { v.map(|part| part / length) }
-            }),
-            Mistake::new("the answer is brought to length 1; the length stays what it is", |i| {
-                let v = right(i);
-                let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-                v.map(|part| part / length)
-            }),
-            Mistake::new(
-                "a left-handed camera is mended by its y alone; each axis turns by itself",
-                |&(v, x, y, z)| turned(v, false, x == (y == z), false),
-            ),
-            Mistake::new(
-                "a flag that is false makes its part 0; it changes the sign",
-                |&([x, y, z], x_right, y_up, z_ahead)| {
-                    let part = |keep: bool, part: f64| if keep { part } else { 0.0 };
-                    [part(x_right, x), part(y_up, y), if z_ahead { -z } else { z }]
-                },
-            ),
-            Mistake::new("the direction's own signs are lost; each part keeps its sign or changes it", |i| {
-                right(&(i.0.map(f64::abs), i.1, i.2, i.3))
-            }),
-            Mistake::new(HALF_TURN, |&(v, x, y, z)| turned(v, !x ^ z, !y ^ z, z)),
-            Mistake::new(
-                "the whole direction is turned about where one flag asks for it; each flag changes one sign",
-                |&(v, x, y, z)| turned(v, !x || !y || z, !x || !y || z, !x || !y || z),
-            ),
-            Mistake::new(TWO, |i| signed(i, [Never, Never, Opposite])),
-            Mistake::new(TWO, |i| signed(i, [Opposite, Opposite, Never])),
-            Mistake::new(
-                "a right-handed camera's axes are left as they are; each axis turns by itself, even where two do",
-                |&(v, x, y, z)| if x == (y == z) { turned(v, !x, !y, z) } else { v },
-            ),
-            Mistake::new(
-                "x is mirrored once more in a left-handed camera; the three signs have mended that already",
-                |&(v, x, y, z)| turned(v, !x ^ (x == (y == z)), !y, z),
-            ),
-        ],
+        mistakes: mistakes(),
         hints: &[
             "the three axes are the same lines in both cameras; only which end is positive differs, axis by axis",
             "pinhole's: x right, y up, z back; keep a part whose axis points in the same direction, change the sign \
@@ -153,42 +58,105 @@ fn question() -> Question<Input, Vector> {
     }
 }
 
-fn turned([x, y, z]: Vector, turn_x: bool, turn_y: bool, turn_z: bool) -> Vector {
-    let sign = |turn: bool, part: f64| if turn { -part } else { part };
-    [sign(turn_x, x), sign(turn_y, y), sign(turn_z, z)]
-}
-
-const TWO: &str = "two axes are turned wrongly: x changes its sign unless x_right, y unless y_up, and z if z_ahead";
-const HALF_TURN: &str =
-    "the camera is given half a turn, which changes two signs; each flag changes that of its own axis only";
-const CHANGED: &str = "y and z change places; the axes stay the same lines, and only their signs change";
-const ONE: &str = "only the first axis that differs is turned; all three may differ at once";
-
-/// When an axis is turned.
-enum Flag {
-    Right,
-    Opposite,
-    Never,
-    Always,
+fn mistakes() -> Mistakes<Input, Vector> {
+    let x = Part::<Input, f64>::new(|i| sign(!i.1, i.0[0]))
+        .say("x is turned where it points right, as it does in pinhole's")
+        .when(|i| sign(i.1, i.0[0]))
+        .say("x is never turned")
+        .when(|i| i.0[0])
+        .say("x is always turned; it turns where it points left")
+        .when(|i| -i.0[0])
+        .say(ZERO)
+        .when(|i| if i.1 { i.0[0] } else { 0.0 });
+    let y = Part::<Input, f64>::new(|i| sign(!i.2, i.0[1]))
+        .say("y is turned where it points up, as it does in pinhole's")
+        .when(|i| sign(i.2, i.0[1]))
+        .say("y is never turned")
+        .when(|i| i.0[1])
+        .say("y is always turned; it turns where it points down")
+        .when(|i| -i.0[1])
+        .say(ZERO)
+        .when(|i| if i.2 { i.0[1] } else { 0.0 });
+    let z = Part::<Input, f64>::new(|i| sign(i.3, i.0[2]))
+        .say("z is turned where it should not be: pinhole's points back, so theirs turns where it points ahead")
+        .when(|i| sign(!i.3, i.0[2]))
+        .say("z is never turned")
+        .when(|i| i.0[2])
+        .say("z is always turned; it turns where it points ahead")
+        .when(|i| -i.0[2]);
+    let whole = Part::<[f64; 3], Vector>::new(|&v| v)
+        .say("the answer is brought to length 1; the length stays what it is")
+        .when(|&v| if v == [0.0; 3] { v } else { divided(v) })
+        .when(|&v| divided(v));
+    Mistakes::<Input, Vector>::new()
+        .say("the direction is handed back as it is; no axis is turned")
+        .when(|&(v, ..)| v)
+        .say("each axis is turned about where its flag is true; x right and y up are pinhole's own")
+        .when(|&(v, x, y, z)| turned(v, x, y, z))
+        .say("all three axes are turned where they should not be, and not where they should")
+        .when(|&(v, x, y, z)| turned(v, x, y, !z))
+        .say("the flags of x and y are swapped")
+        .when(|&(v, x, y, z)| turned(v, !y, !x, z))
+        .say("the flags of y and z are swapped")
+        .when(|&(v, x, y, z)| turned(v, !x, z, !y))
+        .say("a left-handed camera is mended by its x alone; each axis turns by itself")
+        .when(|&(v, x, y, z)| turned(v, x == (y == z), false, false))
+        .say("a left-handed camera is mended by its y alone; each axis turns by itself")
+        .when(|&(v, x, y, z)| turned(v, false, x == (y == z), false))
+        .say("a left-handed camera is mended by its z alone; each axis turns by itself")
+        .when(|&(v, x, y, z)| turned(v, false, false, x == (y == z)))
+        .say(
+            "the camera is given half a turn, which changes two signs; each flag changes that of its own axis \
+                 only",
+        )
+        .when(|&(v, x, y, z)| turned(v, !x ^ z, !y, z))
+        .when(|&(v, x, y, z)| turned(v, !x, !y ^ z, z))
+        .when(|&(v, x, y, z)| turned(v, !x ^ !y, !y, z))
+        .when(|&(v, x, y, z)| turned(v, !x, !y, z ^ !y))
+        .when(|&(v, x, y, z)| turned(v, !x, !y ^ !x, z))
+        .when(|&(v, x, y, z)| turned(v, !x, !y, z ^ !x))
+        .when(|&(v, x, y, z)| turned(v, !x ^ z, !y ^ z, z))
+        .say("the whole direction is turned about where one flag asks for it; each flag changes one sign")
+        .when(|&(v, x, y, z)| turned(v, !x ^ !y ^ z, !x ^ !y ^ z, !x ^ !y ^ z))
+        .when(|&(v, x, y, z)| turned(v, !x || !y || z, !x || !y || z, !x || !y || z))
+        .say("y and z change places; the axes stay the same lines, and only their signs change")
+        .when(|&(v, x, y, z)| swapped(v, !x, false, z, !y, 1.0))
+        .when(|&(v, x, y, z)| swapped(v, !x, false, z, !y, -1.0))
+        .when(|&(v, x, y, z)| swapped(v, !x, true, z, !y, 1.0))
+        .when(|&(v, x, y, z)| swapped(v, !x, !y, z, z, 1.0))
+        .say("only the first axis that differs is turned; all three may differ at once")
+        .when(|&(v, x, y, z)| turned(v, !x, x && !y, x && y && z))
+        .when(|&(v, x, y, z)| turned(v, !x && y && !z, !y && !z, z))
+        .say("the direction's own signs are lost; each part keeps its sign or changes it")
+        .when(|i| right(&(i.0.map(f64::abs), i.1, i.2, i.3)))
+        .say("a right-handed camera's axes are left as they are; each axis turns by itself, even where two do")
+        .when(|&(v, x, y, z)| if x == (y == z) { turned(v, !x, !y, z) } else { v })
+        .say("x is mirrored once more in a left-handed camera; the three signs have mended that already")
+        .when(|&(v, x, y, z)| turned(v, !x ^ (x == (y == z)), !y, z))
+        .of_parts([x, y, z], whole)
 }
 
 fn right(&(v, x_right, y_up, z_ahead): &Input) -> Vector {
     turned(v, !x_right, !y_up, z_ahead)
 }
 
-fn signed(&(v, x_right, y_up, z_ahead): &Input, flags: [Flag; 3]) -> Vector {
-    let turn = |flag: &Flag, right: bool| match flag {
-        Right => right,
-        Opposite => !right,
-        Never => false,
-        Always => true,
-    };
-    let [x, y, z] = &flags;
-    turned(v, turn(x, !x_right), turn(y, !y_up), turn(z, z_ahead))
-}
-
 /// Turned, and then y and z swapped where that is so, y with this sign.
 fn swapped(v: Vector, turn_x: bool, turn_y: bool, turn_z: bool, swap: bool, sign: f64) -> Vector {
     let [x, y, z] = turned(v, turn_x, turn_y, turn_z);
     if swap { [x, sign * z, -sign * y] } else { [x, y, z] }
+}
+
+const ZERO: &str = "a flag that is false makes its part 0; it changes the sign";
+
+fn sign(turn: bool, part: f64) -> f64 {
+    if turn { -part } else { part }
+}
+
+fn turned([x, y, z]: Vector, turn_x: bool, turn_y: bool, turn_z: bool) -> Vector {
+    [sign(turn_x, x), sign(turn_y, y), sign(turn_z, z)]
+}
+
+fn divided(v: Vector) -> Vector {
+    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    v.map(|part| part / length)
 }

@@ -5,7 +5,7 @@ use bevy_ecs::prelude::World;
 use pinhole::plan::{Census, ColumnKind, Evidence, Lifetime, Stage, TileSystems, plan};
 use pinhole::stages;
 use pinhole_lab::exercise::apart::exact;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Input = (Vec<StageWords>, String);
@@ -47,52 +47,46 @@ fn question() -> Question<Input, Vec<String>> {
         apart: exact,
         allowed: 0.0,
         measured: "stages",
-        mistakes: vec![
-            Mistake::new("whether the scene needs a stage is left out", |input| by_rule(input, |_| true, true)),
-            Mistake::new("whether anything reads what a stage writes is left out", |(stages, _)| {
-                named(stages, |stage| stage.needed)
-            }),
-            Mistake::new("the stages come out last to first", |input| turned(right(input))),
-            Mistake::new(
-                "a stage counts as read if an earlier one reads what it writes; only later ones can",
-                |input| by_rule(input, |stage| stage.needed, false),
-            ),
-            Mistake::new(FORWARD, |input| forward(input, |stage| stage.needed)),
-            Mistake::new(FORWARD, |input| forward(input, |_| true)),
-            Mistake::new(
-                "what a stage that the scene does not need reads is wanted too; only kept stages want anything",
-                |input| {
-                    let wanted = by_rule(input, |_| true, true);
-                    named(&input.0, |stage| stage.needed && wanted.contains(&stage.name))
-                },
-            ),
-            Mistake::new(DROPPED, |input| read_by(input, |_| true, false)),
-            Mistake::new(DROPPED, |input| read_by(input, |later| later.needed, false)),
-            Mistake::new(DROPPED, |input| read_by(input, |later| later.needed, true)),
-            Mistake::new(
-                "the column asked for is not wanted at first, so that nothing is kept that only it needs",
-                |(stages, _)| right(&(stages.clone(), String::new())),
-            ),
-            Mistake::new(
-                "a stage is kept only if all that it writes is wanted; one wanted column is enough",
-                |input| {
-                    backward(input, |stage, wanted| stage.writes.iter().all(|column| wanted.contains(column)), KEEP)
-                },
-            ),
-            Mistake::new(
-                "a stage is kept only if all that it writes is wanted; one wanted column is enough",
-                |input| {
-                    let all = |stage: &StageWords, wanted: &[String]| {
-                        !stage.writes.is_empty() && stage.writes.iter().all(|column| wanted.contains(column))
-                    };
-                    backward(input, all, KEEP)
-                },
-            ),
-            Mistake::new("only the first column that a stage writes is looked at", |input| {
+        mistakes: Mistakes::<Input, Vec<String>>::new()
+            .say("whether the scene needs a stage is left out")
+            .when(|input| by_rule(input, |_| true, true))
+            .say("whether anything reads what a stage writes is left out")
+            .when(|(stages, _)| named(stages, |stage| stage.needed))
+            .say("the stages come out last to first")
+            .when(|input| turned(right(input)))
+            .say("a stage counts as read if an earlier one reads what it writes; only later ones can")
+            .when(|input| by_rule(input, |stage| stage.needed, false))
+            .say("the stages are gone through first to last; who reads a column comes later, so begin with the last")
+            .when(|input| forward(input, |stage| stage.needed))
+            .when(|input| forward(input, |_| true))
+            .say("what a stage that the scene does not need reads is wanted too; only kept stages want anything")
+            .when(|input| {
+                let wanted = by_rule(input, |_| true, true);
+                named(&input.0, |stage| stage.needed && wanted.contains(&stage.name))
+            })
+            .say("what a dropped stage reads is wanted too; only kept stages want anything")
+            .when(|input| read_by(input, |_| true, false))
+            .when(|input| read_by(input, |later| later.needed, false))
+            .when(|input| read_by(input, |later| later.needed, true))
+            .say("the column asked for is not wanted at first, so that nothing is kept that only it needs")
+            .when(|(stages, _)| right(&(stages.clone(), String::new())))
+            .say("a stage is kept only if all that it writes is wanted; one wanted column is enough")
+            .when(|input| {
+                backward(input, |stage, wanted| stage.writes.iter().all(|column| wanted.contains(column)), KEEP)
+            })
+            .when(|input| {
+                let all = |stage: &StageWords, wanted: &[String]| {
+                    !stage.writes.is_empty() && stage.writes.iter().all(|column| wanted.contains(column))
+                };
+                backward(input, all, KEEP)
+            })
+            .say("only the first column that a stage writes is looked at")
+            .when(|input| {
                 backward(input, |stage, wanted| stage.writes.first().is_some_and(|c| wanted.contains(c)), KEEP)
-            }),
-            Mistake::new(PROVIDED, |input| backward(input, writes_any, |stage, c| stage.writes.contains(c))),
-            Mistake::new(PROVIDED, |(stages, asked)| {
+            })
+            .say("a column counts as provided for once a stage writes it; every needed stage that writes it is kept")
+            .when(|input| backward(input, writes_any, |stage, c| stage.writes.contains(c)))
+            .when(|(stages, asked)| {
                 let (mut wanted, mut kept, mut at) = (vec![asked], vec![false; stages.len()], 0);
                 while at < wanted.len() {
                     let writes = |stage: &StageWords| stage.needed && stage.writes.contains(wanted[at]);
@@ -103,46 +97,40 @@ fn question() -> Question<Input, Vec<String>> {
                     at += 1;
                 }
                 stages.iter().zip(kept).filter(|(_, kept)| *kept).map(|(stage, _)| stage.name.clone()).collect()
-            }),
-            Mistake::new("only what the last kept stage reads is wanted; what the others read stays wanted", |input| {
-                backward(input, writes_any, |_, _| true)
-            }),
-            Mistake::new("what a stage reads and what it writes are swapped", |(stages, asked)| {
+            })
+            .say("only what the last kept stage reads is wanted; what the others read stays wanted")
+            .when(|input| backward(input, writes_any, |_, _| true))
+            .say("what a stage reads and what it writes are swapped")
+            .when(|(stages, asked)| {
                 let swap = |stage: &StageWords| StageWords {
                     reads: stage.writes.clone(),
                     writes: stage.reads.clone(),
                     ..stage.clone()
                 };
                 by_rule(&(stages.iter().map(swap).collect(), asked.clone()), |stage| stage.needed, true)
-            }),
-            Mistake::new("a stage is kept only if it reads what is wanted; it must write that", |input| {
-                backward(input, |stage, wanted| stage.reads.iter().any(|c| wanted.contains(c)), KEEP)
-            }),
-            Mistake::new(
-                "only the stage that writes the column asked for is kept; it reads columns too",
-                |(stages, asked)| named(stages, |stage| stage.needed && stage.writes.contains(asked)),
-            ),
-            Mistake::new(
-                "only the stages that those of the column asked for read are kept; these read columns in their turn",
-                |(stages, asked)| {
-                    let last = |stage: &&StageWords| stage.needed && stage.writes.contains(asked);
-                    let wanted: Vec<&String> = stages.iter().filter(last).flat_map(|stage| &stage.reads).collect();
-                    named(stages, |stage| {
-                        stage.needed && stage.writes.iter().any(|c| c == asked || wanted.contains(&c))
-                    })
-                },
-            ),
-            Mistake::new("the stages come out in another order; they are named in theirs", |input| {
+            })
+            .say("a stage is kept only if it reads what is wanted; it must write that")
+            .when(|input| backward(input, |stage, wanted| stage.reads.iter().any(|c| wanted.contains(c)), KEEP))
+            .say("only the stage that writes the column asked for is kept; it reads columns too")
+            .when(|(stages, asked)| named(stages, |stage| stage.needed && stage.writes.contains(asked)))
+            .say("only the stages that those of the column asked for read are kept; these read columns in their turn")
+            .when(|(stages, asked)| {
+                let last = |stage: &&StageWords| stage.needed && stage.writes.contains(asked);
+                let wanted: Vec<&String> = stages.iter().filter(last).flat_map(|stage| &stage.reads).collect();
+                named(stages, |stage| stage.needed && stage.writes.iter().any(|c| c == asked || wanted.contains(&c)))
+            })
+            .say("the stages come out in another order; they are named in theirs")
+            .when(|input| {
                 let mut names = right(input);
                 names.sort_unstable();
                 names
-            }),
-            Mistake::new("the search ends at the first stage that is not kept; one before it may be", |input| {
+            })
+            .say("the search ends at the first stage that is not kept; one before it may be")
+            .when(|input| {
                 let kept = right(input);
                 let ends = input.0.iter().rev().take_while(|stage| kept.contains(&stage.name)).count();
                 named(&input.0[input.0.len() - ends..], |_| true)
             }),
-        ],
         hints: &[
             "a stage is kept when the scene needs it and a kept stage after it, or the one who asks, reads what it \
              writes; who must be decided first?",
@@ -263,12 +251,6 @@ fn told(stage: &StageWords) -> String {
     let needed = if stage.needed { "needed" } else { "not needed" };
     format!("{}: {needed}, reads {}, writes {}", stage.name, list(&stage.reads), list(&stage.writes))
 }
-
-const FORWARD: &str =
-    "the stages are gone through first to last; who reads a column comes later, so begin with the last";
-const DROPPED: &str = "what a dropped stage reads is wanted too; only kept stages want anything";
-const PROVIDED: &str =
-    "a column counts as provided for once a stage writes it; every needed stage that writes it is kept";
 
 /// Wanted columns stay wanted.
 const KEEP: fn(&StageWords, &String) -> bool = |_, _| false;

@@ -4,7 +4,7 @@ use super::mine::mine;
 use glam::{DVec3, Vec3};
 use pinhole::shapes::Slabs;
 use pinhole_lab::exercise::apart::{option, relative};
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::oracle_cuboid::cuboid_hit;
 use pinhole_lab::measure::ray_aim::Draws;
 
@@ -32,93 +32,82 @@ fn question() -> Question<Input, Answer> {
         apart: |yours, right| option(yours, right, |yours, right| relative(&[*yours], &[*right])),
         allowed: 1e-12,
         measured: "of t",
-        mistakes: vec![
-            Mistake::new(BEHIND, |i| by_slabs(i, Zero::Checked, &sorted, &common).map(|[enters, _]| enters)),
-            Mistake::new(BEHIND, |i| {
+        mistakes: Mistakes::<Input, Answer>::new()
+            .say("what lies behind the origin is hit too: only t above 0 counts")
+            .when(|i| by_slabs(i, Zero::Checked, &sorted, &common).map(|[enters, _]| enters))
+            .when(|i| {
                 by_slabs(i, Zero::Checked, &sorted, &common)
                     .map(|[enters, leaves]| if enters > 0.0 { enters } else { leaves })
-            }),
-            Mistake::new("from inside, nothing is hit: the ray entered behind the origin, but it leaves ahead", |i| {
-                by_slabs(i, Zero::Checked, &sorted, &common).map(|[enters, _]| enters).filter(|&t| t > 0.0)
-            }),
-            Mistake::new("from inside, the origin counts as the hit; the ray hits the box where it leaves", |i| {
+            })
+            .when(|i| by_slabs(i, Zero::Checked, &sorted, &common).filter(|t| t[1] > 0.0).map(|[enters, _]| enters))
+            .when(|i| {
+                by_slabs(i, Zero::Checked, &sorted, &common).map(|[enters, leaves]| enters.abs().min(leaves.abs()))
+            })
+            .say("from inside, nothing is hit: the ray entered behind the origin, but it leaves ahead")
+            .when(|i| by_slabs(i, Zero::Checked, &sorted, &common).map(|[enters, _]| enters).filter(|&t| t > 0.0))
+            .say("from inside, the origin counts as the hit; the ray hits the box where it leaves")
+            .when(|i| {
                 by_slabs(i, Zero::Checked, &sorted, &common).filter(|t| t[1] >= 0.0).map(|[enters, _]| enters.max(0.0))
-            }),
-            Mistake::new("the far side is taken where the near one is ahead", |i| {
-                by_slabs(i, Zero::Checked, &sorted, &common).map(|[_, leaves]| leaves).filter(|&t| t > 0.0)
-            }),
-            Mistake::new("t = 0 counts as a hit; only t above 0 does", |i| {
-                by_slabs(i, Zero::Checked, &sorted, &common)?.into_iter().find(|&t| t >= 0.0)
-            }),
-            Mistake::new(
-                "the slab is entered at its smaller coordinate; where the direction is negative it is left there",
-                |i| ahead(by_slabs(i, Zero::Divided, &|t, _| t, &common)),
-            ),
-            Mistake::new(
-                "the slab is entered at its smaller coordinate; where the direction is negative it is left there",
-                |i| ahead(by_slabs(i, Zero::Checked, &|t, _| t, &common)),
-            ),
-            Mistake::new(
-                "the slab is entered at its larger coordinate; where the direction is positive it is left there",
-                |i| ahead(by_slabs(i, Zero::Checked, &|[low, high], _| [high, low], &common)),
-            ),
-            Mistake::new(MINUS_0, |i| {
+            })
+            .say("the far side is taken where the near one is ahead")
+            .when(|i| by_slabs(i, Zero::Checked, &sorted, &common).map(|[_, leaves]| leaves).filter(|&t| t > 0.0))
+            .say("t = 0 counts as a hit; only t above 0 does")
+            .when(|i| by_slabs(i, Zero::Checked, &sorted, &common)?.into_iter().find(|&t| t >= 0.0))
+            .say("the slab is entered at its smaller coordinate; where the direction is negative it is left there")
+            .when(|i| ahead(by_slabs(i, Zero::Divided, &|t, _| t, &common)))
+            .when(|i| ahead(by_slabs(i, Zero::Checked, &|t, _| t, &common)))
+            .say("the slab is entered at its larger coordinate; where the direction is positive it is left there")
+            .when(|i| ahead(by_slabs(i, Zero::Checked, &|[low, high], _| [high, low], &common)))
+            .say(
+                "near and far are told apart by the direction's sign, which a zero below zero has not when it is \
+                 compared: take the smaller and the larger quotient",
+            )
+            .when(|i| {
                 ahead(by_slabs(
                     i,
                     Zero::Divided,
                     &|[low, high], d| if d >= 0.0 { [low, high] } else { [high, low] },
                     &common,
                 ))
-            }),
-            Mistake::new(MINUS_0, |i| {
+            })
+            .when(|i| {
                 ahead(by_slabs(
                     i,
                     Zero::Divided,
                     &|[low, high], d| if d > 0.0 { [low, high] } else { [high, low] },
                     &common,
                 ))
-            }),
-            Mistake::new(UNION, |i| {
-                ahead(by_slabs(i, Zero::Divided, &sorted, &|a, b| [a[0].min(b[0]), a[1].max(b[1])]))
-            }),
-            Mistake::new(UNION, |i| {
-                ahead(by_slabs(i, Zero::Skipped, &sorted, &|a, b| [a[0].min(b[0]), a[1].max(b[1])]))
-            }),
-            Mistake::new(
-                "the ray is inside until it leaves the last slab; it leaves the box with the first slab",
-                |i| {
-                    ahead(by_slabs(i, Zero::Checked, &sorted, &|a, b| {
-                        [a[0].max(b[0]), if a[1].is_infinite() { b[1] } else { a[1].max(b[1]) }]
-                    }))
-                },
-            ),
-            Mistake::new(
-                "the ray is inside from where it enters the first slab; it enters the box with the last slab",
-                |i| {
-                    ahead(by_slabs(i, Zero::Checked, &sorted, &|a, b| {
-                        [if a[0].is_infinite() { b[0] } else { a[0].min(b[0]) }, a[1].min(b[1])]
-                    }))
-                },
-            ),
-            Mistake::new("an axis along which the direction is 0 is left out; the ray may run beside that slab", |i| {
-                ahead(by_slabs(i, Zero::Skipped, &sorted, &common))
-            }),
-            Mistake::new("whether the ray leaves before it enters is never asked; then it misses the box", |i| {
-                in_order(spans(i, Zero::Checked, &sorted, &common)?)
-            }),
-            Mistake::new("whether the ray leaves before it enters is never asked; then it misses the box", |i| {
-                in_order(spans(i, Zero::Divided, &sorted, &common)?)
-            }),
-            Mistake::new(EDGES, |i| {
-                ahead(by_slabs(i, Zero::Checked, &sorted, &common).filter(|[enters, leaves]| enters < leaves))
-            }),
-            Mistake::new(EDGES, |i| faces_hit(i, |least, at, most| least < at && at < most).reduce(f64::min)),
-            Mistake::new(
+            })
+            .say("the ray is taken to be inside while any slab has it; the box is what all three have in common")
+            .when(|i| ahead(by_slabs(i, Zero::Divided, &sorted, &|a, b| [a[0].min(b[0]), a[1].max(b[1])])))
+            .when(|i| ahead(by_slabs(i, Zero::Skipped, &sorted, &|a, b| [a[0].min(b[0]), a[1].max(b[1])])))
+            .say("the ray is inside until it leaves the last slab; it leaves the box with the first slab")
+            .when(|i| {
+                ahead(by_slabs(i, Zero::Checked, &sorted, &|a, b| {
+                    [a[0].max(b[0]), if a[1].is_infinite() { b[1] } else { a[1].max(b[1]) }]
+                }))
+            })
+            .say("the ray is inside from where it enters the first slab; it enters the box with the last slab")
+            .when(|i| {
+                ahead(by_slabs(i, Zero::Checked, &sorted, &|a, b| {
+                    [if a[0].is_infinite() { b[0] } else { a[0].min(b[0]) }, a[1].min(b[1])]
+                }))
+            })
+            .say("an axis along which the direction is 0 is left out; the ray may run beside that slab")
+            .when(|i| ahead(by_slabs(i, Zero::Skipped, &sorted, &common)))
+            .say("whether the ray leaves before it enters is never asked; then it misses the box")
+            .when(|i| in_order(spans(i, Zero::Checked, &sorted, &common)?))
+            .when(|i| in_order(spans(i, Zero::Divided, &sorted, &common)?))
+            .say("a ray through an edge or in a face is lost: they belong to the box, so compare with ≤")
+            .when(|i| ahead(by_slabs(i, Zero::Checked, &sorted, &common).filter(|[enters, leaves]| enters < leaves)))
+            .when(|i| faces_hit(i, |least, at, most| least < at && at < most).reduce(f64::min))
+            .say(
                 "the direction is brought to length 1 and t is left so; t counts in lengths of the direction as it \
                  was given",
-                |i| ahead(by_slabs(i, Zero::Checked, &sorted, &common)).map(|t| t * DVec3::from(i.1).length()),
-            ),
-            Mistake::new("z is left out: a box has three slabs", |i| {
+            )
+            .when(|i| ahead(by_slabs(i, Zero::Checked, &sorted, &common)).map(|t| t * DVec3::from(i.1).length()))
+            .say("z is left out: a box has three slabs")
+            .when(|i| {
                 let far = |v: [f64; 3], z| [v[0], v[1], z];
                 ahead(by_slabs(
                     &(i.0, far(i.1, 0.0), far(i.2, f64::MIN), far(i.3, f64::MAX)),
@@ -126,57 +115,43 @@ fn question() -> Question<Input, Answer> {
                     &sorted,
                     &common,
                 ))
-            }),
-            Mistake::new(IN_FACE, |i| ahead(by_slabs(i, Zero::Divided, &sorted, &common))),
-            Mistake::new(IN_FACE, |i| ahead(by_slabs(i, Zero::Lost, &sorted, &common))),
-            Mistake::new(IN_FACE, |i| ahead(by_slabs(i, Zero::Within, &sorted, &common))),
-            Mistake::new(IN_FACE, |i| {
+            })
+            .say(
+                "a ray in the plane of a face is lost: 0 by 0 is not a number, or what lies in that plane is taken \
+                 to be outside",
+            )
+            .when(|i| ahead(by_slabs(i, Zero::Divided, &sorted, &common)))
+            .when(|i| ahead(by_slabs(i, Zero::Lost, &sorted, &common)))
+            .when(|i| ahead(by_slabs(i, Zero::Within, &sorted, &common)))
+            .when(|i| {
                 let larger = |a: f64, b: f64| if b > a || a.is_nan() { b } else { a };
                 ahead(by_slabs(i, Zero::Divided, &|[a, b], _| if a > b { [b, a] } else { [a, b] }, &|a, b| {
                     [larger(a[0], b[0]), -larger(-a[1], -b[1])]
                 }))
-            }),
-            Mistake::new(
-                "a direction of 0 along an axis is taken for a miss: between that axis's faces, all t will do",
-                |i| ahead(by_slabs(i, Zero::Missed, &sorted, &common)),
-            ),
-            Mistake::new(
-                "the ray is not yet inside where it enters the first slab, only where it enters the last slab",
-                |input| {
-                    let &(o, d, least, most) = input;
-                    by_slabs(input, Zero::Checked, &sorted, &common)?;
-                    let near =
-                        |axis: usize| f64::min((least[axis] - o[axis]) / d[axis], (most[axis] - o[axis]) / d[axis]);
-                    (0..3).filter(|&axis| d[axis] != 0.0).map(near).filter(|&t| t > 0.0).reduce(f64::min)
-                },
-            ),
-            Mistake::new(
-                "the nearest of the six planes counts, though the ray may hit it beside the box",
-                |&(o, d, l, m)| {
-                    let of_axis = |axis: usize| [l, m].map(|face| (face[axis] - o[axis]) / d[axis]);
-                    (0..3).flat_map(of_axis).filter(|t| *t > 0.0 && t.is_finite()).reduce(f64::min)
-                },
-            ),
-            Mistake::new(BEHIND, |i| {
-                by_slabs(i, Zero::Checked, &sorted, &common).filter(|t| t[1] > 0.0).map(|[enters, _]| enters)
-            }),
-            Mistake::new(BEHIND, |i| {
-                by_slabs(i, Zero::Checked, &sorted, &common).map(|[enters, leaves]| enters.abs().min(leaves.abs()))
-            }),
-            Mistake::new(
-                "the first or last face that is found counts; the ray hits two of them, and the nearer one is meant",
-                |i| faces_hit(i, |least, at, most| least <= at && at <= most).last(),
-            ),
-            Mistake::new(
-                "the first or last face that is found counts; the ray hits two of them, and the nearer one is meant",
-                |i| faces_hit(i, |least, at, most| least <= at && at <= most).next(),
-            ),
-            Mistake::new("the faces are put a whole size from the centre; half the size is meant", |&(o, d, l, m)| {
+            })
+            .say("a direction of 0 along an axis is taken for a miss: between that axis's faces, all t will do")
+            .when(|i| ahead(by_slabs(i, Zero::Missed, &sorted, &common)))
+            .say("the ray is not yet inside where it enters the first slab, only where it enters the last slab")
+            .when(|input| {
+                let &(o, d, least, most) = input;
+                by_slabs(input, Zero::Checked, &sorted, &common)?;
+                let near = |axis: usize| f64::min((least[axis] - o[axis]) / d[axis], (most[axis] - o[axis]) / d[axis]);
+                (0..3).filter(|&axis| d[axis] != 0.0).map(near).filter(|&t| t > 0.0).reduce(f64::min)
+            })
+            .say("the nearest of the six planes counts, though the ray may hit it beside the box")
+            .when(|&(o, d, l, m)| {
+                let of_axis = |axis: usize| [l, m].map(|face| (face[axis] - o[axis]) / d[axis]);
+                (0..3).flat_map(of_axis).filter(|t| *t > 0.0 && t.is_finite()).reduce(f64::min)
+            })
+            .say("the first or last face that is found counts; the ray hits two of them, and the nearer one is meant")
+            .when(|i| faces_hit(i, |least, at, most| least <= at && at <= most).last())
+            .when(|i| faces_hit(i, |least, at, most| least <= at && at <= most).next())
+            .say("the faces are put a whole size from the centre; half the size is meant")
+            .when(|&(o, d, l, m)| {
                 let half = (DVec3::from(m) - DVec3::from(l)) / 2.0;
                 let (least, most) = ((DVec3::from(l) - half).into(), (DVec3::from(m) + half).into());
                 ahead(by_slabs(&(o, d, least, most), Zero::Checked, &sorted, &common))
             }),
-        ],
         hints: &[
             "a box is what three slabs have in common: least ≤ x ≤ most for each coordinate by itself",
             "the ray crosses the two faces of a slab at (least − o) / d and (most − o) / d; it enters at the smaller of \
@@ -339,12 +314,3 @@ fn slabs(least: [f64; 3], most: [f64; 3]) -> Slabs {
     let half = (most - least) / 2.0;
     Slabs::new((least + most) / 2.0, DVec3::AXES, [DVec3::X * half.x, DVec3::Y * half.y, DVec3::Z * half.z])
 }
-
-const BEHIND: &str = "what lies behind the origin is hit too: only t above 0 counts";
-const MINUS_0: &str = "near and far are told apart by the direction's sign, which a zero below zero has not when it \
-                       is compared: take \
-                       the smaller and the larger quotient";
-const UNION: &str = "the ray is taken to be inside while any slab has it; the box is what all three have in common";
-const IN_FACE: &str =
-    "a ray in the plane of a face is lost: 0 by 0 is not a number, or what lies in that plane is taken to be outside";
-const EDGES: &str = "a ray through an edge or in a face is lost: they belong to the box, so compare with ≤";

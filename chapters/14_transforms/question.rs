@@ -4,7 +4,7 @@ use super::mine::mine;
 use glam::DVec3;
 use pinhole::intersect;
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 type Vector = [f64; 3];
@@ -39,109 +39,100 @@ fn question() -> Question<Input, f64> {
         apart: |yours, right| absolute(&[*yours], &[*right]),
         allowed: 1e-12,
         measured: "of the cosine",
-        mistakes: vec![
-            Mistake::new("light falls as the surface lies, whatever its corners' normals are", |i| {
-                cosine(i, faced(i)).max(0.0)
-            }),
-            Mistake::new("the mixed normal is not brought to length 1", |i| {
-                cosine(i, turned(i) * mixed(i).length()).max(0.0)
-            }),
-            Mistake::new(CORNERS, |i| if above(i) { of_corners(i, |cosine| cosine.max(0.0)) } else { 0.0 }),
-            Mistake::new(CORNERS, |i| if above(i) { of_corners(i, f64::abs) } else { 0.0 }),
-            Mistake::new(CORNERS, |i| of_corners(i, |cosine| cosine.max(0.0))),
-            Mistake::new("the weights are left out; each corner's normal counts as much as its weight", |i| {
-                right(&(i.0, i.1, [1.0 / 3.0; 3], i.3, i.4))
-            }),
-            Mistake::new("the weights go with the wrong corners; the first belongs to the first normal", |i| {
-                right(&(i.0, i.1, [i.2[1], i.2[2], i.2[0]], i.3, i.4))
-            }),
-            Mistake::new(
-                "light comes from below the surface, where the mixed normal leans to it; that counts as none",
-                |i| turned(i).dot(light(i)).max(0.0),
-            ),
-            Mistake::new("the answer is negative where the mixed normal faces away; it is 0", |i| cosine(i, turned(i))),
-            Mistake::new(ABSOLUTE, |i| cosine(i, turned(i)).abs()),
-            Mistake::new(ABSOLUTE, |i| turned(i).dot(light(i)).abs()),
-            Mistake::new("the mixed normal is not turned to the eye's side of the surface", |i| {
-                cosine(i, mixed(i).normalize()).max(0.0)
-            }),
-            Mistake::new("the mixed normal is not turned to the eye's side of the surface", |i| {
-                cosine(i, mixed(i).normalize())
-            }),
-            Mistake::new(
-                "the mixed normal is not turned to the eye's side, and light from below the surface is not left out",
-                |i| mixed(i).normalize().dot(light(i)).max(0.0),
-            ),
-            Mistake::new(
-                "the mixed normal is not turned to the eye's side, but light falls only on the side that `geometric` \
-                 is on",
-                |i| on_own_side(i, mixed(i).normalize()),
-            ),
-            Mistake::new(
-                "the side is that of `geometric`, wherever the eye is; the triangle is lit on the eye's side",
-                |i| on_own_side(i, to_side(mixed(i).normalize(), i.0)),
-            ),
-            Mistake::new(OF_GEOMETRIC, |i| cosine(i, to_side(mixed(i).normalize(), i.0)).max(0.0)),
-            Mistake::new(OF_GEOMETRIC, |i| to_side(mixed(i).normalize(), i.0).dot(light(i)).max(0.0)),
-            Mistake::new(
-                "the side that is lit is the light's; it is the eye's, and light from the other side counts as none",
-                |i| {
-                    let side = to_side(i.0.into(), i.4);
-                    to_side(mixed(i).normalize(), side.into()).dot(light(i)).max(0.0)
-                },
-            ),
-            Mistake::new(OWN, |i| cosine(i, to_side(mixed(i).normalize(), i.3)).max(0.0)),
-            Mistake::new(OWN, |i| to_side(mixed(i).normalize(), i.3).dot(light(i)).max(0.0)),
-            Mistake::new(
-                "the mixed normal is turned to the light; on which side of it the light is decides whether any falls",
-                |i| cosine(i, to_side(mixed(i).normalize(), i.4)).max(0.0),
-            ),
-            Mistake::new(
-                "each corner's normal is turned to the eye by itself; they are all on one side of the triangle",
-                |i| {
-                    let normals = i.1.map(|normal| to_side(normal.into(), i.3).to_array());
-                    let mixed = mixed(&(i.0, normals, i.2, i.3, i.4)).normalize();
-                    cosine(i, mixed).max(0.0)
-                },
-            ),
-            Mistake::new("the direction to the light is not brought to length 1", |i| {
-                right(i) * DVec3::from(i.4).length()
-            }),
-            Mistake::new("neither the mixed normal nor the direction to the light is brought to length 1", |i| {
-                right(i) * DVec3::from(i.4).length() * mixed(i).length()
-            }),
-            Mistake::new("this is the cosine towards the eye; that towards the light is asked for", |i| {
-                if above(i) { turned(i).dot(DVec3::from(i.3).normalize()).max(0.0) } else { 0.0 }
-            }),
-            Mistake::new("the direction leads from the light to the point; the opposite is meant", |i| {
-                right(&(i.0, i.1, i.2, i.3, i.4.map(|part| -part)))
-            }),
-            Mistake::new(
-                "the cosine is multiplied by that of the surface itself; the mixed normal takes its place",
-                |i| right(i) * faced(i).dot(light(i)).max(0.0),
-            ),
-            Mistake::new(
-                "the mixed normal is turned about where the triangle's own is, but it may be on the other side already",
-                |i| {
-                    let turn = if DVec3::from(i.0).dot(i.3.into()) < 0.0 { -1.0 } else { 1.0 };
-                    cosine(i, turn * mixed(i).normalize()).max(0.0)
-                },
-            ),
-            Mistake::new("one corner's normal is taken; all three are to be mixed by their weights", |i| {
+        mistakes: Mistakes::<Input, f64>::new()
+            .say("light falls as the surface lies, whatever its corners' normals are")
+            .when(|i| cosine(i, faced(i)).max(0.0))
+            .say("the mixed normal is not brought to length 1")
+            .when(|i| cosine(i, turned(i) * mixed(i).length()).max(0.0))
+            .say(
+                "the cosines at the corners are mixed; mix the normals and take one cosine, of their mean brought \
+                 to length 1",
+            )
+            .when(|i| if above(i) { of_corners(i, |cosine| cosine.max(0.0)) } else { 0.0 })
+            .when(|i| if above(i) { of_corners(i, f64::abs) } else { 0.0 })
+            .when(|i| of_corners(i, |cosine| cosine.max(0.0)))
+            .say("the weights are left out; each corner's normal counts as much as its weight")
+            .when(|i| right(&(i.0, i.1, [1.0 / 3.0; 3], i.3, i.4)))
+            .say("the weights go with the wrong corners; the first belongs to the first normal")
+            .when(|i| right(&(i.0, i.1, [i.2[1], i.2[2], i.2[0]], i.3, i.4)))
+            .say("light comes from below the surface, where the mixed normal leans to it; that counts as none")
+            .when(|i| turned(i).dot(light(i)).max(0.0))
+            .say("the answer is negative where the mixed normal faces away; it is 0")
+            .when(|i| cosine(i, turned(i)))
+            .say(
+                "light falls on the mixed normal from behind, too: where its cosine is below 0 the answer is 0, \
+                 not the cosine without its sign",
+            )
+            .when(|i| cosine(i, turned(i)).abs())
+            .when(|i| turned(i).dot(light(i)).abs())
+            .say("the mixed normal is not turned to the eye's side of the surface")
+            .when(|i| cosine(i, mixed(i).normalize()).max(0.0))
+            .when(|i| cosine(i, mixed(i).normalize()))
+            .say("the mixed normal is not turned to the eye's side, and light from below the surface is not left out")
+            .when(|i| mixed(i).normalize().dot(light(i)).max(0.0))
+            .say(
+                "the mixed normal is not turned to the eye's side, but light falls only on the side that \
+                 `geometric` is on",
+            )
+            .when(|i| on_own_side(i, mixed(i).normalize()))
+            .say("the side is that of `geometric`, wherever the eye is; the triangle is lit on the eye's side")
+            .when(|i| on_own_side(i, to_side(mixed(i).normalize(), i.0)))
+            .say(
+                "the mixed normal is turned to the side of `geometric`, which may be the other one: what counts is \
+                 the eye's",
+            )
+            .when(|i| cosine(i, to_side(mixed(i).normalize(), i.0)).max(0.0))
+            .when(|i| to_side(mixed(i).normalize(), i.0).dot(light(i)).max(0.0))
+            .say("the side that is lit is the light's; it is the eye's, and light from the other side counts as none")
+            .when(|i| {
+                let side = to_side(i.0.into(), i.4);
+                to_side(mixed(i).normalize(), side.into()).dot(light(i)).max(0.0)
+            })
+            .say(
+                "the mixed normal is turned to the eye by its own direction; what counts is the side of the \
+                 surface on which the eye is",
+            )
+            .when(|i| cosine(i, to_side(mixed(i).normalize(), i.3)).max(0.0))
+            .when(|i| to_side(mixed(i).normalize(), i.3).dot(light(i)).max(0.0))
+            .say("the mixed normal is turned to the light; on which side of it the light is decides whether any falls")
+            .when(|i| cosine(i, to_side(mixed(i).normalize(), i.4)).max(0.0))
+            .say("each corner's normal is turned to the eye by itself; they are all on one side of the triangle")
+            .when(|i| {
+                let normals = i.1.map(|normal| to_side(normal.into(), i.3).to_array());
+                let mixed = mixed(&(i.0, normals, i.2, i.3, i.4)).normalize();
+                cosine(i, mixed).max(0.0)
+            })
+            .say("the direction to the light is not brought to length 1")
+            .when(|i| right(i) * DVec3::from(i.4).length())
+            .say("neither the mixed normal nor the direction to the light is brought to length 1")
+            .when(|i| right(i) * DVec3::from(i.4).length() * mixed(i).length())
+            .say("this is the cosine towards the eye; that towards the light is asked for")
+            .when(|i| if above(i) { turned(i).dot(DVec3::from(i.3).normalize()).max(0.0) } else { 0.0 })
+            .say("the direction leads from the light to the point; the opposite is meant")
+            .when(|i| right(&(i.0, i.1, i.2, i.3, i.4.map(|part| -part))))
+            .say("the cosine is multiplied by that of the surface itself; the mixed normal takes its place")
+            .when(|i| right(i) * faced(i).dot(light(i)).max(0.0))
+            .say(
+                "the mixed normal is turned about where the triangle's own is, but it may be on the other side \
+                 already",
+            )
+            .when(|i| {
+                let turn = if DVec3::from(i.0).dot(i.3.into()) < 0.0 { -1.0 } else { 1.0 };
+                cosine(i, turn * mixed(i).normalize()).max(0.0)
+            })
+            .say("one corner's normal is taken; all three are to be mixed by their weights")
+            .when(|i| {
                 let heaviest = (0..3).fold(0, |best, corner| if i.2[corner] > i.2[best] { corner } else { best });
                 cosine(i, to_side(i.1[heaviest].into(), faced(i).into())).max(0.0)
-            }),
-            Mistake::new("one corner's normal is taken; all three are to be mixed by their weights", |i| {
-                cosine(i, to_side(i.1[0].into(), faced(i).into())).max(0.0)
-            }),
-            Mistake::new("the normals are added without their weights", |i| {
-                right(&(i.0, i.1, [1.0; 3], i.3, i.4)) * mixed(&(i.0, i.1, [1.0; 3], i.3, i.4)).length()
-            }),
-            Mistake::new(
-                "the smaller of the two cosines is taken; the surface's own only tells whether any light falls at all",
-                |i| faced(i).dot(light(i)).min(turned(i).dot(light(i))).max(0.0),
-            ),
-        ],
+            })
+            .when(|i| cosine(i, to_side(i.1[0].into(), faced(i).into())).max(0.0))
+            .say("the normals are added without their weights")
+            .when(|i| right(&(i.0, i.1, [1.0; 3], i.3, i.4)) * mixed(&(i.0, i.1, [1.0; 3], i.3, i.4)).length())
+            .say(
+                "the smaller of the two cosines is taken; the surface's own only tells whether any light falls at \
+                 all",
+            )
+            .when(|i| faced(i).dot(light(i)).min(turned(i).dot(light(i))).max(0.0)),
         hints: &[
             "three steps: mix the corners' normals by the weights; see on which side of the triangle eye and light are; \
              take the cosine",
@@ -220,17 +211,6 @@ fn somewhere(at: u64) -> Input {
     let light = draws.unit_vector() * draws.power_of_ten(-1.0, 2.0);
     (geometric.to_array(), normals, weights, eye.to_array(), light.to_array())
 }
-
-const CORNERS: &str = "the cosines at the corners are mixed; mix the normals and take one cosine, of their mean \
-                       brought to length 1";
-const OF_GEOMETRIC: &str = "the mixed normal is turned to the side of `geometric`, which may be the other one: what \
-                            counts is the eye's";
-const ABSOLUTE: &str = "light falls on the mixed normal from behind, too: where its cosine is below 0 the answer is \
-                        0, not the cosine \
-                        without its sign";
-const OWN: &str = "the mixed normal is turned to the eye by its own direction; what counts is the side of the surface \
-                   on which the \
-                   eye is";
 
 fn right(input: &Input) -> f64 {
     cosine(input, turned(input)).max(0.0)

@@ -5,7 +5,7 @@ use glam::DVec3;
 use pinhole::material::{half_vector_cosine, highlight, mirror_cosine, phong_peak};
 use pinhole::shade::matte_radiance;
 use pinhole_lab::exercise::apart::relative;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Part, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use std::f64::consts::PI;
 
@@ -39,146 +39,7 @@ fn question() -> Question<Input, f64> {
         apart: |yours, right| relative(&[*yours], &[*right]),
         allowed: 1e-10,
         measured: "of the radiance",
-        mistakes: vec![
-            Mistake::new(FACES_AWAY, |i| sent(i, lobe(i, alpha(i)), cosine(i))),
-            Mistake::new(
-                "a surface that faces away from the light is lit from behind: the cosine lost its sign",
-                |i| sent(i, lobe(i, alpha(i)), cosine(i).abs()),
-            ),
-            Mistake::new(
-                "the cosine of the light's angle is missing: it counts for the highlight as for the rest",
-                |i| if cosine(i) > 0.0 { sent(i, lobe(i, alpha(i)), 1.0) } else { 0.0 },
-            ),
-            Mistake::new(NO_COSINE, |i| if cosine(i) > 0.0 { apart(i, lit(i), 1.0, 1.0) } else { 0.0 }),
-            Mistake::new(NO_COSINE, |i| apart(i, lit(i), 1.0, 1.0)),
-            Mistake::new(
-                "the cosine is forgotten in the matte part; it lessens what arrives, so it counts for both",
-                |i| {
-                    if cosine(i) > 0.0 { apart(i, 1.0, lit(i), 1.0) } else { 0.0 }
-                },
-            ),
-            Mistake::new("the irradiance is left out of the highlight; it sends on what arrives, too", |i| {
-                apart(i, lit(i), lit(i) / i.1, 1.0)
-            }),
-            Mistake::new(
-                "the irradiance and the cosine are left out of the highlight; it sends on what arrives, too",
-                |i| {
-                    if cosine(i) > 0.0 { apart(i, lit(i), 1.0 / i.1, 1.0) } else { 0.0 }
-                },
-            ),
-            Mistake::new("the factor (n + 2) / 2π of the highlight is missing", |i| {
-                scaled(i, |n| 2.0 * PI / (n + 2.0))
-            }),
-            Mistake::new(
-                "the factor is that of cosⁿ alone, (n + 1) / 2π; the eye's own cosine makes it n + 2",
-                |i| scaled(i, |n| (n + 1.0) / (n + 2.0)),
-            ),
-            Mistake::new(FACTOR, |i| scaled(i, |_| 2.0)),
-            Mistake::new(FACTOR, |i| scaled(i, |_| PI * PI)),
-            Mistake::new(FACTOR, |i| scaled(i, |_| 0.5)),
-            Mistake::new(FACTOR, |i| scaled(i, |_| 2.0 * PI)),
-            Mistake::new(FACTOR, |i| scaled(i, |_| PI)),
-            Mistake::new(FACTOR, |i| scaled(i, |_| 1.0 / PI)),
-            Mistake::new(FACTOR, |i| scaled(i, |n| 2.0 / (n + 2.0))),
-            Mistake::new(FACTOR, |i| scaled(i, |n| n / (n + 2.0))),
-            Mistake::new(FACTOR, |i| scaled(i, |n| 2.0 * (n + 1.0) / (n + 2.0))),
-            Mistake::new(FACTOR, |i| scaled(i, |n| (n + 8.0) / (n + 2.0) / 4.0)),
-            Mistake::new("the matte part is colour / π; the π is missing", |i| apart(i, lit(i) * PI, lit(i), 1.0)),
-            Mistake::new("the matte part is colour / π, not colour / 2π", |i| apart(i, lit(i) / 2.0, lit(i), 1.0)),
-            Mistake::new("the matte part is left out", |i| apart(i, 0.0, lit(i), 1.0)),
-            Mistake::new("the highlight is left out", |i| apart(i, lit(i), 0.0, 1.0)),
-            Mistake::new("the specular reflectance is left out of the highlight", |i| {
-                apart(i, lit(i), lit(i) / i.0[1], 1.0)
-            }),
-            Mistake::new("the highlight has the colour, too; its reflectance is `specular` alone", |i| {
-                apart(i, lit(i), lit(i) * i.0[0], 1.0)
-            }),
-            Mistake::new(LESSENED, |i| apart(i, lit(i) * (1.0 - i.0[1]), lit(i), 1.0)),
-            Mistake::new(LESSENED, |i| apart(i, lit(i) * (1.0 - i.0[1] / i.0[0]), lit(i), 1.0)),
-            Mistake::new(LESSENED, |i| apart(i, lit(i), lit(i) * (1.0 - i.0[0]), 1.0)),
-            Mistake::new("colour and specular are swapped", |i| right(&([i.0[1], i.0[0], i.0[2]], i.1, i.2, i.3, i.4))),
-            Mistake::new(
-                "the highlight is about the half vector, which is Blinn's; Phong's is about the mirrored light",
-                |i| sent(i, lobe(i, half_vector_cosine(i.2.into(), i.3.into(), i.4.into())), lit(i)),
-            ),
-            Mistake::new(
-                "the mirrored direction points into the surface: it is 2(n·l)n − l, not l − 2(n·l)n",
-                |i| sent(i, lobe(i, -alpha(i)), lit(i)),
-            ),
-            Mistake::new("the mirrored direction lacks a 2: it is 2(n·l)n − l", |i| {
-                sent(i, lobe(i, (alpha(i) - towards_light(i)) / 2.0), lit(i))
-            }),
-            Mistake::new("the mirrored direction has a wrong sign: it is 2(n·l)n − l", |i| {
-                sent(i, lobe(i, alpha(i) + 2.0 * towards_light(i)), lit(i))
-            }),
-            Mistake::new(
-                "n·l is missing in the mirrored direction, and normalising does not replace it: it is 2(n·l)n − l",
-                |i| {
-                    let [normal, to_light] = [i.2, i.3].map(DVec3::from);
-                    let cosine = (2.0 * normal - to_light).normalize().dot(i.4.into());
-                    sent(i, phong_peak(i.0[2]) * cosine.max(0.0).powf(i.0[2]), lit(i))
-                },
-            ),
-            Mistake::new("the highlight is about the light itself; it is about the mirrored light", |i| {
-                sent(i, lobe(i, towards_light(i)), lit(i))
-            }),
-            Mistake::new("the highlight is about the normal; it is about the mirrored light", |i| {
-                sent(i, lobe(i, DVec3::from(i.2).dot(i.4.into())), lit(i))
-            }),
-            Mistake::new("the highlight's power is missing: its cosine to the n", |i| {
-                sent(i, phong_peak(i.0[2]) * alpha(i).max(0.0), lit(i))
-            }),
-            Mistake::new(EVEN, |i| sent(i, lobe(i, alpha(i).abs()), lit(i))),
-            Mistake::new(EVEN, |i| sent(i, phong_peak(i.0[2]) * alpha(i).powf(i.0[2]), lit(i))),
-            Mistake::new(EVEN, |i| sent(i, phong_peak(i.0[2]) * alpha(i).powi(i.0[2] as i32), lit(i))),
-            Mistake::new(
-                "0 to the power 0 is taken for 1: where cos α is not above 0 there is no highlight, whatever the \
-                 exponent",
-                |i| sent(i, phong_peak(i.0[2]) * alpha(i).max(0.0).powf(i.0[2]), lit(i)),
-            ),
-            Mistake::new(
-                "the matte part is left out where there is no highlight; it has nothing to do with the eye",
-                |i| {
-                    if alpha(i) > 0.0 { right(i) } else { 0.0 }
-                },
-            ),
-            Mistake::new(
-                "the highlight is about the normal, seen from the light; it is about the mirrored light",
-                |i| sent(i, lobe(i, cosine(i)), lit(i)),
-            ),
-            Mistake::new("the exponent is left out, both of the factor and of the power", |i| {
-                apart(i, lit(i), 0.0, 1.0) + i.0[1] * alpha(i).max(0.0) / PI * i.1 * lit(i)
-            }),
-            Mistake::new("the matte part has the factor of the highlight, too; it is colour / π", |i| {
-                let factor = phong_peak(i.0[2]) * PI;
-                apart(i, lit(i) * factor, lit(i), 1.0)
-            }),
-            Mistake::new(FACTOR, |i| scaled(i, |n| (n + 1.0 / PI) / (n + 2.0) * 2.0 * PI)),
-            Mistake::new(
-                "both factors are missing, 1 / π of the matte part and (n + 2) / 2π of the highlight",
-                |i| apart(i, lit(i) * PI, lit(i), 1.0 / phong_peak(i.0[2])),
-            ),
-            Mistake::new("the highlight lacks its factor (n + 2) / 2π and the cosine of the light's angle", |i| {
-                if cosine(i) > 0.0 { apart(i, lit(i), 1.0, 1.0 / phong_peak(i.0[2])) } else { 0.0 }
-            }),
-            Mistake::new(
-                "both factors are missing, 1 / π of the matte part and (n + 2) / 2π of the highlight, which lacks the \
-                 cosine, too",
-                |i| if cosine(i) > 0.0 { apart(i, lit(i) * PI, 1.0, 1.0 / phong_peak(i.0[2])) } else { 0.0 },
-            ),
-            Mistake::new("the exponent is cut to a whole number; powf takes it as it is", |i| {
-                sent(i, phong_peak(i.0[2]) * alpha(i).max(0.0).powi(i.0[2] as i32), lit(i))
-            }),
-            Mistake::new("the irradiance is left out", |i| right(i) / i.1),
-            Mistake::new("the colour is left out of the matte part", |i| apart(i, lit(i) / i.0[0], lit(i), 1.0)),
-            Mistake::new("the cosine counts twice in the highlight; it lessens what arrives, once", |i| {
-                apart(i, lit(i), lit(i) * lit(i), 1.0)
-            }),
-            Mistake::new("the cosine is the eye's; what arrives depends on the light's angle alone", |i| {
-                if cosine(i) > 0.0 { sent(i, lobe(i, alpha(i)), DVec3::from(i.2).dot(i.4.into())) } else { 0.0 }
-            }),
-            Mistake::new(FACES_AWAY, |i| apart(i, lit(i), cosine(i).abs(), 1.0)),
-        ],
+        mistakes: mistakes(),
         hints: &[
             "two parts, matte and highlight, each times what arrives: the irradiance times the cosine of the light's \
              angle",
@@ -187,6 +48,118 @@ fn question() -> Question<Input, f64> {
             "(colour / π + specular · (n + 2) / 2π · cosⁿα) · irradiance · n·l where n·l is above 0; 0 where it is not",
         ],
     }
+}
+
+fn mistakes() -> Mistakes<Input, f64> {
+    let matte = Part::<Input, f64>::new(|i| diffuse(i, lit(i)))
+        .say("the cosine is forgotten in the matte part; it lessens what arrives, so it counts for both")
+        .when(|i| if cosine(i) > 0.0 { diffuse(i, 1.0) } else { 0.0 })
+        .say("the matte part is colour / π; the π is missing")
+        .when(|i| diffuse(i, lit(i)) * PI)
+        .say("the matte part is colour / π, not colour / 2π")
+        .when(|i| diffuse(i, lit(i)) / 2.0)
+        .say("the matte part is left out")
+        .when(|_| 0.0)
+        .say(LESSENED)
+        .when(|i| diffuse(i, lit(i)) * (1.0 - i.0[1]))
+        .when(|i| diffuse(i, lit(i)) * (1.0 - i.0[1] / i.0[0]))
+        .say("the matte part is left out where there is no highlight; it has nothing to do with the eye")
+        .when(|i| if alpha(i) > 0.0 { diffuse(i, lit(i)) } else { 0.0 })
+        .say("the matte part has the factor of the highlight, too; it is colour / π")
+        .when(|i| diffuse(i, lit(i)) * phong_peak(i.0[2]) * PI)
+        .say("the colour is left out of the matte part")
+        .when(|i| diffuse(i, lit(i)) / i.0[0])
+        .say(FACES_AWAY)
+        .when(|i| diffuse(i, cosine(i)))
+        .when(|i| diffuse(i, cosine(i).abs()));
+    let shiny = Part::<Input, f64>::new(specular)
+        .say("the cosine is forgotten in the highlight; it lessens what arrives, so it counts for both")
+        .when(|i| if cosine(i) > 0.0 { peak(i, lobe(i, alpha(i)), 1.0) } else { 0.0 })
+        .when(|i| peak(i, lobe(i, alpha(i)), 1.0))
+        .say("the irradiance is left out of the highlight; it sends on what arrives, too")
+        .when(|i| specular(i) / i.1)
+        .say("the irradiance and the cosine are left out of the highlight; it sends on what arrives, too")
+        .when(|i| if cosine(i) > 0.0 { peak(i, lobe(i, alpha(i)), 1.0 / i.1) } else { 0.0 })
+        .say("the factor (n + 2) / 2π of the highlight is missing")
+        .when(|i| specular(i) / phong_peak(i.0[2]))
+        .say("the highlight lacks its factor (n + 2) / 2π and the cosine of the light's angle")
+        .when(|i| if cosine(i) > 0.0 { peak(i, lobe(i, alpha(i)) / phong_peak(i.0[2]), 1.0) } else { 0.0 })
+        .say("the factor is that of cosⁿ alone, (n + 1) / 2π; the eye's own cosine makes it n + 2")
+        .when(|i| specular(i) * (i.0[2] + 1.0) / (i.0[2] + 2.0))
+        .say("the factor of the highlight is another one; it is (n + 2) / 2π, all of 2π below the line")
+        .when(|i| specular(i) * 2.0)
+        .when(|i| specular(i) * PI * PI)
+        .when(|i| specular(i) * 0.5)
+        .when(|i| specular(i) * 2.0 * PI)
+        .when(|i| specular(i) * PI)
+        .when(|i| specular(i) / PI)
+        .when(|i| specular(i) * 2.0 / (i.0[2] + 2.0))
+        .when(|i| specular(i) * i.0[2] / (i.0[2] + 2.0))
+        .when(|i| specular(i) * 2.0 * (i.0[2] + 1.0) / (i.0[2] + 2.0))
+        .when(|i| specular(i) * (i.0[2] + 8.0) / (i.0[2] + 2.0) / 4.0)
+        .when(|i| specular(i) * (i.0[2] + 1.0 / PI) / (i.0[2] + 2.0) * 2.0 * PI)
+        .say("the highlight is left out")
+        .when(|_| 0.0)
+        .say("the specular reflectance is left out of the highlight")
+        .when(|i| specular(i) / i.0[1])
+        .say("the highlight has the colour, too; its reflectance is `specular` alone")
+        .when(|i| specular(i) * i.0[0])
+        .say(LESSENED)
+        .when(|i| specular(i) * (1.0 - i.0[0]))
+        .say("the highlight is about the half vector, which is Blinn's; Phong's is about the mirrored light")
+        .when(|i| peak(i, lobe(i, half_vector_cosine(i.2.into(), i.3.into(), i.4.into())), lit(i)))
+        .say("the mirrored direction points into the surface: it is 2(n·l)n − l, not l − 2(n·l)n")
+        .when(|i| peak(i, lobe(i, -alpha(i)), lit(i)))
+        .say("the mirrored direction lacks a 2: it is 2(n·l)n − l")
+        .when(|i| peak(i, lobe(i, (alpha(i) - towards_light(i)) / 2.0), lit(i)))
+        .say("the mirrored direction has a wrong sign: it is 2(n·l)n − l")
+        .when(|i| peak(i, lobe(i, alpha(i) + 2.0 * towards_light(i)), lit(i)))
+        .say("n·l is missing in the mirrored direction, and normalising does not replace it: it is 2(n·l)n − l")
+        .when(|i| {
+            let [normal, to_light] = [i.2, i.3].map(DVec3::from);
+            let cosine = (2.0 * normal - to_light).normalize().dot(i.4.into());
+            peak(i, phong_peak(i.0[2]) * cosine.max(0.0).powf(i.0[2]), lit(i))
+        })
+        .say("the highlight is about the light itself; it is about the mirrored light")
+        .when(|i| peak(i, lobe(i, towards_light(i)), lit(i)))
+        .say("the highlight is about the normal; it is about the mirrored light")
+        .when(|i| peak(i, lobe(i, DVec3::from(i.2).dot(i.4.into())), lit(i)))
+        .say("the highlight's power is missing: its cosine to the n")
+        .when(|i| peak(i, phong_peak(i.0[2]) * alpha(i).max(0.0), lit(i)))
+        .say("more than 90° from the mirrored light there is no highlight, also where the power is even")
+        .when(|i| peak(i, lobe(i, alpha(i).abs()), lit(i)))
+        .when(|i| peak(i, phong_peak(i.0[2]) * alpha(i).powf(i.0[2]), lit(i)))
+        .when(|i| peak(i, phong_peak(i.0[2]) * alpha(i).powi(i.0[2] as i32), lit(i)))
+        .say(
+            "0 to the power 0 is taken for 1: where cos α is not above 0 there is no highlight, whatever the \
+                 exponent",
+        )
+        .when(|i| peak(i, phong_peak(i.0[2]) * alpha(i).max(0.0).powf(i.0[2]), lit(i)))
+        .say("the highlight is about the normal, seen from the light; it is about the mirrored light")
+        .when(|i| peak(i, lobe(i, cosine(i)), lit(i)))
+        .say("the exponent is left out, both of the factor and of the power")
+        .when(|i| peak(i, alpha(i).max(0.0) / PI, lit(i)))
+        .say("the exponent is cut to a whole number; powf takes it as it is")
+        .when(|i| peak(i, phong_peak(i.0[2]) * alpha(i).max(0.0).powi(i.0[2] as i32), lit(i)))
+        .say("the cosine counts twice in the highlight; it lessens what arrives, once")
+        .when(|i| specular(i) * lit(i))
+        .say(FACES_AWAY)
+        .when(|i| peak(i, lobe(i, alpha(i)), cosine(i)));
+    Mistakes::<Input, f64>::new()
+        .say("a surface that faces away from the light is lit from behind: the cosine lost its sign")
+        .when(|i| diffuse(i, cosine(i).abs()) + peak(i, lobe(i, alpha(i)), cosine(i).abs()))
+        .say("the cosine of the light's angle is missing: it counts for the highlight as for the rest")
+        .when(|i| if cosine(i) > 0.0 { diffuse(i, 1.0) + peak(i, lobe(i, alpha(i)), 1.0) } else { 0.0 })
+        .say("colour and specular are swapped")
+        .when(|i| right(&([i.0[1], i.0[0], i.0[2]], i.1, i.2, i.3, i.4)))
+        .say("the irradiance is left out")
+        .when(|i| right(i) / i.1)
+        .say("the cosine is the eye's; what arrives depends on the light's angle alone")
+        .when(|i| {
+            let eyes = DVec3::from(i.2).dot(i.4.into());
+            if cosine(i) > 0.0 { diffuse(i, eyes) + peak(i, lobe(i, alpha(i)), eyes) } else { 0.0 }
+        })
+        .of_parts([matte, shiny], Part::new(|[matte, shiny]| matte + shiny))
 }
 
 fn asked() -> Vec<Probe<Input>> {
@@ -251,35 +224,29 @@ fn lobe(input: &Input, cosine: f64) -> f64 {
     highlight(phong_peak(input.0[2]), input.0[2], cosine)
 }
 
-/// The radiance of a highlight so high, where the light falls with this cosine.
-fn sent(&([colour, specular, _], irradiance, ..): &Input, lobe: f64, cosine: f64) -> f64 {
-    let received = irradiance * cosine;
-    matte_radiance([colour; 3], [received; 3])[0] + specular * lobe * received
-}
-
-const NO_COSINE: &str = "the cosine is forgotten in the highlight; it lessens what arrives, so it counts for both";
 const FACES_AWAY: &str = "a surface that faces away from the light sends 0, and no highlight either";
-const FACTOR: &str = "the factor of the highlight is another one; it is (n + 2) / 2π, all of 2π below the line";
 const LESSENED: &str = "one part is lessened by what the other reflects; each has its own reflectance, which together \
                         are at most 1 \
                         already";
-const EVEN: &str = "more than 90° from the mirrored light there is no highlight, also where the power is even";
-
-fn right(input: &Input) -> f64 {
-    sent(input, lobe(input, alpha(input)), lit(input))
-}
-
-/// Matte part and highlight with what arrives for each, and the highlight's height times a factor.
-fn apart(input: &Input, matte: f64, shiny: f64, factor: f64) -> f64 {
-    let highlight = if shiny == 0.0 { 0.0 } else { input.0[1] * lobe(input, alpha(input)) * factor * input.1 * shiny };
-    sent(input, 0.0, matte) + highlight
-}
-
-fn scaled(input: &Input, factor: fn(f64) -> f64) -> f64 {
-    apart(input, lit(input), lit(input), factor(input.0[2]))
-}
-
 /// The cosine between the directions to the light and to the eye.
 fn towards_light(input: &Input) -> f64 {
     DVec3::from(input.3).dot(input.4.into())
+}
+
+/// What the matte part sends on of light that falls with this cosine.
+fn diffuse(input: &Input, cosine: f64) -> f64 {
+    matte_radiance([input.0[0]; 3], [input.1 * cosine; 3])[0]
+}
+
+/// What a highlight so high sends on.
+fn peak(input: &Input, lobe: f64, cosine: f64) -> f64 {
+    input.0[1] * lobe * (input.1 * cosine)
+}
+
+fn specular(input: &Input) -> f64 {
+    peak(input, lobe(input, alpha(input)), lit(input))
+}
+
+fn right(input: &Input) -> f64 {
+    diffuse(input, lit(input)) + specular(input)
 }

@@ -3,7 +3,7 @@
 use super::mine::mine;
 use pinhole::shade::{wave, wave_mean};
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// The middle of a range, its width.
@@ -18,107 +18,91 @@ pub fn exercise(yours: Yours) -> Exercise {
 }
 
 fn question() -> Question<Input, f64> {
-    let mut mistakes = vec![
-        Mistake::new(
-            "this is the stripe at x itself; asked for is the mean of all that the range covers",
-            |&(x, _)| wave(x),
-        ),
-        Mistake::new("the range reaches from x to x + width; half of it lies on either side of x", |&(x, w)| {
-            wave_mean(x + 0.5 * w, w)
-        }),
-        Mistake::new("the range reaches from x − width to x; half of it lies on either side of x", |&(x, w)| {
-            wave_mean(x - 0.5 * w, w)
-        }),
-        Mistake::new("the range reaches width to either side of x, which is twice as wide as width", |&(x, w)| {
-            wave_mean(x, 2.0 * w)
-        }),
-        Mistake::new("the range reaches width to either side of x, which is twice as wide as width", |&(x, w)| {
-            if w == 0.0 { wave(x) } else { 2.0 * wave_mean(x, 2.0 * w) }
-        }),
-        Mistake::new("the mean is over half the range; width is all of it", |&(x, w)| wave_mean(x, w / 2.0)),
-        Mistake::new("the area is divided by half the width; width is all that it lies over", |&(x, w)| {
-            if w == 0.0 { wave(x) } else { 2.0 * wave_mean(x, w) }
-        }),
-        Mistake::new("the area is divided by twice the width; width is all that it lies over", |&(x, w)| {
-            if w == 0.0 { wave(x) } else { wave_mean(x, w) / 2.0 }
-        }),
-        Mistake::new("below 0 the stripes are mirrored; stripe −1, from −1 to 0, is odd", |&(x, w)| {
-            if x < 0.0 { -wave_mean(x, w) } else { wave_mean(x, w) }
-        }),
-        Mistake::new(REMAINDER, |i| {
-            by_area(i, |x| if x % 2.0 < 1.0 { x % 2.0 } else { 2.0 - x % 2.0 }, |x| x % 2.0 < 1.0)
-        }),
-        Mistake::new(REMAINDER, |i| by_area(i, |x| 1.0 - (x % 2.0 - 1.0).abs(), |x| x.floor() % 2.0 == 0.0)),
-        Mistake::new(REMAINDER, |i| by_area(i, |x| 1.0 - (x % 2.0 - 1.0).abs(), |x| x as i64 % 2 == 0)),
-        Mistake::new(REMAINDER, |i| by_area(i, zigzag, |x| x as i64 % 2 == 0)),
-        Mistake::new(REMAINDER, |i| by_area(i, zigzag, |x| x % 2.0 < 1.0)),
-        Mistake::new("the area grows on over the odd stripes; there it falls back to 0", |i| {
-            by_area(i, |x| x.rem_euclid(2.0), |x| x.rem_euclid(2.0) < 1.0)
-        }),
-        Mistake::new("the area grows on over the odd stripes; there it falls back to 0", |i| {
-            by_area(i, |x| x.rem_euclid(2.0).min(1.0), |x| x.rem_euclid(2.0) < 1.0)
-        }),
-        Mistake::new(
-            "in an odd stripe the area starts from 0; it falls from the 1 that the even stripe before it has gathered",
-            |i| by_area(i, |x| (x - x.floor()) * wave(x), |x| wave(x) > 0.0),
-        ),
-        Mistake::new("a range without width has no mean by division: it is its one point", |&(x, w)| {
-            if w == 0.0 { f64::NAN } else { wave_mean(x, w) }
-        }),
-        Mistake::new("a range without width is given 0; it is its one point, the stripe at x", |&(x, w)| {
-            if w == 0.0 { 0.0 } else { wave_mean(x, w) }
-        }),
-        Mistake::new("a range without width is always given 1; it is its one point, the stripe at x", |&(x, w)| {
-            if w == 0.0 { 1.0 } else { wave_mean(x, w) }
-        }),
-        Mistake::new("this is the area; divided by the width it is the mean", |&(x, w)| wave_mean(x, w) * w),
-        Mistake::new("this is the area; divided by the width it is the mean", |&(x, w)| {
-            if w == 0.0 { wave(x) } else { wave_mean(x, w) * w }
-        }),
-        Mistake::new("odd stripes count as 1 and even ones as −1; it is the reverse", |&(x, w)| -wave_mean(x, w)),
-        Mistake::new("odd stripes count as 0; they are −1", |&(x, w)| (wave_mean(x, w) + 1.0) / 2.0),
-        Mistake::new(FADED, |&(x, w)| wave(x) * (1.0 - w / 2.0).max(0.0)),
-        Mistake::new(FADED, |&(x, w)| wave(x) * (1.0 - w).max(0.0)),
-        Mistake::new(FADED, |&(x, w)| wave(x) / w.max(1.0)),
-        Mistake::new(FADED, |&(x, w)| if w >= 2.0 { 0.0 } else { wave(x) }),
-        Mistake::new(ENDS, |&(x, w)| (wave(x - w / 2.0) + wave(x + w / 2.0)) / 2.0),
-        Mistake::new(ENDS, |&(x, w)| (wave(x - w / 2.0) + wave(x) + wave(x + w / 2.0)) / 3.0),
-        Mistake::new(
-            "wide ranges are given 0; however many stripes there are, what is left of the last one counts",
-            |&(x, w)| {
-                if w >= 2.0 { 0.0 } else { wave_mean(x, w) }
-            },
-        ),
-        Mistake::new("the range ends at x; half of it lies beyond", |i| {
-            if i.1 == 0.0 { wave(i.0) } else { (zigzag(i.0) - zigzag(i.0 - i.1 / 2.0)) / i.1 }
-        }),
-        Mistake::new("the range begins at x; half of it lies before", |i| {
-            if i.1 == 0.0 { wave(i.0) } else { (zigzag(i.0 + i.1 / 2.0) - zigzag(i.0)) / i.1 }
-        }),
-        Mistake::new(
-            "whole stripes are counted; of the first and the last one only a part is in the range",
-            |&(x, w)| {
-                let [first, last] = [(x - w / 2.0).floor(), (x + w / 2.0).floor()];
-                (0..=(last - first) as u32).map(|n| wave(first + f64::from(n))).sum::<f64>() / (last - first + 1.0)
-            },
-        ),
-        Mistake::new("only one edge between stripes is looked for; a wide range has many", |&(x, w)| {
+    let mistakes = Mistakes::<Input, f64>::new()
+        .say("this is the stripe at x itself; asked for is the mean of all that the range covers")
+        .when(|&(x, _)| wave(x))
+        .say("the range reaches from x to x + width; half of it lies on either side of x")
+        .when(|&(x, w)| wave_mean(x + 0.5 * w, w))
+        .say("the range reaches from x − width to x; half of it lies on either side of x")
+        .when(|&(x, w)| wave_mean(x - 0.5 * w, w))
+        .say("the range reaches width to either side of x, which is twice as wide as width")
+        .when(|&(x, w)| wave_mean(x, 2.0 * w))
+        .when(|&(x, w)| if w == 0.0 { wave(x) } else { 2.0 * wave_mean(x, 2.0 * w) })
+        .say("the mean is over half the range; width is all of it")
+        .when(|&(x, w)| wave_mean(x, w / 2.0))
+        .say("the area is divided by half the width; width is all that it lies over")
+        .when(|&(x, w)| if w == 0.0 { wave(x) } else { 2.0 * wave_mean(x, w) })
+        .say("the area is divided by twice the width; width is all that it lies over")
+        .when(|&(x, w)| if w == 0.0 { wave(x) } else { wave_mean(x, w) / 2.0 })
+        .say("below 0 the stripes are mirrored; stripe −1, from −1 to 0, is odd")
+        .when(|&(x, w)| if x < 0.0 { -wave_mean(x, w) } else { wave_mean(x, w) })
+        .say(
+            "below 0 the remainder or the cast has the wrong sign: stripe −1, from −1 to 0, is odd, which \
+                 rem_euclid knows",
+        )
+        .when(|i| by_area(i, |x| if x % 2.0 < 1.0 { x % 2.0 } else { 2.0 - x % 2.0 }, |x| x % 2.0 < 1.0))
+        .when(|i| by_area(i, |x| 1.0 - (x % 2.0 - 1.0).abs(), |x| x.floor() % 2.0 == 0.0))
+        .when(|i| by_area(i, |x| 1.0 - (x % 2.0 - 1.0).abs(), |x| x as i64 % 2 == 0))
+        .when(|i| by_area(i, zigzag, |x| x as i64 % 2 == 0))
+        .when(|i| by_area(i, zigzag, |x| x % 2.0 < 1.0))
+        .say("the area grows on over the odd stripes; there it falls back to 0")
+        .when(|i| by_area(i, |x| x.rem_euclid(2.0), |x| x.rem_euclid(2.0) < 1.0))
+        .when(|i| by_area(i, |x| x.rem_euclid(2.0).min(1.0), |x| x.rem_euclid(2.0) < 1.0))
+        .say(
+            "in an odd stripe the area starts from 0; it falls from the 1 that the even stripe before it has \
+                 gathered",
+        )
+        .when(|i| by_area(i, |x| (x - x.floor()) * wave(x), |x| wave(x) > 0.0))
+        .say("a range without width has no mean by division: it is its one point")
+        .when(|&(x, w)| if w == 0.0 { f64::NAN } else { wave_mean(x, w) })
+        .say("a range without width is given 0; it is its one point, the stripe at x")
+        .when(|&(x, w)| if w == 0.0 { 0.0 } else { wave_mean(x, w) })
+        .say("a range without width is always given 1; it is its one point, the stripe at x")
+        .when(|&(x, w)| if w == 0.0 { 1.0 } else { wave_mean(x, w) })
+        .say("this is the area; divided by the width it is the mean")
+        .when(|&(x, w)| wave_mean(x, w) * w)
+        .when(|&(x, w)| if w == 0.0 { wave(x) } else { wave_mean(x, w) * w })
+        .say("odd stripes count as 1 and even ones as −1; it is the reverse")
+        .when(|&(x, w)| -wave_mean(x, w))
+        .say("odd stripes count as 0; they are −1")
+        .when(|&(x, w)| (wave_mean(x, w) + 1.0) / 2.0)
+        .say(
+            "the stripe at x is faded by the width alone; the mean depends on how much of each stripe is in \
+                 the range",
+        )
+        .when(|&(x, w)| wave(x) * (1.0 - w / 2.0).max(0.0))
+        .when(|&(x, w)| wave(x) * (1.0 - w).max(0.0))
+        .when(|&(x, w)| wave(x) / w.max(1.0))
+        .when(|&(x, w)| if w >= 2.0 { 0.0 } else { wave(x) })
+        .say("only a few points of the range are looked at; asked for is the mean of all of it")
+        .when(|&(x, w)| (wave(x - w / 2.0) + wave(x + w / 2.0)) / 2.0)
+        .when(|&(x, w)| (wave(x - w / 2.0) + wave(x) + wave(x + w / 2.0)) / 3.0)
+        .say("wide ranges are given 0; however many stripes there are, what is left of the last one counts")
+        .when(|&(x, w)| if w >= 2.0 { 0.0 } else { wave_mean(x, w) })
+        .say("the range ends at x; half of it lies beyond")
+        .when(|i| if i.1 == 0.0 { wave(i.0) } else { (zigzag(i.0) - zigzag(i.0 - i.1 / 2.0)) / i.1 })
+        .say("the range begins at x; half of it lies before")
+        .when(|i| if i.1 == 0.0 { wave(i.0) } else { (zigzag(i.0 + i.1 / 2.0) - zigzag(i.0)) / i.1 })
+        .say("whole stripes are counted; of the first and the last one only a part is in the range")
+        .when(|&(x, w)| {
+            let [first, last] = [(x - w / 2.0).floor(), (x + w / 2.0).floor()];
+            (0..=(last - first) as u32).map(|n| wave(first + f64::from(n))).sum::<f64>() / (last - first + 1.0)
+        })
+        .say("only one edge between stripes is looked for; a wide range has many")
+        .when(|&(x, w)| {
             let (low, high) = (x - w / 2.0, x + w / 2.0);
             let edge = (low.floor() + 1.0).min(high);
             if w == 0.0 { wave(x) } else { wave(low) * ((edge - low) - (high - edge)) / w }
-        }),
-        Mistake::new(
-            "the mean has lost its sign; more of odd stripes than of even ones makes it negative",
-            |&(x, w)| wave_mean(x, w).abs(),
-        ),
-        Mistake::new("the number of the stripe at x is rounded; stripe n reaches from n to n + 1", |i| {
-            by_area(i, zigzag, |x| x.round().rem_euclid(2.0) == 0.0)
-        }),
-        Mistake::new("the number of the stripe at x is rounded; stripe n reaches from n to n + 1", |i| {
-            by_area(i, zigzag, |x| x.ceil().rem_euclid(2.0) == 0.0)
-        }),
-    ];
-    mistakes.extend(sampling());
+        })
+        .say("the mean has lost its sign; more of odd stripes than of even ones makes it negative")
+        .when(|&(x, w)| wave_mean(x, w).abs())
+        .say("the number of the stripe at x is rounded; stripe n reaches from n to n + 1")
+        .when(|i| by_area(i, zigzag, |x| x.round().rem_euclid(2.0) == 0.0))
+        .when(|i| by_area(i, zigzag, |x| x.ceil().rem_euclid(2.0) == 0.0))
+        .say(
+            "the range is sampled at many points; that comes close, but the area between its ends gives the \
+                 mean itself",
+        );
     Question {
         pinhole_has: ("src/pinhole/shade/checker.rs", "wave_mean"),
         probes: asked(),
@@ -127,7 +111,7 @@ fn question() -> Question<Input, f64> {
         apart: |yours, right| absolute(&[*yours], &[*right]),
         allowed: 1e-9,
         measured: "of 1",
-        mistakes,
+        mistakes: sampling().fold(mistakes, Mistakes::when),
         hints: &[
             "draw the stripes as a curve that is 1 over [0, 1), −1 over [1, 2), and so on; a mean is an area over a \
              width",
@@ -159,14 +143,6 @@ fn asked() -> Vec<Probe<Input>> {
     asked
 }
 
-const REMAINDER: &str =
-    "below 0 the remainder or the cast has the wrong sign: stripe −1, from −1 to 0, is odd, which rem_euclid knows";
-const FADED: &str =
-    "the stripe at x is faded by the width alone; the mean depends on how much of each stripe is in the range";
-const ENDS: &str = "only a few points of the range are looked at; asked for is the mean of all of it";
-const SAMPLED: &str =
-    "the range is sampled at many points; that comes close, but the area between its ends gives the mean itself";
-
 /// The mean of so many points of the range: their middles, their beginnings, or both ends among them.
 fn sampled<const POINTS: u32, const WHERE: u32>(&(x, width): &Input) -> f64 {
     let n = f64::from(POINTS);
@@ -178,14 +154,18 @@ fn sampled<const POINTS: u32, const WHERE: u32>(&(x, width): &Input) -> f64 {
     (0..POINTS).map(|point| wave(x - width / 2.0 + width * at(point))).sum::<f64>() / n
 }
 
-fn sampling() -> impl Iterator<Item = Mistake<Input, f64>> {
-    let few = [sampled::<10, 0>, sampled::<10, 1>, sampled::<10, 2>, sampled::<16, 0>, sampled::<64, 0>];
-    let some = [sampled::<100, 0>, sampled::<100, 1>, sampled::<100, 2>, sampled::<256, 0>, sampled::<256, 1>];
-    let many = [sampled::<1000, 0>, sampled::<1000, 1>, sampled::<1000, 2>, sampled::<1024, 0>, sampled::<1001, 2>];
-    let most =
+fn sampling() -> impl Iterator<Item = fn(&Input) -> f64> {
+    let few: [fn(&Input) -> f64; 5] =
+        [sampled::<10, 0>, sampled::<10, 1>, sampled::<10, 2>, sampled::<16, 0>, sampled::<64, 0>];
+    let some: [fn(&Input) -> f64; 5] =
+        [sampled::<100, 0>, sampled::<100, 1>, sampled::<100, 2>, sampled::<256, 0>, sampled::<256, 1>];
+    let many: [fn(&Input) -> f64; 5] =
+        [sampled::<1000, 0>, sampled::<1000, 1>, sampled::<1000, 2>, sampled::<1024, 0>, sampled::<1001, 2>];
+    let most: [fn(&Input) -> f64; 5] =
         [sampled::<10_000, 0>, sampled::<10_000, 1>, sampled::<10_000, 2>, sampled::<4096, 0>, sampled::<101, 2>];
-    let others = [sampled::<20, 0>, sampled::<32, 0>, sampled::<50, 0>, sampled::<200, 0>, sampled::<500, 0>];
-    [few, some, many, most, others].into_iter().flatten().map(|makes| Mistake::new(SAMPLED, makes))
+    let others: [fn(&Input) -> f64; 5] =
+        [sampled::<20, 0>, sampled::<32, 0>, sampled::<50, 0>, sampled::<200, 0>, sampled::<500, 0>];
+    [few, some, many, most, others].into_iter().flatten()
 }
 
 /// By the area under the stripes from 0, and by whether the stripe at x is an even one where there is no width.

@@ -1,7 +1,7 @@
 //! Chapter 18: the variance of a pixel from run to run, and the square of its bias.
 
 use pinhole_lab::exercise::apart::option;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Part, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// Runs, truth.
@@ -25,132 +25,120 @@ fn question() -> Question<Input, Answer> {
         pinhole_has: ("src/lab/report/ensemble.rs", "fn bias_squared"),
         probes: asked(),
         tell: |(runs, truth)| format!("runs {}, truth {truth:?}", told(runs)),
-        right: |input| answer(input, variance, pairs),
+        right,
         apart: |yours, right| option(yours, right, apart),
         allowed: 1e-9,
         measured: "of the two numbers together",
-        mistakes: vec![
-            Mistake::new(NONE, |i| answer(i, variance, pairs).or_else(|| Some([0.0, square(&off(i))]))),
-            Mistake::new(NONE, |i| answer(i, variance, pairs).or(Some([0.0, 0.0]))),
-            Mistake::new(NONE, |i| answer(i, variance, pairs).or(Some([f64::NAN; 2]))),
-            Mistake::new(NONE, |i| {
-                answer(i, variance, pairs).or_else(|| (i.0.len() == 1).then(|| [0.0, square(&off(i))]))
-            }),
-            Mistake::new(NONE, |i| answer(i, variance, pairs).or_else(|| (i.0.len() == 1).then_some([0.0; 2]))),
-            Mistake::new(NONE, |i| answer(i, variance, pairs).or_else(|| (i.0.len() == 1).then_some([f64::NAN; 2]))),
-            Mistake::new("two runs tell nothing; they tell both numbers, if roughly", |i| {
-                answer(i, variance, pairs).filter(|_| i.0.len() > 2)
-            }),
-            Mistake::new(
-                "the variance is divided by the number of runs; their mean lies amid them, so it comes out too small, and one \
-                 less is right",
-                |i| answer(i, |i| variance(i) * (count(i) - 1.0) / count(i), pairs),
-            ),
-            Mistake::new("the variance is not divided: it is the sum over one less than the number of runs", |i| {
-                answer(i, |i| variance(i) * (count(i) - 1.0), pairs)
-            }),
-            Mistake::new("this is the variance of the mean of all runs; that of one run is asked for", |i| {
-                answer(i, |i| variance(i) / count(i), pairs)
-            }),
-            Mistake::new("this is the standard deviation; the variance is its square", |i| {
-                answer(i, |i| variance(i).sqrt(), pairs)
-            }),
-            Mistake::new(TRUTH, |i| answer(i, about_truth, pairs)),
-            Mistake::new(TRUTH, |i| answer(i, |i| about_truth(i) * (count(i) - 1.0) / count(i), pairs)),
-            Mistake::new("the distances are not squared; without that they cancel or are no variance", |i| {
-                answer(i, |i| spread(i, f64::abs), pairs)
-            }),
-            Mistake::new("the distances are not squared; without that they cancel or are no variance", |i| {
-                answer(i, |i| spread(i, |off| off), pairs)
-            }),
-            Mistake::new(SELF, |i| answer(i, variance, |i| square(&off(i)))),
-            Mistake::new(SELF, |i| answer(i, variance, |i| square(&off(i)) * count(i) / (count(i) - 1.0))),
-            Mistake::new(
-                "bias² is the mean of squared distances from the truth; only pairs of two different runs count",
-                |i| answer(i, variance, |i| about_truth(i) * (count(i) - 1.0) / count(i)),
-            ),
-            Mistake::new(NOT_ALL, |i| answer(i, variance, |i| square(&off(i)) - variance(i))),
-            Mistake::new(
-                "the square of the mean's distance is lessened by the variance over n − 1 or by one that is too small; it is \
-                 too large by variance / n",
-                |i| answer(i, variance, |i| square(&off(i)) - variance(i) / (count(i) - 1.0)),
-            ),
-            Mistake::new(
-                "the square of the mean's distance is lessened by the variance over n − 1 or by one that is too small; it is \
-                 too large by variance / n",
-                |i| answer(i, variance, |i| square(&off(i)) - variance(i) * (count(i) - 1.0) / count(i) / count(i)),
-            ),
-            Mistake::new(
-                "the variance over n is added to the square of the mean's distance; it is in it already: subtract it",
-                |i| answer(i, variance, |i| square(&off(i)) + variance(i) / count(i)),
-            ),
-            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) / 2.0)),
-            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * 2.0)),
-            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * (count(i) - 1.0) / count(i))),
-            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * (count(i) - 1.0) / count(i) / 2.0)),
-            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * count(i) / (count(i) - 1.0))),
-            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * (count(i) - 1.0))),
-            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * (count(i) - 1.0) / 2.0)),
-            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * (count(i) - 1.0) * count(i))),
-            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * (count(i) - 1.0) * count(i) / 2.0)),
-            Mistake::new(NEXT, |i| answer(i, variance, |i| neighbours(i, 1) / (count(i) - 1.0))),
-            Mistake::new(NEXT, |i| answer(i, variance, |i| neighbours(i, 1) / count(i))),
-            Mistake::new(NEXT, |i| answer(i, variance, |i| neighbours(i, 1) / (count(i) * (count(i) - 1.0)))),
-            Mistake::new(NEXT, |i| answer(i, variance, |i| neighbours(i, 0) / count(i))),
-            Mistake::new("the truth is left out of bias²: the products are those of the distances from it", |i| {
-                answer(i, variance, |(runs, _)| pairs(&(runs.clone(), 0.0)))
-            }),
-            Mistake::new("bias² is taken about the runs' own mean; it tells how far they lie from the truth", |i| {
-                answer(i, variance, |(runs, _)| pairs(&(runs.clone(), mean(runs))))
-            }),
-            Mistake::new("this is the bias, not its square", |i| answer(i, variance, |i| mean(&off(i)))),
-            Mistake::new("this is the bias, not its square", |i| answer(i, variance, |i| mean(&off(i)).abs())),
-            Mistake::new("a bias² below 0 is cut off; then its mean over many pixels is too large", |i| {
-                answer(i, variance, |i| pairs(i).max(0.0))
-            }),
-            Mistake::new("a bias² below 0 has lost its sign; then its mean over many pixels is too large", |i| {
-                answer(i, variance, |i| pairs(i).abs())
-            }),
-            Mistake::new(BY_SQUARES, |i| answer(i, by_squares, pairs)),
-            Mistake::new(
-                "the mean is taken before the truth is: where the noise is small against the value, its rounding is \
-                 all of the bias",
-                |i| answer(i, variance, |i| (mean(&i.0) - i.1) * (mean(&i.0) - i.1) - variance(i) / count(i)),
-            ),
-            Mistake::new("the two numbers are swapped", |i| {
-                answer(i, variance, pairs).map(|[variance, bias]| [bias, variance])
-            }),
-            Mistake::new(
-                "the variance is divided by the number of runs instead of one less, and a part of the variance is \
-                 left in bias²",
-                |i| answer(i, |i| variance(i) * (count(i) - 1.0) / count(i), |i| square(&off(i))),
-            ),
-            Mistake::new(
-                "the variance is taken about the truth, and a part of the variance is left in bias², which pairs \
-                 different runs",
-                |i| answer(i, about_truth, |i| square(&off(i))),
-            ),
-            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * count(i))),
-            Mistake::new(COUNT, |i| answer(i, variance, |i| pairs(i) * count(i) / 2.0)),
-            Mistake::new(NOT_ALL, |i| {
-                answer(i, variance, |i| square(&off(i)) - variance(i) * (count(i) - 1.0) / count(i))
-            }),
-            Mistake::new(BY_SQUARES, |i| {
-                answer(i, |i| by_sums(i, |squares, sum, n| (squares - sum * sum / n) / (n - 1.0)), pairs)
-            }),
-            Mistake::new(BY_SQUARES, |i| {
-                answer(i, |i| by_sums(i, |squares, sum, n| (squares - n * (sum / n) * (sum / n)) / (n - 1.0)), pairs)
-            }),
-            Mistake::new(BY_SQUARES, |i| {
-                answer(i, |i| by_sums(i, |squares, sum, n| (squares - n * (sum / n * (sum / n))) / (n - 1.0)), pairs)
-            }),
-        ],
+        mistakes: mistakes(),
         hints: &[
             "take the truth from every run first; then both numbers are made of these distances",
             "variance: Σ (d − their mean)² / (n − 1); bias²: the mean of dᵢ · dⱼ over i ≠ j",
             "the sum over i ≠ j of dᵢ · dⱼ is (Σ d)² − Σ d², and there are n (n − 1) such pairs; below two runs None",
         ],
     }
+}
+
+fn mistakes() -> Mistakes<Input, Answer> {
+    let several = Part::<Input, f64>::new(|i| count(i) - 1.0)
+        .say("two runs tell nothing; they tell both numbers, if roughly")
+        .when(|i| count(i) - 2.0);
+    let scatter = Part::<Input, f64>::new(variance)
+        .say(
+            "the variance is divided by the number of runs; their mean lies amid them, so it comes out too \
+                 small, and one less is right",
+        )
+        .when(|i| variance(i) * (count(i) - 1.0) / count(i))
+        .say("the variance is not divided: it is the sum over one less than the number of runs")
+        .when(|i| variance(i) * (count(i) - 1.0))
+        .say("this is the variance of the mean of all runs; that of one run is asked for")
+        .when(|i| variance(i) / count(i))
+        .say("this is the standard deviation; the variance is its square")
+        .when(|i| variance(i).sqrt())
+        .say("the variance is taken about the truth; it is the scatter about the runs' own mean")
+        .when(about_truth)
+        .when(|i| about_truth(i) * (count(i) - 1.0) / count(i))
+        .say("the distances are not squared; without that they cancel or are no variance")
+        .when(|i| spread(i, f64::abs))
+        .when(|i| spread(i, |off| off))
+        .say(
+            "the variance is the mean of squares less the square of the mean: where the noise is small against \
+                 the value, nothing is left but rounding",
+        )
+        .when(|i| by_sums(i, |squares, sum, n| (squares / n - sum / n * (sum / n)) * n / (n - 1.0)))
+        .when(|i| by_sums(i, |squares, sum, n| (squares - sum * sum / n) / (n - 1.0)))
+        .when(|i| by_sums(i, |squares, sum, n| (squares - n * (sum / n) * (sum / n)) / (n - 1.0)))
+        .when(|i| by_sums(i, |squares, sum, n| (squares - n * (sum / n * (sum / n))) / (n - 1.0)));
+    let bias = Part::<Input, f64>::new(pairs)
+        .say(
+            "bias² is the square of the mean's distance from the truth, or pairs a run with itself: a part of \
+                 the variance is left in it",
+        )
+        .when(|i| square(&off(i)))
+        .when(|i| square(&off(i)) * count(i) / (count(i) - 1.0))
+        .say("bias² is the mean of squared distances from the truth; only pairs of two different runs count")
+        .when(|i| about_truth(i) * (count(i) - 1.0) / count(i))
+        .say(
+            "the whole variance is taken off the square of the mean's distance, which is too large by variance \
+                 / n only",
+        )
+        .when(|i| square(&off(i)) - variance(i))
+        .when(|i| square(&off(i)) - variance(i) * (count(i) - 1.0) / count(i))
+        .say(
+            "the square of the mean's distance is lessened by the variance over n − 1 or by one that is too \
+                 small; it is too large by variance / n",
+        )
+        .when(|i| square(&off(i)) - variance(i) / (count(i) - 1.0))
+        .when(|i| square(&off(i)) - variance(i) * (count(i) - 1.0) / count(i) / count(i))
+        .say("the variance over n is added to the square of the mean's distance; it is in it already: subtract it")
+        .when(|i| square(&off(i)) + variance(i) / count(i))
+        .say(
+            "the pairs are miscounted: n runs make n (n − 1) ordered pairs of two different ones, or half as \
+                 many without order",
+        )
+        .when(|i| pairs(i) / 2.0)
+        .when(|i| pairs(i) * 2.0)
+        .when(|i| pairs(i) * (count(i) - 1.0) / count(i))
+        .when(|i| pairs(i) * (count(i) - 1.0) / count(i) / 2.0)
+        .when(|i| pairs(i) * count(i) / (count(i) - 1.0))
+        .when(|i| pairs(i) * (count(i) - 1.0))
+        .when(|i| pairs(i) * (count(i) - 1.0) / 2.0)
+        .when(|i| pairs(i) * (count(i) - 1.0) * count(i))
+        .when(|i| pairs(i) * (count(i) - 1.0) * count(i) / 2.0)
+        .when(|i| pairs(i) * count(i))
+        .when(|i| pairs(i) * count(i) / 2.0)
+        .say("only neighbours are paired; every run makes a pair with every other")
+        .when(|i| neighbours(i, 1) / (count(i) - 1.0))
+        .when(|i| neighbours(i, 1) / count(i))
+        .when(|i| neighbours(i, 1) / (count(i) * (count(i) - 1.0)))
+        .when(|i| neighbours(i, 0) / count(i))
+        .say("the truth is left out of bias²: the products are those of the distances from it")
+        .when(|(runs, _)| pairs(&(runs.clone(), 0.0)))
+        .say("bias² is taken about the runs' own mean; it tells how far they lie from the truth")
+        .when(|(runs, _)| pairs(&(runs.clone(), mean(runs))))
+        .say("this is the bias, not its square")
+        .when(|i| mean(&off(i)))
+        .when(|i| mean(&off(i)).abs())
+        .say("a bias² below 0 is cut off; then its mean over many pixels is too large")
+        .when(|i| pairs(i).max(0.0))
+        .say("a bias² below 0 has lost its sign; then its mean over many pixels is too large")
+        .when(|i| pairs(i).abs())
+        .say(
+            "the mean is taken before the truth is: where the noise is small against the value, its rounding \
+                 is all of the bias",
+        )
+        .when(|i| (mean(&i.0) - i.1) * (mean(&i.0) - i.1) - variance(i) / count(i));
+    let whole = Part::<[f64; 3], Answer>::new(|&[several, scatter, bias]| (several > 0.0).then_some([scatter, bias]))
+        .say("the two numbers are swapped")
+        .when(|&[several, scatter, bias]| (several > 0.0).then_some([bias, scatter]));
+    Mistakes::<Input, Answer>::new()
+        .say("one run tells no variance, and none tells nothing: the answer there is None")
+        .when(|i| right(i).or_else(|| Some([0.0, square(&off(i))])))
+        .when(|i| right(i).or(Some([0.0, 0.0])))
+        .when(|i| right(i).or(Some([f64::NAN; 2])))
+        .when(|i| right(i).or_else(|| (i.0.len() == 1).then(|| [0.0, square(&off(i))])))
+        .when(|i| right(i).or_else(|| (i.0.len() == 1).then_some([0.0; 2])))
+        .when(|i| right(i).or_else(|| (i.0.len() == 1).then_some([f64::NAN; 2])))
+        .of_parts([several, scatter, bias], whole)
 }
 
 fn told(runs: &[f64]) -> String {
@@ -187,10 +175,6 @@ fn asked() -> Vec<Probe<Input>> {
     asked
 }
 
-fn answer(input: &Input, variance: impl Fn(&Input) -> f64, bias: impl Fn(&Input) -> f64) -> Answer {
-    (input.0.len() > 1).then(|| [variance(input), bias(input)])
-}
-
 fn off((runs, truth): &Input) -> Vec<f64> {
     runs.iter().map(|run| run - truth).collect()
 }
@@ -214,34 +198,17 @@ fn pairs(input: &Input) -> f64 {
     for one in 0..off.len() {
         sum += (0..off.len()).filter(|&other| other != one).map(|other| off[one] * off[other]).sum::<f64>();
     }
-    sum / (off.len() * (off.len() - 1)) as f64
+    sum / (off.len() as f64 * (off.len() as f64 - 1.0))
 }
 
 fn about_truth(input: &Input) -> f64 {
-    off(input).iter().map(|off| off * off).sum::<f64>() / (input.0.len() - 1) as f64
-}
-
-fn by_squares(input: &Input) -> f64 {
-    by_sums(input, |squares, sum, n| (squares / n - sum / n * (sum / n)) * n / (n - 1.0))
+    off(input).iter().map(|off| off * off).sum::<f64>() / (count(input) - 1.0)
 }
 
 /// A function of the sum of squares, the sum and the number of runs.
 fn by_sums((runs, _): &Input, made: fn(f64, f64, f64) -> f64) -> f64 {
     made(runs.iter().map(|run| run * run).sum(), runs.iter().sum(), runs.len() as f64)
 }
-
-const NONE: &str = "one run tells no variance, and none tells nothing: the answer there is None";
-const TRUTH: &str = "the variance is taken about the truth; it is the scatter about the runs' own mean";
-const SELF: &str = "bias² is the square of the mean's distance from the truth, or pairs a run with itself: a part of \
-                    the variance is \
-                    left in it";
-const NOT_ALL: &str =
-    "the whole variance is taken off the square of the mean's distance, which is too large by variance / n only";
-const COUNT: &str = "the pairs are miscounted: n runs make n (n − 1) ordered pairs of two different ones, or half as \
-                     many without order";
-const BY_SQUARES: &str = "the variance is the mean of squares less the square of the mean: where the noise is small \
-                          against the value, nothing is left but rounding";
-const NEXT: &str = "only neighbours are paired; every run makes a pair with every other";
 
 fn count((runs, _): &Input) -> f64 {
     runs.len() as f64
@@ -251,11 +218,15 @@ fn count((runs, _): &Input) -> f64 {
 fn spread(input: &Input, made: fn(f64) -> f64) -> f64 {
     let off = off(input);
     let mean = mean(&off);
-    off.iter().map(|off| made(off - mean)).sum::<f64>() / (off.len() - 1) as f64
+    off.iter().map(|off| made(off - mean)).sum::<f64>() / (count(input) - 1.0)
 }
 
 /// The sum of the products of each run and the next: up to the last but one, or of the last and the first, too.
 fn neighbours(input: &Input, but: usize) -> f64 {
     let off = off(input);
-    (0..off.len() - but).map(|at| off[at] * off[(at + 1) % off.len()]).sum()
+    (0..off.len().saturating_sub(but)).map(|at| off[at] * off[(at + 1) % off.len()]).sum()
+}
+
+fn right(input: &Input) -> Answer {
+    (input.0.len() > 1).then(|| [variance(input), pairs(input)])
 }

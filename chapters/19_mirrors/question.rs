@@ -4,7 +4,7 @@ use super::mine::mine;
 use glam::DVec3;
 use pinhole::material::mirror_direction;
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Vector = [f64; 3];
@@ -28,81 +28,55 @@ fn question() -> Question<Input, Vector> {
         apart: |yours, right| absolute(yours, right),
         allowed: 1e-12,
         measured: "in a part",
-        mistakes: vec![
-            Mistake::new("the normal is taken for a unit vector: divide by n · n", |input| turned(input, -2.0, 0)),
-            Mistake::new(
-                "what comes out is divided by the normal's length once, but n is in the formula twice: divide by n · n",
-                |input| turned(input, -2.0, 1),
-            ),
-            Mistake::new(
-                "the normal's length is divided out too often: n is in the formula twice, so divide by n · n",
-                |input| turned(input, -2.0, 3),
-            ),
-            Mistake::new(
-                "the normal's length is divided out too often: n is in the formula twice, so divide by n · n",
-                |input| turned(input, -2.0, 4),
-            ),
-            Mistake::new(
-                "the result is normalised instead of the normal; that does not undo the normal's length",
-                |input| DVec3::from(turned(input, -2.0, 0)).normalize().into(),
-            ),
-            Mistake::new(
-                "what comes out goes into the mirror: it is d − 2 (d · n) n, not 2 (d · n) n − d",
-                |input| negative(turned(input, -2.0, 2)),
-            ),
-            Mistake::new(
-                "what comes out goes into the mirror: it is d − 2 (d · n) n, not 2 (d · n) n − d",
-                |input| negative(turned(input, -2.0, 0)),
-            ),
-            Mistake::new("the 2 is missing: the part along the normal is taken off, and not turned round", |input| {
-                turned(input, -1.0, 2)
-            }),
-            Mistake::new("the 2 is missing: the part along the normal is taken off, and not turned round", |input| {
-                turned(input, -1.0, 0)
-            }),
-            Mistake::new(
-                "the 2 is missing, and normalising does not replace it: the part along the normal must be turned round",
-                |input| {
-                    let along_the_mirror = DVec3::from(turned(input, -1.0, 2));
-                    (along_the_mirror / along_the_mirror.length()).into()
-                },
-            ),
-            Mistake::new("the part along the normal is taken off four times; twice turns it round", |input| {
-                turned(input, -4.0, 2)
-            }),
-            Mistake::new("the part along the normal is added; it is taken off twice: d − 2 (d · n) n", |input| {
-                turned(input, 2.0, 2)
-            }),
-            Mistake::new("the part along the normal is added; it is taken off twice: d − 2 (d · n) n", |input| {
-                turned(input, 2.0, 0)
-            }),
-            Mistake::new(
-                "d · n is missing: the normal is to be multiplied by the length of the part along it",
-                |input| (DVec3::from(input.0) + 2.0 * unit(input)).into(),
-            ),
-            Mistake::new(
-                "d · n is missing: the normal is to be multiplied by the length of the part along it",
-                |input| (DVec3::from(input.0) - 2.0 * unit(input)).into(),
-            ),
-            Mistake::new("the signs are mixed: it is d − 2 (d · n) n, with d in both places", |input| {
-                negative(turned(input, 2.0, 2))
-            }),
-            Mistake::new("the direction is sent back where it came from", |input| negative(input.0)),
-            Mistake::new("the direction goes on through the mirror as it came", |input| input.0),
-            Mistake::new("only y is turned round; the normal may point anywhere", |&([x, y, z], _)| [x, -y, z]),
-            Mistake::new("from behind a mirror works too; no sign of d · n needs to be asked for", |input| {
-                if facing(input) > 0.0 { turned(input, 2.0, 2) } else { turned(input, -2.0, 2) }
-            }),
-            Mistake::new("from behind a mirror works too; no sign of d · n needs to be asked for", |input| {
-                if facing(input) > 0.0 { input.0 } else { turned(input, -2.0, 2) }
-            }),
-            Mistake::new("from behind a mirror works too; no sign of d · n needs to be asked for", |input| {
-                if facing(input) > 0.0 { [0.0; 3] } else { turned(input, -2.0, 2) }
-            }),
-            Mistake::new("the absolute value of d · n is taken off; the sign of d · n must stay", |input| {
-                if facing(input) > 0.0 { turned(input, -2.0, 2) } else { turned(input, 2.0, 2) }
-            }),
-        ],
+        mistakes: Mistakes::<Input, Vector>::new()
+            .say("the normal is taken for a unit vector: divide by n · n")
+            .when(|input| turned(input, -2.0, 0))
+            .say(
+                "what comes out is divided by the normal's length once, but n is in the formula twice: divide by n \
+                 · n",
+            )
+            .when(|input| turned(input, -2.0, 1))
+            .say("the normal's length is divided out too often: n is in the formula twice, so divide by n · n")
+            .when(|input| turned(input, -2.0, 3))
+            .when(|input| turned(input, -2.0, 4))
+            .say("the result is normalised instead of the normal; that does not undo the normal's length")
+            .when(|input| DVec3::from(turned(input, -2.0, 0)).normalize().into())
+            .say("what comes out goes into the mirror: it is d − 2 (d · n) n, not 2 (d · n) n − d")
+            .when(|input| negative(turned(input, -2.0, 2)))
+            .when(|input| negative(turned(input, -2.0, 0)))
+            .say("the 2 is missing: the part along the normal is taken off, and not turned round")
+            .when(|input| turned(input, -1.0, 2))
+            .when(|input| turned(input, -1.0, 0))
+            .say(
+                "the 2 is missing, and normalising does not replace it: the part along the normal must be turned \
+                 round",
+            )
+            .when(|input| {
+                let along_the_mirror = DVec3::from(turned(input, -1.0, 2));
+                (along_the_mirror / along_the_mirror.length()).into()
+            })
+            .say("the part along the normal is taken off four times; twice turns it round")
+            .when(|input| turned(input, -4.0, 2))
+            .say("the part along the normal is added; it is taken off twice: d − 2 (d · n) n")
+            .when(|input| turned(input, 2.0, 2))
+            .when(|input| turned(input, 2.0, 0))
+            .say("d · n is missing: the normal is to be multiplied by the length of the part along it")
+            .when(|input| (DVec3::from(input.0) + 2.0 * unit(input)).into())
+            .when(|input| (DVec3::from(input.0) - 2.0 * unit(input)).into())
+            .say("the signs are mixed: it is d − 2 (d · n) n, with d in both places")
+            .when(|input| negative(turned(input, 2.0, 2)))
+            .say("the direction is sent back where it came from")
+            .when(|input| negative(input.0))
+            .say("the direction goes on through the mirror as it came")
+            .when(|input| input.0)
+            .say("only y is turned round; the normal may point anywhere")
+            .when(|&([x, y, z], _)| [x, -y, z])
+            .say("from behind a mirror works too; no sign of d · n needs to be asked for")
+            .when(|input| if facing(input) > 0.0 { turned(input, 2.0, 2) } else { turned(input, -2.0, 2) })
+            .when(|input| if facing(input) > 0.0 { input.0 } else { turned(input, -2.0, 2) })
+            .when(|input| if facing(input) > 0.0 { [0.0; 3] } else { turned(input, -2.0, 2) })
+            .say("the absolute value of d · n is taken off; the sign of d · n must stay")
+            .when(|input| if facing(input) > 0.0 { turned(input, -2.0, 2) } else { turned(input, 2.0, 2) }),
         hints: &[
             "split the direction into a part along the normal and a part along the surface; a mirror turns one of them \
              round",

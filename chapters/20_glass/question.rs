@@ -4,7 +4,7 @@ use super::mine::mine;
 use glam::DVec3;
 use pinhole::material::refract;
 use pinhole_lab::exercise::apart::{absolute, option};
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Vector = [f64; 3];
@@ -30,112 +30,79 @@ fn question() -> Question<Input, Option<Vector>> {
         apart: |yours, right| option(yours, right, |yours, right| absolute(yours, right)),
         allowed: 1e-9,
         measured: "in a part",
-        mistakes: vec![
-            Mistake::new("the root of a negative number is NaN: ask before you take it, and answer None", |i| {
+        mistakes: Mistakes::<Input, Option<Vector>>::new()
+            .say("the root of a negative number is NaN: ask before you take it, and answer None")
+            .when(|i| {
                 let (d, n) = (DVec3::from(i.0), DVec3::from(i.1));
                 Some(((d + (cosine(i) - squared(i).sqrt()) * n) / i.2).into())
-            }),
-            Mistake::new("η is inverted: it is the far side's index over the near side's", |i| {
-                refract(i.0.into(), i.1.into(), 1.0 / i.2).map(Into::into)
-            }),
-            Mistake::new("under the root η is inverted: √(1 − sin² / η²) is the cosine on the far side", |i| {
+            })
+            .say("η is inverted: it is the far side's index over the near side's")
+            .when(|i| refract(i.0.into(), i.1.into(), 1.0 / i.2).map(Into::into))
+            .say("under the root η is inverted: √(1 − sin² / η²) is the cosine on the far side")
+            .when(|i| {
                 let c = cosine(i);
                 parts(i, 1.0 / i.2, root(1.0 - i.2 * i.2 * (1.0 - c * c))?)
-            }),
-            Mistake::new(
-                "under the root η is inverted: it is η² − 1 + c², and then (c − g) n is divided by η",
-                |i| {
-                    let c = cosine(i);
-                    bent(i, c - root(1.0 / (i.2 * i.2) - 1.0 + c * c)?)
-                },
-            ),
-            Mistake::new("the minus is missing: the direction comes towards the surface, so c is −d · n", |i| {
-                bent(i, -cosine(i) - root(squared(i))?)
-            }),
-            Mistake::new("the minus is missing: the direction comes towards the surface, so c is −d · n", |i| {
-                bent(i, -cosine(i) + root(squared(i))?)
-            }),
-            Mistake::new(
-                "what comes out goes back to the near side: the normal's part must point into the surface",
-                |i| bent(i, cosine(i) + root(squared(i))?),
-            ),
-            Mistake::new(
-                "the whole sum is to be divided by η; g = √(η² − 1 + c²) is η times the far cosine",
-                |i| parts(i, 1.0 / i.2, root(squared(i))?),
-            ),
-            Mistake::new("nothing is divided by η: what comes out is not of length 1", |i| {
-                parts(i, 1.0, root(squared(i))?)
-            }),
-            Mistake::new("the part along the surface is multiplied by η; Snell's law divides it", |i| {
-                parts(i, i.2, root(squared(i))? / i.2)
-            }),
-            Mistake::new(
-                "only the part along the surface is divided by η; the other follows from the length of 1",
-                |i| parts(i, 1.0 / i.2, cosine(i)),
-            ),
-            Mistake::new(
-                "the two parts are normalised together; the part along the surface is exactly that of before over η, \
-                 and the other makes the length 1",
-                |i| parts(i, 1.0 / i.2, cosine(i)).map(|bent| DVec3::from(bent).normalize().into()),
-            ),
-            Mistake::new("the angle is divided by η; Snell's law divides its sine", by_angle),
-            Mistake::new("the cosine is taken for the sine: g² is η² − 1 + c²", |i| {
-                bent(i, cosine(i) - root(i.2 * i.2 - cosine(i) * cosine(i))?)
-            }),
-            Mistake::new("the root is missing: g is √(η² − 1 + c²)", |i| {
-                bent(i, cosine(i) - root(squared(i)).map(|_| squared(i))?)
-            }),
-            Mistake::new(
-                "it is the sine of the far angle that goes against the normal, which is for its cosine",
-                |i| parts(i, 1.0 / i.2, root(squared(i)).map(|_| (1.0 - cosine(i).powi(2)).max(0.0).sqrt())? / i.2),
-            ),
-            Mistake::new("η is not squared under the root: g² is η² − 1 + c²", |i| {
-                bent(i, cosine(i) - root(i.2 - 1.0 + cosine(i) * cosine(i))?)
-            }),
-            Mistake::new("the signs under the root are wrong: g² is η² − 1 + c²", |i| {
-                bent(i, cosine(i) - root(1.0 - i.2 * i.2 + cosine(i) * cosine(i))?)
-            }),
-            Mistake::new(
-                "nothing is to be turned round or inverted where η is below 1: the normal is on the side that the light comes from",
-                |i| {
-                    if i.2 < 1.0 {
-                        bent(i, cosine(i) + root(squared(i))?)
-                    } else {
-                        bent(i, cosine(i) - root(squared(i))?)
-                    }
-                },
-            ),
-            Mistake::new(
-                "nothing is to be turned round or inverted where η is below 1: the normal is on the side that the light comes from",
-                |i| refract(i.0.into(), i.1.into(), i.2.max(1.0 / i.2)).map(Into::into),
-            ),
-            Mistake::new(
-                "nothing is to be turned round or inverted where η is below 1: the normal is on the side that the light comes from",
-                |i| refract(i.0.into(), if i.2 < 1.0 { -DVec3::from(i.1) } else { i.1.into() }, i.2).map(Into::into),
-            ),
-            Mistake::new(
-                "out of a medium of a higher index some light passes, too: None only where g² is below 0",
-                |i| if i.2 < 1.0 { None } else { bent(i, cosine(i) - root(squared(i))?) },
-            ),
-            Mistake::new("the part along the surface stays as it is; by Snell's law it is divided by η", |i| {
-                parts(i, 1.0, root(squared(i))? / i.2)
-            }),
-            Mistake::new("the direction goes straight on", |i| Some(i.0)),
-            Mistake::new(
-                "where nothing passes the mirror's direction is given; what is reflected is not asked for, so it is None",
-                |i| refracted_or(i, |i| DVec3::from(i.0) + 2.0 * cosine(i) * DVec3::from(i.1)),
-            ),
-            Mistake::new("where nothing passes there is no direction: answer None", |i| {
-                refracted_or(i, |i| i.0.into())
-            }),
-            Mistake::new("where nothing passes there is no direction: answer None", |i| {
-                refracted_or(i, |_| DVec3::ZERO)
-            }),
-            Mistake::new(
-                "a root of a negative number is cut off at 0; where it is negative, nothing passes: None",
-                |i| bent(i, cosine(i) - squared(i).max(0.0).sqrt()),
-            ),
-        ],
+            })
+            .say("under the root η is inverted: it is η² − 1 + c², and then (c − g) n is divided by η")
+            .when(|i| {
+                let c = cosine(i);
+                bent(i, c - root(1.0 / (i.2 * i.2) - 1.0 + c * c)?)
+            })
+            .say("the minus is missing: the direction comes towards the surface, so c is −d · n")
+            .when(|i| bent(i, -cosine(i) - root(squared(i))?))
+            .when(|i| bent(i, -cosine(i) + root(squared(i))?))
+            .say("what comes out goes back to the near side: the normal's part must point into the surface")
+            .when(|i| bent(i, cosine(i) + root(squared(i))?))
+            .say("the whole sum is to be divided by η; g = √(η² − 1 + c²) is η times the far cosine")
+            .when(|i| parts(i, 1.0 / i.2, root(squared(i))?))
+            .say("nothing is divided by η: what comes out is not of length 1")
+            .when(|i| parts(i, 1.0, root(squared(i))?))
+            .say("the part along the surface is multiplied by η; Snell's law divides it")
+            .when(|i| parts(i, i.2, root(squared(i))? / i.2))
+            .say("only the part along the surface is divided by η; the other follows from the length of 1")
+            .when(|i| parts(i, 1.0 / i.2, cosine(i)))
+            .say(
+                "the two parts are normalised together; the part along the surface is exactly that of before over \
+                 η, and the other makes the length 1",
+            )
+            .when(|i| parts(i, 1.0 / i.2, cosine(i)).map(|bent| DVec3::from(bent).normalize().into()))
+            .say("the angle is divided by η; Snell's law divides its sine")
+            .when(by_angle)
+            .say("the cosine is taken for the sine: g² is η² − 1 + c²")
+            .when(|i| bent(i, cosine(i) - root(i.2 * i.2 - cosine(i) * cosine(i))?))
+            .say("the root is missing: g is √(η² − 1 + c²)")
+            .when(|i| bent(i, cosine(i) - root(squared(i)).map(|_| squared(i))?))
+            .say("it is the sine of the far angle that goes against the normal, which is for its cosine")
+            .when(|i| parts(i, 1.0 / i.2, root(squared(i)).map(|_| (1.0 - cosine(i).powi(2)).max(0.0).sqrt())? / i.2))
+            .say("η is not squared under the root: g² is η² − 1 + c²")
+            .when(|i| bent(i, cosine(i) - root(i.2 - 1.0 + cosine(i) * cosine(i))?))
+            .say("the signs under the root are wrong: g² is η² − 1 + c²")
+            .when(|i| bent(i, cosine(i) - root(1.0 - i.2 * i.2 + cosine(i) * cosine(i))?))
+            .say(
+                "nothing is to be turned round or inverted where η is below 1: the normal is on the side that the \
+                 light comes from",
+            )
+            .when(|i| {
+                if i.2 < 1.0 { bent(i, cosine(i) + root(squared(i))?) } else { bent(i, cosine(i) - root(squared(i))?) }
+            })
+            .when(|i| refract(i.0.into(), i.1.into(), i.2.max(1.0 / i.2)).map(Into::into))
+            .when(|i| refract(i.0.into(), if i.2 < 1.0 { -DVec3::from(i.1) } else { i.1.into() }, i.2).map(Into::into))
+            .say("out of a medium of a higher index some light passes, too: None only where g² is below 0")
+            .when(|i| if i.2 < 1.0 { None } else { bent(i, cosine(i) - root(squared(i))?) })
+            .say("the part along the surface stays as it is; by Snell's law it is divided by η")
+            .when(|i| parts(i, 1.0, root(squared(i))? / i.2))
+            .say("the direction goes straight on")
+            .when(|i| Some(i.0))
+            .say(
+                "where nothing passes the mirror's direction is given; what is reflected is not asked for, so it \
+                 is None",
+            )
+            .when(|i| refracted_or(i, |i| DVec3::from(i.0) + 2.0 * cosine(i) * DVec3::from(i.1)))
+            .say("where nothing passes there is no direction: answer None")
+            .when(|i| refracted_or(i, |i| i.0.into()))
+            .when(|i| refracted_or(i, |_| DVec3::ZERO))
+            .say("a root of a negative number is cut off at 0; where it is negative, nothing passes: None")
+            .when(|i| bent(i, cosine(i) - squared(i).max(0.0).sqrt())),
         hints: &[
             "split the direction into a part along the surface, d + (−d · n) n, and a part along the normal",
             "by Snell's law the part along the surface is divided by η; the other is √(1 − its square), against the \

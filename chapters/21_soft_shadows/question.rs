@@ -4,7 +4,7 @@ use super::mine::mine;
 use glam::DVec3;
 use pinhole::shapes::emitter::pdf_from_area;
 use pinhole_lab::exercise::apart::relative;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Part, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 type Vector = [f64; 3];
@@ -36,89 +36,7 @@ fn question() -> Question<Input, f64> {
         apart: |yours, right| relative(&[*yours], &[*right]),
         allowed: 1e-10,
         measured: "of the pdf",
-        mistakes: vec![
-            Mistake::new("that is the pdf per unit of area; of solid angle the area fills A cos θ / d²", |input| {
-                powers(input, 0, 0, -1)
-            }),
-            Mistake::new("the cosine at the light is missing: an area seen obliquely fills less", |input| {
-                powers(input, 2, 0, -1)
-            }),
-            Mistake::new(
-                "the pdf is multiplied by the cosine; seen obliquely the same points crowd into fewer directions, so divide by it",
-                |input| powers(input, 2, 1, -1),
-            ),
-            Mistake::new(
-                "the pdf is multiplied by the cosine; seen obliquely the same points crowd into fewer directions, so divide by it",
-                |input| powers(input, 3, 1, -1),
-            ),
-            Mistake::new("the distance is missing: far away the area fills less", |input| powers(input, 0, -1, -1)),
-            Mistake::new(
-                "the distance counts once, not squared; normal · v is d times the cosine, so divide it by d",
-                |input| powers(input, 1, -1, -1),
-            ),
-            Mistake::new("the distance is cubed; the cosine is normal · v over d, not over d²", |input| {
-                powers(input, 3, -1, -1)
-            }),
-            Mistake::new("the distance is squared twice: it is d² over A cos θ", |input| powers(input, 4, -1, -1)),
-            Mistake::new("that is the solid angle of the area; the pdf is one over it", |input| {
-                powers(input, -2, 1, 1)
-            }),
-            Mistake::new("the conversion is upside down: of 1/A per area it makes d² / cos θ times that", |input| {
-                powers(input, -2, 1, -1)
-            }),
-            Mistake::new("it is divided by d²; far away the same points crowd into fewer directions", |input| {
-                powers(input, -2, -1, -1)
-            }),
-            Mistake::new("it is divided by d²; far away the same points crowd into fewer directions", |input| {
-                powers(input, -2, 0, -1)
-            }),
-            Mistake::new("the cosine is squared; only that at the light counts, and once", |input| {
-                powers(input, 2, -2, -1)
-            }),
-            Mistake::new(
-                "it is divided by π, which belongs to cosine-weighted directions; here it is d² / (A cos θ)",
-                |input| pdf(input) / std::f64::consts::PI,
-            ),
-            Mistake::new("the area is missing: the larger it is, the less probable is each of its points", |input| {
-                powers(input, 2, -1, 0)
-            }),
-            Mistake::new(
-                "the pdf is multiplied by the area; the larger it is, the less probable is each of its points",
-                |input| powers(input, 2, -1, 1),
-            ),
-            Mistake::new("the area is taken twice; though both sides shine, the points lie on one area A", |input| {
-                0.5 * pdf(input)
-            }),
-            Mistake::new("the pdf is doubled; though both sides shine, the points lie on one area A", |input| {
-                2.0 * pdf(input)
-            }),
-            Mistake::new(
-                "a light that faces away has a negative pdf; on which side its normal is makes no difference",
-                |i| pdf(i).copysign(-cosine(i)),
-            ),
-            Mistake::new("the pdf is negative where the light faces you; take the cosine's absolute value", |i| {
-                pdf(i).copysign(cosine(i))
-            }),
-            Mistake::new(
-                "a light that faces away has none; on which side its normal is makes no difference here",
-                |input| {
-                    if cosine(input) < 0.0 { pdf(input) } else { 0.0 }
-                },
-            ),
-            Mistake::new(
-                "a light that faces you has none; both of its sides shine: take the absolute value",
-                |input| {
-                    if cosine(input) > 0.0 { pdf(input) } else { 0.0 }
-                },
-            ),
-            Mistake::new("the lit point is left out: v is at − from", |&(_, at, normal, area)| {
-                pdf(&([0.0; 3], at, normal, area))
-            }),
-            Mistake::new(
-                "seen from its edge the area fills no direction, and the answer is to be 0, not 1 / 0",
-                |input| squared(input) / (input.3 * cosine(input).abs()),
-            ),
-        ],
+        mistakes: mistakes(),
         hints: &[
             "how much of the sky does a small part of the area fill, when it is turned to you and when it is not?",
             "a part dA at distance d fills dA cos θ / d², with θ between its normal and the direction to you; the probability \
@@ -126,6 +44,73 @@ fn question() -> Question<Input, f64> {
             "d² / (A |cos θ|), where v = at − from, d = |v| and cos θ = normal · v / d; 0 where the cosine is 0",
         ],
     }
+}
+
+fn mistakes() -> Mistakes<Input, f64> {
+    let distance = Part::<Input, f64>::new(squared)
+        .say("the distance is missing: far away the area fills less")
+        .when(|_| 1.0)
+        .say("the distance counts once, not squared; normal · v is d times the cosine, so divide it by d")
+        .when(|i| squared(i).sqrt())
+        .say("the distance is cubed; the cosine is normal · v over d, not over d²")
+        .when(|i| squared(i).sqrt().powi(3))
+        .say("the distance is squared twice: it is d² over A cos θ")
+        .when(|i| squared(i).powi(2))
+        .say("it is divided by d²; far away the same points crowd into fewer directions")
+        .when(|i| 1.0 / squared(i));
+    let across = Part::<Input, f64>::new(|i| cosine(i).abs())
+        .say("the cosine at the light is missing: an area seen obliquely fills less")
+        .when(|i| f64::from(u8::from(cosine(i) != 0.0)))
+        .say(
+            "the pdf is multiplied by the cosine; seen obliquely the same points crowd into fewer directions, \
+                 so divide by it",
+        )
+        .when(|i| if cosine(i) == 0.0 { 0.0 } else { 1.0 / cosine(i).abs() })
+        .say("the cosine is squared; only that at the light counts, and once")
+        .when(|i| cosine(i).powi(2))
+        .say("a light that faces away has a negative pdf; on which side its normal is makes no difference")
+        .when(|i| -cosine(i))
+        .say("the pdf is negative where the light faces you; take the cosine's absolute value")
+        .when(cosine)
+        .say("a light that faces away has none; on which side its normal is makes no difference here")
+        .when(|i| (-cosine(i)).max(0.0))
+        .say("a light that faces you has none; both of its sides shine: take the absolute value")
+        .when(|i| cosine(i).max(0.0));
+    let area = Part::<Input, f64>::new(|i| i.3)
+        .say("the area is missing: the larger it is, the less probable is each of its points")
+        .when(|_| 1.0)
+        .say("the pdf is multiplied by the area; the larger it is, the less probable is each of its points")
+        .when(|i| 1.0 / i.3)
+        .say("it is divided by π, which belongs to cosine-weighted directions; here it is d² / (A cos θ)")
+        .when(|i| i.3 * std::f64::consts::PI)
+        .say("the area is taken twice; though both sides shine, the points lie on one area A")
+        .when(|i| 2.0 * i.3)
+        .say("the pdf is doubled; though both sides shine, the points lie on one area A")
+        .when(|i| 0.5 * i.3);
+    let whole = Part::<[f64; 3], f64>::new(
+        |&[squared, across, area]| {
+            if across == 0.0 { 0.0 } else { squared / (area * across) }
+        },
+    )
+    .say("that is the solid angle of the area; the pdf is one over it")
+    .when(|&[squared, across, area]| area * across / squared)
+    .say("the conversion is upside down: of 1/A per area it makes d² / cos θ times that")
+    .when(|&[squared, across, area]| across / (squared * area))
+    .say("seen from its edge the area fills no direction, and the answer is to be 0, not 1 / 0")
+    .when(|&[squared, across, area]| squared / (area * across));
+    Mistakes::<Input, f64>::new()
+        .say("that is the pdf per unit of area; of solid angle the area fills A cos θ / d²")
+        .when(|i| if cosine(i) == 0.0 { 0.0 } else { 1.0 / i.3 })
+        .say(
+            "the pdf is multiplied by the cosine; seen obliquely the same points crowd into fewer directions, \
+                 so divide by it",
+        )
+        .when(|i| squared(i).sqrt().powi(3) * cosine(i).abs() / i.3)
+        .say("it is divided by d²; far away the same points crowd into fewer directions")
+        .when(|i| if cosine(i) == 0.0 { 0.0 } else { 1.0 / (squared(i) * i.3) })
+        .say("the lit point is left out: v is at − from")
+        .when(|&(_, at, normal, area)| pdf(&([0.0; 3], at, normal, area)))
+        .of_parts([distance, across, area], whole)
 }
 
 fn asked() -> Vec<Probe<Input>> {
@@ -166,13 +151,6 @@ fn squared(input: &Input) -> f64 {
 /// Between the light's normal and the direction to it: below 0 where its front is seen.
 fn cosine(input: &Input) -> f64 {
     DVec3::from(input.2).dot(to_light(input)) / squared(input).sqrt()
-}
-
-/// Powers of the distance, the cosine and the area; 0 from the edge.
-fn powers(input: &Input, distances: i32, cosines: i32, areas: i32) -> f64 {
-    let cosine = cosine(input).abs();
-    let distance = squared(input).sqrt();
-    if cosine == 0.0 { 0.0 } else { distance.powi(distances) * cosine.powi(cosines) * input.3.powi(areas) }
 }
 
 fn pdf(input: &Input) -> f64 {

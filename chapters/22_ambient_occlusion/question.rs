@@ -3,7 +3,7 @@
 use super::mine::mine;
 use pinhole::material::cosine_direction;
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Part, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -17,16 +17,6 @@ pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("cosine_direction", question, move |&(u, v)| yours(u, v), mine)
 }
 
-/// A direction by its radius in the disk, its turn and its height.
-fn raised(radius: f64, turn: f64, height: f64) -> [f64; 3] {
-    [radius * libm::cos(turn), radius * libm::sin(turn), height]
-}
-
-/// A direction by its angle to +z and its turn.
-fn tilted(angle: f64, v: f64) -> [f64; 3] {
-    raised(libm::sin(angle), TAU * v, libm::cos(angle))
-}
-
 fn question() -> Question<Input, [f64; 3]> {
     Question {
         pinhole_has: ("src/pinhole/material/frame.rs", "cosine_direction"),
@@ -36,141 +26,86 @@ fn question() -> Question<Input, [f64; 3]> {
         apart: |yours, right| absolute(yours, right),
         allowed: 1e-12,
         measured: "of each part",
-        mistakes: vec![
-            Mistake::new(
-                "u is taken for the radius; the area within a radius grows as its square, so the root is missing",
-                |&(u, v)| raised(u, TAU * v, (1.0 - u * u).sqrt()),
-            ),
-            Mistake::new(
-                "u is taken for the radius; the area within a radius grows as its square, so the root is missing",
-                |&(u, v)| raised(u, TAU * v, (1.0 - u).sqrt()),
-            ),
-            Mistake::new(
-                "u is taken for the radius; the area within a radius grows as its square, so the root is missing",
-                |&(u, v)| raised(u, TAU * v, 1.0 - u),
-            ),
-            Mistake::new("the radius is u squared; u is the radius squared, so take its root", |&(u, v)| {
-                raised(u * u, TAU * v, (1.0 - u * u * u * u).sqrt())
-            }),
-            Mistake::new(
-                "u is taken for the angle to +z; it is an area, and the radius √u is the sine of that angle",
-                |&(u, v)| tilted(u * FRAC_PI_2, v),
-            ),
-            Mistake::new(
-                "u is taken for the angle to +z; it is an area, and the radius √u is the sine of that angle",
-                |&(u, v)| tilted(u, v),
-            ),
-            Mistake::new(
-                "u is taken for the angle to +z; it is an area, and the radius √u is the sine of that angle",
-                |&(u, v)| tilted(u * PI, v),
-            ),
-            Mistake::new("√u is taken for the angle to +z; it is the radius, the sine of that angle", |&(u, v)| {
-                tilted(u.sqrt() * FRAC_PI_2, v)
-            }),
-            Mistake::new(
-                "u is taken for the height: that makes the directions uniform, not cosine-weighted",
-                |&(u, v)| raised((1.0 - u * u).sqrt(), TAU * v, u),
-            ),
-            Mistake::new(
-                "1 − u is taken for the height: that makes the directions uniform, not cosine-weighted",
-                |&(u, v)| raised((u * (2.0 - u)).sqrt(), TAU * v, 1.0 - u),
-            ),
-            Mistake::new(
-                "z is a cube root, which goes with the cosine squared; for the cosine itself it is the root of 1 − u",
-                |&(u, v)| {
-                    let z = (1.0 - u).cbrt();
-                    raised((1.0 - z * z).max(0.0).sqrt(), TAU * v, z)
-                },
-            ),
-            Mistake::new(
-                "those are directions of the whole sphere; asked are those of the hemisphere about +z",
-                |&(u, v)| raised(2.0 * (u * (1.0 - u)).sqrt(), TAU * v, 1.0 - 2.0 * u),
-            ),
-            Mistake::new(
-                "u and 1 − u are swapped: u is the area nearer to the middle, so u = 0 is the pole and √u the radius",
-                |&(u, v)| raised((1.0 - u).sqrt(), TAU * v, u.sqrt()),
-            ),
-            Mistake::new("u and v are swapped: u is for the radius, and v for the turn", |&(u, v)| {
-                raised(v.sqrt(), TAU * u, (1.0 - v).sqrt())
-            }),
-            Mistake::new("v makes half a turn only; a full one is 2π", |&(u, v)| {
-                raised(u.sqrt(), PI * v, (1.0 - u).sqrt())
-            }),
-            Mistake::new("v is taken for an angle; it is a fraction of a full turn, which is 2π", |&(u, v)| {
-                raised(u.sqrt(), v, (1.0 - u).sqrt())
-            }),
-            Mistake::new(
-                "the turn is in degrees; cosine and sine are of radians, and a full turn is 2π",
-                |&(u, v)| raised(u.sqrt(), 360.0 * v, (1.0 - u).sqrt()),
-            ),
-            Mistake::new("the turn goes from +x towards −y; it goes towards +y", |&(u, v)| {
-                raised(u.sqrt(), -TAU * v, (1.0 - u).sqrt())
-            }),
-            Mistake::new("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u", |&(u, v)| {
-                raised(u.sqrt(), TAU * v, 1.0 - u)
-            }),
-            Mistake::new("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u", |&(u, v)| {
-                raised(u.sqrt(), TAU * v, (1.0 - u * u).sqrt())
-            }),
-            Mistake::new("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u", |&(u, v)| {
-                raised(u.sqrt(), TAU * v, 1.0 - u.sqrt())
-            }),
-            Mistake::new("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u", |&(u, v)| {
-                raised(u.sqrt(), TAU * v, u.sqrt())
-            }),
-            Mistake::new("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u", |&(u, v)| {
-                raised(u.sqrt(), TAU * v, (1.0 - u.sqrt()).sqrt())
-            }),
-            Mistake::new("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u", |&(u, v)| {
-                raised(u.sqrt(), TAU * v, 1.0)
-            }),
-            Mistake::new("z points down; the directions lie about +z", |&(u, v)| {
-                raised(u.sqrt(), TAU * v, -(1.0 - u).sqrt())
-            }),
-            Mistake::new("cosine and sine of the turn are swapped: it starts at +x and goes towards +y", |&(u, v)| {
-                let [x, y, z] = raised(u.sqrt(), TAU * v, (1.0 - u).sqrt());
-                [y, x, z]
-            }),
-            Mistake::new("the turn starts at +y; it starts at +x and goes towards +y", |&(u, v)| {
-                raised(u.sqrt(), TAU * v + FRAC_PI_2, (1.0 - u).sqrt())
-            }),
-            Mistake::new("the height is y; the directions lie about +z, so it is z", |&(u, v)| {
-                let [x, y, z] = raised(u.sqrt(), TAU * v, (1.0 - u).sqrt());
-                [x, z, y]
-            }),
-            Mistake::new(
-                "1 − r² loses its digits at the rim, where r is almost 1; 1 − u is the same, and exact",
-                |&(u, v)| raised(u.sqrt(), TAU * v, (1.0 - u.sqrt() * u.sqrt()).sqrt()),
-            ),
-            Mistake::new(
-                "1 − r² loses its digits at the rim, where r is almost 1; 1 − u is the same, and exact",
-                |&(u, v)| raised(u.sqrt(), TAU * v, (1.0 - u.sqrt() * u.sqrt()).max(0.0).sqrt()),
-            ),
-            Mistake::new(
-                "1 − r² loses its digits at the rim, where r is almost 1; 1 − u is the same, and exact",
-                |&(u, v)| {
-                    let [x, y, _] = raised(u.sqrt(), TAU * v, 0.0);
-                    [x, y, (1.0 - x * x - y * y).max(0.0).sqrt()]
-                },
-            ),
-            Mistake::new(
-                "1 − r² loses its digits at the rim, where r is almost 1; 1 − u is the same, and exact",
-                |&(u, v)| {
-                    let [x, y, _] = raised(u.sqrt(), TAU * v, 0.0);
-                    [x, y, (1.0 - (x * x + y * y)).max(0.0).sqrt()]
-                },
-            ),
-            Mistake::new(
-                "1 − r² loses its digits at the rim, where r is almost 1; 1 − u is the same, and exact",
-                |&(u, v)| tilted(libm::asin(u.sqrt()), v),
-            ),
-        ],
+        mistakes: mistakes(),
         hints: &[
             "choose a point of the unit disk, all of them alike, and go straight up from it to the hemisphere",
             "the fraction of the disk's area within a radius r is r², so r is the root of u; the angle is 2πv",
             "x = r cos 2πv, y = r sin 2πv, and z makes the length 1: z² = 1 − r² = 1 − u",
         ],
     }
+}
+
+fn mistakes() -> Mistakes<Input, [f64; 3]> {
+    let radius = Part::<Input, f64>::new(|i| i.0.sqrt()).say(RADIUS).when(|i| i.0);
+    let turn = Part::<Input, f64>::new(|i| TAU * i.1)
+        .say("v makes half a turn only; a full one is 2π")
+        .when(|i| PI * i.1)
+        .say("v is taken for an angle; it is a fraction of a full turn, which is 2π")
+        .when(|i| i.1)
+        .say("the turn is in degrees; cosine and sine are of radians, and a full turn is 2π")
+        .when(|i| 360.0 * i.1)
+        .say("the turn goes from +x towards −y; it goes towards +y")
+        .when(|i| -TAU * i.1)
+        .say("the turn starts at +y; it starts at +x and goes towards +y")
+        .when(|i| TAU * i.1 + FRAC_PI_2);
+    let height = Part::<Input, f64>::new(|i| (1.0 - i.0).sqrt())
+        .say("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u")
+        .when(|i| 1.0 - i.0)
+        .when(|i| (1.0 - i.0 * i.0).sqrt())
+        .when(|i| 1.0 - i.0.sqrt())
+        .when(|i| i.0.sqrt())
+        .when(|i| (1.0 - i.0.sqrt()).sqrt())
+        .when(|_| 1.0)
+        .say("z points down; the directions lie about +z")
+        .when(|i| -(1.0 - i.0).sqrt())
+        .say("1 − r² loses its digits at the rim, where r is almost 1; 1 − u is the same, and exact")
+        .when(|i| (1.0 - i.0.sqrt() * i.0.sqrt()).sqrt())
+        .when(|i| (1.0 - i.0.sqrt() * i.0.sqrt()).max(0.0).sqrt())
+        .when(|&(u, v)| {
+            let [x, y, _] = raised(&[u.sqrt(), TAU * v, 0.0]);
+            (1.0 - x * x - y * y).max(0.0).sqrt()
+        })
+        .when(|&(u, v)| {
+            let [x, y, _] = raised(&[u.sqrt(), TAU * v, 0.0]);
+            (1.0 - (x * x + y * y)).max(0.0).sqrt()
+        })
+        .when(|i| libm::cos(libm::asin(i.0.sqrt())));
+    let whole = Part::<[f64; 3], [f64; 3]>::new(raised)
+        .say("cosine and sine of the turn are swapped: it starts at +x and goes towards +y")
+        .when(|of| {
+            let [x, y, z] = raised(of);
+            [y, x, z]
+        })
+        .say("the height is y; the directions lie about +z, so it is z")
+        .when(|of| {
+            let [x, y, z] = raised(of);
+            [x, z, y]
+        });
+    Mistakes::<Input, [f64; 3]>::new()
+        .say(RADIUS)
+        .when(|&(u, v)| raised(&[u, TAU * v, (1.0 - u * u).sqrt()]))
+        .when(|&(u, v)| raised(&[u, TAU * v, 1.0 - u]))
+        .say("the radius is u squared; u is the radius squared, so take its root")
+        .when(|&(u, v)| raised(&[u * u, TAU * v, (1.0 - u * u * u * u).sqrt()]))
+        .say("u is taken for the angle to +z; it is an area, and the radius √u is the sine of that angle")
+        .when(|&(u, v)| tilted(u * FRAC_PI_2, v))
+        .when(|&(u, v)| tilted(u, v))
+        .when(|&(u, v)| tilted(u * PI, v))
+        .say("√u is taken for the angle to +z; it is the radius, the sine of that angle")
+        .when(|&(u, v)| tilted(u.sqrt() * FRAC_PI_2, v))
+        .say("u is taken for the height: that makes the directions uniform, not cosine-weighted")
+        .when(|&(u, v)| raised(&[(1.0 - u * u).sqrt(), TAU * v, u]))
+        .say("1 − u is taken for the height: that makes the directions uniform, not cosine-weighted")
+        .when(|&(u, v)| raised(&[(u * (2.0 - u)).sqrt(), TAU * v, 1.0 - u]))
+        .say("z is a cube root, which goes with the cosine squared; for the cosine itself it is the root of 1 − u")
+        .when(|&(u, v)| raised(&[(1.0 - (1.0 - u).cbrt().powi(2)).max(0.0).sqrt(), TAU * v, (1.0 - u).cbrt()]))
+        .say("those are directions of the whole sphere; asked are those of the hemisphere about +z")
+        .when(|&(u, v)| raised(&[2.0 * (u * (1.0 - u)).sqrt(), TAU * v, 1.0 - 2.0 * u]))
+        .say("u and 1 − u are swapped: u is the area nearer to the middle, so u = 0 is the pole and √u the radius")
+        .when(|&(u, v)| raised(&[(1.0 - u).sqrt(), TAU * v, u.sqrt()]))
+        .say("u and v are swapped: u is for the radius, and v for the turn")
+        .when(|&(u, v)| raised(&[v.sqrt(), TAU * u, (1.0 - v).sqrt()]))
+        .of_parts([radius, turn, height], whole)
 }
 
 fn asked() -> Vec<Probe<Input>> {
@@ -186,4 +121,16 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("the pole", [(0.0, 0.0), (0.0, 0.7)]));
     asked.extend(extremes("almost at the rim", [(last, 0.2), (last, last)]));
     asked
+}
+
+const RADIUS: &str = "u is taken for the radius; the area within a radius grows as its square, so the root is missing";
+
+/// A direction by its radius in the disk, its turn and its height.
+fn raised(&[radius, turn, height]: &[f64; 3]) -> [f64; 3] {
+    [radius * libm::cos(turn), radius * libm::sin(turn), height]
+}
+
+/// A direction by its angle to +z and its turn.
+fn tilted(angle: f64, v: f64) -> [f64; 3] {
+    raised(&[libm::sin(angle), TAU * v, libm::cos(angle)])
 }

@@ -2,9 +2,9 @@
 
 use super::mine::mine;
 use glam::DVec3;
-use pinhole::rays::{camera_ray_lens, camera_ray_perspective};
+use pinhole::rays::camera_ray_lens;
 use pinhole_lab::exercise::apart::relative;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Part, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::naive::lens::focus_along_the_ray;
 
@@ -34,101 +34,11 @@ fn question() -> Question<Input, [f64; 3]> {
                 lens.shown()
             )
         },
-        right: |&(screen, tangent, lens, focus)| lens_ray(screen, tangent, lens, focus),
+        right: |&(screen, tangent, lens, focus)| camera_ray_lens(screen.into(), tangent, lens.into(), focus).into(),
         apart: |yours, right| relative(yours, right),
         allowed: 1e-12,
         measured: "of a part",
-        mistakes: vec![
-            Mistake::new("the direction is the pinhole's: the lens point is left out", |&(screen, tangent, _, _)| {
-                camera_ray_perspective(screen.into(), tangent).into()
-            }),
-            Mistake::new(
-                "the focus is taken along the ray: what is sharp is a sphere about the eye, no plane",
-                |input| {
-                    let &(screen, tangent, lens, focus) = input;
-                    focus_along_the_ray(screen.into(), tangent, lens.into(), focus).into()
-                },
-            ),
-            Mistake::new("the plane in focus is always at distance 1", |&(screen, tangent, lens, _)| {
-                lens_ray(screen, tangent, lens, 1.0)
-            }),
-            Mistake::new(
-                "only the depth is multiplied by the focus distance: the point in focus lies on the pinhole's ray, so x \
-                 and y are, too",
-                |&([x, y], tangent, lens, focus)| lens_ray([x / focus, y / focus], tangent, lens, focus),
-            ),
-            Mistake::new(
-                "only x and y are multiplied by the focus distance: the point in focus lies on the pinhole's ray, at z = −f",
-                |input| {
-                    let [x, y, _] = not_normalised(input, input.3);
-                    DVec3::new(x, y, -1.0).normalize().into()
-                },
-            ),
-            Mistake::new(
-                "the lens point is added; the direction from it to the point in focus is the difference",
-                |&(screen, tangent, [x, y], focus)| lens_ray(screen, tangent, [-x, -y], focus),
-            ),
-            Mistake::new("the lens point is multiplied by the tangent; it already is in camera space", |input| {
-                let &(screen, tangent, [x, y], focus) = input;
-                lens_ray(screen, tangent, [x * tangent, y * tangent], focus)
-            }),
-            Mistake::new(
-                "the lens point is divided by the focus distance, and P is not; both are, or neither",
-                |input| {
-                    let &(screen, tangent, [x, y], focus) = input;
-                    lens_ray(screen, tangent, [x / focus, y / focus], focus)
-                },
-            ),
-            Mistake::new("the tangent is left out", |&(screen, _, lens, focus)| lens_ray(screen, 1.0, lens, focus)),
-            Mistake::new(
-                "the screen point is divided by the tangent; its place on the image plane is the product of the two",
-                |input| {
-                    let &(screen, tangent, lens, focus) = input;
-                    lens_ray(screen, 1.0 / tangent, lens, focus)
-                },
-            ),
-            Mistake::new("tan_half_vertical is taken for an angle; it is the tangent already", |input| {
-                let &(screen, tangent, lens, focus) = input;
-                lens_ray(screen, libm::tan(tangent), lens, focus)
-            }),
-            Mistake::new("tan_half_vertical is halved; it belongs to half the angle already", |input| {
-                let &(screen, tangent, lens, focus) = input;
-                lens_ray(screen, tangent / 2.0, lens, focus)
-            }),
-            Mistake::new(
-                "tan_half_vertical is doubled; screen points go from −1 to 1, so they take it once",
-                |input| {
-                    let &(screen, tangent, lens, focus) = input;
-                    lens_ray(screen, tangent * 2.0, lens, focus)
-                },
-            ),
-            Mistake::new("the direction is not of length 1", |input| not_normalised(input, input.3)),
-            Mistake::new("the direction is not of length 1", |input| {
-                not_normalised(input, input.3).map(|part| part / input.3)
-            }),
-            Mistake::new("the direction is not of length 1", |input| {
-                let &([x, y], tangent, ..) = input;
-                let longer = DVec3::new(x * tangent, y * tangent, 1.0).length();
-                not_normalised(input, input.3 / longer)
-            }),
-            Mistake::new("the direction is not of length 1", |input| {
-                not_normalised(input, input.3)
-                    .map(|part| part / DVec3::from(not_normalised(input, input.3)).length_squared())
-            }),
-            Mistake::new("the direction goes from the focus to the lens: it is P − L, not L − P", |input| {
-                let &(screen, tangent, lens, focus) = input;
-                lens_ray(screen, tangent, lens, focus).map(|part| -part)
-            }),
-            Mistake::new("y is turned round; screen points have y upwards, as camera space has", |input| {
-                let &([x, y], tangent, lens, focus) = input;
-                lens_ray([x, -y], tangent, lens, focus)
-            }),
-            Mistake::new("the plane in focus stands at z = +f; the camera looks down −z", |input| {
-                let &(screen, tangent, lens, focus) = input;
-                let [x, y, z] = lens_ray(screen, tangent, lens, focus);
-                [x, y, -z]
-            }),
-        ],
+        mistakes: mistakes(),
         hints: &[
             "find the point in focus first: the pinhole's ray is at (x, y, −1) times the focus distance there",
             "the direction is that point less the lens point, which lies at z = 0",
@@ -137,14 +47,70 @@ fn question() -> Question<Input, [f64; 3]> {
     }
 }
 
-fn lens_ray(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64) -> [f64; 3] {
-    camera_ray_lens(screen.into(), tangent, lens.into(), focus).into()
-}
-
-/// From the lens point to what is that deep on the pinhole's ray.
-fn not_normalised(&(screen, tangent, lens, _): &Input, depth: f64) -> [f64; 3] {
-    let part = |axis: usize| screen[axis] * tangent * depth - lens[axis];
-    [part(0), part(1), -depth]
+fn mistakes() -> Mistakes<Input, [f64; 3]> {
+    let x = Part::<Input, f64>::new(|i| i.0[0]);
+    let y = Part::<Input, f64>::new(|i| i.0[1])
+        .say("y is turned round; screen points have y upwards, as camera space has")
+        .when(|i| -i.0[1]);
+    let tangent = Part::<Input, f64>::new(|i| i.1)
+        .say("the tangent is left out")
+        .when(|_| 1.0)
+        .say("the screen point is divided by the tangent; its place on the image plane is the product of the two")
+        .when(|i| 1.0 / i.1)
+        .say("tan_half_vertical is taken for an angle; it is the tangent already")
+        .when(|i| libm::tan(i.1))
+        .say("tan_half_vertical is halved; it belongs to half the angle already")
+        .when(|i| i.1 / 2.0)
+        .say("tan_half_vertical is doubled; screen points go from −1 to 1, so they take it once")
+        .when(|i| 2.0 * i.1)
+        .say(
+            "only the depth is multiplied by the focus distance: the point in focus lies on the pinhole's ray, \
+                 so x and y are, too",
+        )
+        .when(|i| i.1 / i.3);
+    let [lens_x, lens_y] = [Part::<Input, f64>::new(|i| i.2[0]), Part::new(|i| i.2[1])];
+    let lens_x = lens_x
+        .say(LEFT_OUT)
+        .when(|_| 0.0)
+        .say(ADDED)
+        .when(|i| -i.2[0])
+        .say(BY_TANGENT)
+        .when(|i| i.2[0] * i.1)
+        .say(BY_FOCUS)
+        .when(|i| i.2[0] / i.3);
+    let lens_y = lens_y
+        .say(LEFT_OUT)
+        .when(|_| 0.0)
+        .say(ADDED)
+        .when(|i| -i.2[1])
+        .say(BY_TANGENT)
+        .when(|i| i.2[1] * i.1)
+        .say(BY_FOCUS)
+        .when(|i| i.2[1] / i.3);
+    let focus = Part::<Input, f64>::new(|i| i.3).say("the plane in focus is always at distance 1").when(|_| 1.0);
+    let whole = Part::<[f64; 6], [f64; 3]>::new(|of| to_focus(of).normalize().into())
+        .say("the direction is not of length 1")
+        .when(|of| to_focus(of).into())
+        .when(|of| (to_focus(of) / of[5]).into())
+        .when(|of| (to_focus(of) / to_focus(of).length_squared()).into())
+        .say(
+            "only x and y are multiplied by the focus distance: the point in focus lies on the pinhole's ray, \
+                 at z = −f",
+        )
+        .when(|of| DVec3 { z: -1.0, ..to_focus(of) }.normalize().into())
+        .say("the direction goes from the focus to the lens: it is P − L, not L − P")
+        .when(|of| (-to_focus(of).normalize()).into())
+        .say("the plane in focus stands at z = +f; the camera looks down −z")
+        .when(|of| DVec3 { z: of[5], ..to_focus(of) }.normalize().into());
+    Mistakes::<Input, [f64; 3]>::new()
+        .say("the focus is taken along the ray: what is sharp is a sphere about the eye, no plane")
+        .when(|&(screen, tangent, lens, focus)| focus_along_the_ray(screen.into(), tangent, lens.into(), focus).into())
+        .say("the direction is not of length 1")
+        .when(|&([x, y], tangent, lens, focus)| {
+            let focus = focus / DVec3::new(x * tangent, y * tangent, 1.0).length();
+            to_focus(&[x, y, tangent, lens[0], lens[1], focus]).into()
+        })
+        .of_parts([x, y, tangent, lens_x, lens_y, focus], whole)
 }
 
 fn asked() -> Vec<Probe<Input>> {
@@ -163,4 +129,14 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("the middle of the lens", at(2303, 0.0, [2.0, 20.0])));
     asked.extend(probes("a lens wider than its focus is far", at(2304, 50.0, [0.5, 2.0])));
     asked
+}
+
+const LEFT_OUT: &str = "the direction is the pinhole's: the lens point is left out";
+const ADDED: &str = "the lens point is added; the direction from it to the point in focus is the difference";
+const BY_TANGENT: &str = "the lens point is multiplied by the tangent; it already is in camera space";
+const BY_FOCUS: &str = "the lens point is divided by the focus distance, and P is not; both are, or neither";
+
+/// From the lens point to the point in focus.
+fn to_focus(&[x, y, tangent, lens_x, lens_y, focus]: &[f64; 6]) -> DVec3 {
+    DVec3::new(x * tangent * focus - lens_x, y * tangent * focus - lens_y, -focus)
 }

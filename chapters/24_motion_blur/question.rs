@@ -5,7 +5,7 @@ use glam::DVec3;
 use pinhole::intersect::at_rest;
 use pinhole::shapes::{sphere_intersection, sphere_t};
 use pinhole_lab::exercise::apart::{option, relative};
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// Origin, direction, centre, radius, velocity, time.
@@ -35,139 +35,71 @@ fn question() -> Question<Input, Answer> {
         apart: |yours, right| option(yours, right, |yours, right| relative(&[*yours], &[*right])),
         allowed: 1e-9,
         measured: "of t",
-        mistakes: vec![
-            Mistake::new("the sphere stands still: its motion is left out", |input| moved(input, 0.0)),
-            Mistake::new(
-                "the sphere moves backwards: its centre is at centre + velocity · time, or the origin at origin − velocity · time",
-                |input| moved(input, -input.5),
-            ),
-            Mistake::new(
-                "the sphere moves backwards: its centre is at centre + velocity · time, or the origin at origin − velocity · time",
-                |input| moved(input, -1.0),
-            ),
-            Mistake::new("the time is left out: the sphere has always moved by one unit of time", |input| {
-                moved(input, 1.0)
-            }),
-            Mistake::new("the motion counts twice: move either the centre or the origin, not both", |input| {
-                moved(input, 2.0 * input.5)
-            }),
-            Mistake::new(
-                "the time is squared: the velocity is constant, so the sphere moves by velocity · time",
-                |input| moved(input, input.5 * input.5),
-            ),
-            Mistake::new(
-                "the velocity's length is lost: the sphere moves by velocity · time, and velocity is no unit vector",
-                |&(o, d, c, r, v, time)| moved(&(o, d, c, r, DVec3::from(v).normalize_or_zero().into(), time), time),
-            ),
-            Mistake::new("the time is halved; the sphere moves by velocity · time", |input| {
-                moved(input, 0.5 * input.5)
-            }),
-            Mistake::new(
-                "the direction is changed by the velocity; light takes no time, so nothing moves while it travels",
-                |input| turned(input, 0.0, -1.0),
-            ),
-            Mistake::new(
-                "the direction is changed by the velocity; light takes no time, so nothing moves while it travels",
-                |input| turned(input, input.5, -1.0),
-            ),
-            Mistake::new(
-                "the direction is changed by the velocity; light takes no time, so nothing moves while it travels",
-                |input| turned(input, input.5, 1.0),
-            ),
-            Mistake::new(
-                "the direction is changed by the velocity; light takes no time, so nothing moves while it travels",
-                |input| turned(input, 0.0, -input.5),
-            ),
-            Mistake::new(
-                "the direction is changed by the velocity; light takes no time, so nothing moves while it travels",
-                |input| turned(input, input.5, -input.5),
-            ),
-            Mistake::new(
-                "the direction is changed by the velocity; light takes no time, so nothing moves while it travels",
-                |input| turned(input, 0.0, 1.0),
-            ),
-            Mistake::new("a hit behind the ray's origin counts; t must be above 0", |input| {
-                by_formula(input, |b, c| -b - (b * b - c).sqrt())
-            }),
-            Mistake::new("a hit behind the ray's origin counts; t must be above 0", |input| {
-                by_formula(input, |b, c| -b - (b * b - c).sqrt()).map(f64::abs)
-            }),
-            Mistake::new(
-                "that is where the ray leaves the sphere; the nearer hit is −b − √(b² − c)",
-                |input| by_formula(input, |b, c| -b + (b * b - c).sqrt()).filter(|&t| t > 0.0),
-            ),
-            Mistake::new(
-                "that is where the ray leaves the sphere; the nearer hit is −b − √(b² − c)",
-                |input| by_formula(input, |b, c| -b + (b * b - c).sqrt()),
-            ),
-            Mistake::new(
-                "the sign of b is wrong: with o from the centre to the origin it is −b − √(b² − c)",
-                |input| by_formula(input, |b, c| b - (b * b - c).sqrt()).filter(|&t| t > 0.0),
-            ),
-            Mistake::new(
-                "the sign of b is wrong: with o from the centre to the origin it is −b − √(b² − c)",
-                |input| by_formula(input, |b, c| b + (b * b - c).sqrt()).filter(|&t| t > 0.0),
-            ),
-            Mistake::new(
-                "two forms of the quadratic formula are mixed: with b = o · d it is −b − √(b² − c), and with b = 2 o · d half of −b − √(b² − 4c)",
-                |input| by_formula(input, |b, c| (-b - (b * b - 4.0 * c).sqrt()) / 2.0).filter(|&t| t > 0.0),
-            ),
-            Mistake::new(
-                "two forms of the quadratic formula are mixed: with b = o · d it is −b − √(b² − c), and with b = 2 o · d half of −b − √(b² − 4c)",
-                |input| by_formula(input, |b, c| -b - (b * b - 4.0 * c).sqrt()).filter(|&t| t > 0.0),
-            ),
-            Mistake::new(
-                "two forms of the quadratic formula are mixed: with b = o · d it is −b − √(b² − c), and with b = 2 o · d half of −b − √(b² − 4c)",
-                |input| by_formula(input, |b, c| (-b - (b * b - c).sqrt()) / 2.0).filter(|&t| t > 0.0),
-            ),
-            Mistake::new(
-                "two forms of the quadratic formula are mixed: with b = o · d it is −b − √(b² − c), and with b = 2 o · d half of −b − √(b² − 4c)",
-                |input| by_formula(input, |b, c| -2.0 * b - (4.0 * b * b - c).sqrt()).filter(|&t| t > 0.0),
-            ),
-            Mistake::new(
-                "two forms of the quadratic formula are mixed: with b = o · d it is −b − √(b² − c), and with b = 2 o · d half of −b − √(b² − 4c)",
-                |input| by_formula(input, |b, c| -2.0 * b - (4.0 * b * b - 4.0 * c).sqrt()).filter(|&t| t > 0.0),
-            ),
-            Mistake::new("the root is missing: it is −b − √(b² − c)", |input| {
-                by_formula(input, |b, c| -b - (b * b - c).sqrt().powi(2)).filter(|&t| t > 0.0)
-            }),
-            Mistake::new("the sign under the root is wrong: it is b² − c", |input| {
-                by_formula(input, |b, c| -b - (b * b + c).sqrt()).filter(|&t| t > 0.0)
-            }),
-            Mistake::new("the sign under the root is wrong: it is b² − c", |input| {
-                by_formula(input, |b, c| -b - (c - b * b).sqrt()).filter(|&t| t > 0.0)
-            }),
-            Mistake::new(
-                "that is where the ray is closest to the sphere's centre; the hit is √(b² − c) before",
-                |input| by_formula(input, |b, c| if b * b < c { f64::NAN } else { -b }).filter(|&t| t > 0.0),
-            ),
-            Mistake::new("the radius is not squared", |input| {
+        mistakes: Mistakes::<Input, Answer>::new()
+            .say("the sphere stands still: its motion is left out")
+            .when(|input| moved(input, 0.0))
+            .say(
+                "the sphere moves backwards: its centre is at centre + velocity · time, or the origin at origin − \
+                 velocity · time",
+            )
+            .when(|input| moved(input, -input.5))
+            .when(|input| moved(input, -1.0))
+            .say("the time is left out: the sphere has always moved by one unit of time")
+            .when(|input| moved(input, 1.0))
+            .say("the motion counts twice: move either the centre or the origin, not both")
+            .when(|input| moved(input, 2.0 * input.5))
+            .say("the time is squared: the velocity is constant, so the sphere moves by velocity · time")
+            .when(|input| moved(input, input.5 * input.5))
+            .say("the velocity's length is lost: the sphere moves by velocity · time, and velocity is no unit vector")
+            .when(|&(o, d, c, r, v, time)| moved(&(o, d, c, r, DVec3::from(v).normalize_or_zero().into(), time), time))
+            .say("the time is halved; the sphere moves by velocity · time")
+            .when(|input| moved(input, 0.5 * input.5))
+            .say("the direction is changed by the velocity; light takes no time, so nothing moves while it travels")
+            .when(|input| turned(input, 0.0, -1.0))
+            .when(|input| turned(input, input.5, -1.0))
+            .when(|input| turned(input, input.5, 1.0))
+            .when(|input| turned(input, 0.0, -input.5))
+            .when(|input| turned(input, input.5, -input.5))
+            .when(|input| turned(input, 0.0, 1.0))
+            .say("a hit behind the ray's origin counts; t must be above 0")
+            .when(|input| by_formula(input, |b, c| -b - (b * b - c).sqrt()))
+            .when(|input| by_formula(input, |b, c| -b - (b * b - c).sqrt()).map(f64::abs))
+            .say("that is where the ray leaves the sphere; the nearer hit is −b − √(b² − c)")
+            .when(|input| by_formula(input, |b, c| -b + (b * b - c).sqrt()).filter(|&t| t > 0.0))
+            .when(|input| by_formula(input, |b, c| -b + (b * b - c).sqrt()))
+            .say("the sign of b is wrong: with o from the centre to the origin it is −b − √(b² − c)")
+            .when(|input| by_formula(input, |b, c| b - (b * b - c).sqrt()).filter(|&t| t > 0.0))
+            .when(|input| by_formula(input, |b, c| b + (b * b - c).sqrt()).filter(|&t| t > 0.0))
+            .say(
+                "two forms of the quadratic formula are mixed: with b = o · d it is −b − √(b² − c), and with b = 2 \
+                 o · d half of −b − √(b² − 4c)",
+            )
+            .when(|input| by_formula(input, |b, c| (-b - (b * b - 4.0 * c).sqrt()) / 2.0).filter(|&t| t > 0.0))
+            .when(|input| by_formula(input, |b, c| -b - (b * b - 4.0 * c).sqrt()).filter(|&t| t > 0.0))
+            .when(|input| by_formula(input, |b, c| (-b - (b * b - c).sqrt()) / 2.0).filter(|&t| t > 0.0))
+            .when(|input| by_formula(input, |b, c| -2.0 * b - (4.0 * b * b - c).sqrt()).filter(|&t| t > 0.0))
+            .when(|input| by_formula(input, |b, c| -2.0 * b - (4.0 * b * b - 4.0 * c).sqrt()).filter(|&t| t > 0.0))
+            .say("the root is missing: it is −b − √(b² − c)")
+            .when(|input| by_formula(input, |b, c| -b - (b * b - c).sqrt().powi(2)).filter(|&t| t > 0.0))
+            .say("the sign under the root is wrong: it is b² − c")
+            .when(|input| by_formula(input, |b, c| -b - (b * b + c).sqrt()).filter(|&t| t > 0.0))
+            .when(|input| by_formula(input, |b, c| -b - (c - b * b).sqrt()).filter(|&t| t > 0.0))
+            .say("that is where the ray is closest to the sphere's centre; the hit is √(b² − c) before")
+            .when(|input| by_formula(input, |b, c| if b * b < c { f64::NAN } else { -b }).filter(|&t| t > 0.0))
+            .say("the radius is not squared")
+            .when(|input| {
                 by_formula(&with_radius(input, input.3.sqrt()), |b, c| -b - (b * b - c).sqrt()).filter(|&t| t > 0.0)
-            }),
-            Mistake::new(
-                "the root of a negative number is NaN: where it is negative the ray misses, and the answer is None",
-                |input| Some(moved(input, input.5).unwrap_or(f64::NAN)),
-            ),
-            Mistake::new(
-                "the sphere stands still until it is hit, and only t is moved; move the centre first, then intersect",
-                |input| later(input, along(input) * input.5),
-            ),
-            Mistake::new(
-                "the sphere stands still until it is hit, and only t is moved; move the centre first, then intersect",
-                |input| later(input, -along(input) * input.5),
-            ),
-            Mistake::new(
-                "the sphere stands still until it is hit, and only t is moved; move the centre first, then intersect",
-                |input| later(input, input.5),
-            ),
-            Mistake::new("the time is added to t; t counts from the ray's origin, whenever that ray leaves", |input| {
-                moved(input, input.5).map(|t| t + input.5)
-            }),
-            Mistake::new(
-                "the time is subtracted from t; t counts from the ray's origin, whenever that ray leaves",
-                |input| moved(input, input.5).map(|t| t - input.5).filter(|&t| t > 0.0),
-            ),
-        ],
+            })
+            .say("the root of a negative number is NaN: where it is negative the ray misses, and the answer is None")
+            .when(|input| Some(moved(input, input.5).unwrap_or(f64::NAN)))
+            .say("the sphere stands still until it is hit, and only t is moved; move the centre first, then intersect")
+            .when(|input| later(input, along(input) * input.5))
+            .when(|input| later(input, -along(input) * input.5))
+            .when(|input| later(input, input.5))
+            .say("the time is added to t; t counts from the ray's origin, whenever that ray leaves")
+            .when(|input| moved(input, input.5).map(|t| t + input.5))
+            .say("the time is subtracted from t; t counts from the ray's origin, whenever that ray leaves")
+            .when(|input| moved(input, input.5).map(|t| t - input.5).filter(|&t| t > 0.0)),
         hints: &[
             "at the ray's own time the sphere is somewhere, and there it stands still for the ray",
             "its centre is then at centre + velocity · time; the rest is chapter 3",

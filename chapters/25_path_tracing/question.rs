@@ -3,7 +3,7 @@
 use super::mine::mine;
 use pinhole::follow::survival_probability;
 use pinhole_lab::exercise::apart::relative;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Input = ([f64; 3], f64);
@@ -52,134 +52,86 @@ fn question() -> Question<Input, [f64; 3]> {
         apart: |yours, right| relative(yours, right),
         allowed: 1e-12,
         measured: "of each part",
-        mistakes: vec![
-            Mistake::new("a path that goes on counts as before, so the light of those that ended is lost", |input| {
-                played(input, survival_probability(input.0), 1.0)
-            }),
-            Mistake::new("a path that goes on is multiplied by the probability; it must be divided by it", |input| {
+        mistakes: Mistakes::<Input, [f64; 3]>::new()
+            .say("a path that goes on counts as before, so the light of those that ended is lost")
+            .when(|input| played(input, survival_probability(input.0), 1.0))
+            .say("a path that goes on is multiplied by the probability; it must be divided by it")
+            .when(|input| {
                 let survival = survival_probability(input.0);
                 played(input, survival, survival)
-            }),
-            Mistake::new(
-                "a path that goes on is divided by the probability of its end; divide by that of going on",
+            })
+            .say("a path that goes on is divided by the probability of its end; divide by that of going on")
+            .when(|input| {
+                let survival = survival_probability(input.0);
+                played(input, survival, 1.0 / (1.0 - survival))
+            })
+            .when(|input| {
+                let survival = survival_probability(input.0);
+                played(input, survival, if survival < 1.0 { 1.0 / (1.0 - survival) } else { 1.0 })
+            })
+            .say("a path that goes on is divided by u; it must be divided by the probability")
+            .when(|input| played(input, survival_probability(input.0), 1.0 / input.1))
+            .say("nothing ever ends: where the number is not below the probability, nothing is left")
+            .when(|input| played(input, f64::INFINITY, 1.0 / survival_probability(input.0)))
+            .when(|input| {
+                let survival = survival_probability(input.0);
+                if input.1 < survival { input.0.map(|part| part / survival) } else { input.0 }
+            })
+            .say("the two ends are swapped: a path goes on where the number lies below the probability")
+            .when(|input| ended_below(input, survival_probability(input.0), survival_probability(input.0)))
+            .when(|input| ended_below(input, survival_probability(input.0), 1.0))
+            .say("a path ends where the number lies below 1 − p; it is to go on where the number lies below p")
+            .when(|input| {
+                let survival = survival_probability(input.0);
+                ended_below(input, 1.0 - survival, survival)
+            })
+            .say("a path goes on where the number is just the probability; it goes on only below that")
+            .when(|input| {
+                let survival = survival_probability(input.0);
+                if input.1 <= survival { input.0.map(|part| part / survival) } else { [0.0; 3] }
+            })
+            .say("a probability above 1 divides light away; it is at most 1, and then nothing changes")
+            .when(|input| {
+                let survival = largest(input.0);
+                played(input, survival, 1.0 / survival)
+            })
+            .say("the probability is cut off below 1; it is at most 1, so that a path of throughput 1 always goes on")
+            .when(|input| by(input, largest(input.0).min(0.95)))
+            .when(|input| by(input, largest(input.0).min(0.99)))
+            .when(|input| by(input, largest(input.0).min(0.9)))
+            .say("the throughput is cut off at 1; only the probability is, and nothing else changes")
+            .when(|input| by(&(input.0.map(|part| part.min(1.0)), input.1), survival_probability(input.0)))
+            .say("the probability is the mean of the three; asked is the largest")
+            .when(|input| by(input, input.0.iter().sum::<f64>() / 3.0))
+            .say("the probability is the luminance; asked is the largest of the three")
+            .when(|input| by(input, weighted(input, [0.2126, 0.7152, 0.0722])))
+            .when(|input| by(input, weighted(input, [0.299, 0.587, 0.114])))
+            .say("a path ends by one probability and is divided by another; both must be the same")
+            .when(|input| played(input, input.0.iter().sum::<f64>() / 3.0, 1.0 / survival_probability(input.0)))
+            .when(|input| played(input, weighted(input, [0.2126, 0.7152, 0.0722]), 1.0 / survival_probability(input.0)))
+            .say("the probability is the sum of the three; asked is the largest")
+            .when(|input| by(input, weighted(input, [1.0; 3])))
+            .say("the probability is the smallest of the three; asked is the largest")
+            .when(|input| by(input, input.0[0].min(input.0[1]).min(input.0[2])))
+            .say("the probability is that of red alone; asked is the largest of the three")
+            .when(|input| by(input, input.0[0]))
+            .say("the probability is that of green alone; asked is the largest of the three")
+            .when(|input| by(input, input.0[1]))
+            .say("the probability is that of blue alone; asked is the largest of the three")
+            .when(|input| by(input, input.0[2]))
+            .say("the probability is the length of the throughput; asked is the largest of the three")
+            .when(|input| by(input, input.0.iter().map(|part| part * part).sum::<f64>().sqrt()))
+            .say("the probability is the product of the three; asked is the largest")
+            .when(|input| by(input, input.0.iter().product::<f64>()))
+            .say("each colour plays for itself; a path is one ray, which goes on or does not")
+            .when(|input| input.0.map(|part| if input.1 < part.min(1.0) { part / part.min(1.0) } else { 0.0 }))
+            .say("each colour is divided by itself; all three are divided by the one probability")
+            .when(
                 |input| {
-                    let survival = survival_probability(input.0);
-                    played(input, survival, 1.0 / (1.0 - survival))
+                    if input.1 < survival_probability(input.0) { input.0.map(|part| part.max(1.0)) } else { [0.0; 3] }
                 },
-            ),
-            Mistake::new(
-                "a path that goes on is divided by the probability of its end; divide by that of going on",
-                |input| {
-                    let survival = survival_probability(input.0);
-                    played(input, survival, if survival < 1.0 { 1.0 / (1.0 - survival) } else { 1.0 })
-                },
-            ),
-            Mistake::new("a path that goes on is divided by u; it must be divided by the probability", |input| {
-                played(input, survival_probability(input.0), 1.0 / input.1)
-            }),
-            Mistake::new(
-                "nothing ever ends: where the number is not below the probability, nothing is left",
-                |input| played(input, f64::INFINITY, 1.0 / survival_probability(input.0)),
-            ),
-            Mistake::new(
-                "nothing ever ends: where the number is not below the probability, nothing is left",
-                |input| {
-                    let survival = survival_probability(input.0);
-                    if input.1 < survival { input.0.map(|part| part / survival) } else { input.0 }
-                },
-            ),
-            Mistake::new(
-                "the two ends are swapped: a path goes on where the number lies below the probability",
-                |input| ended_below(input, survival_probability(input.0), survival_probability(input.0)),
-            ),
-            Mistake::new(
-                "the two ends are swapped: a path goes on where the number lies below the probability",
-                |input| ended_below(input, survival_probability(input.0), 1.0),
-            ),
-            Mistake::new(
-                "a path ends where the number lies below 1 − p; it is to go on where the number lies below p",
-                |input| {
-                    let survival = survival_probability(input.0);
-                    ended_below(input, 1.0 - survival, survival)
-                },
-            ),
-            Mistake::new(
-                "a path goes on where the number is just the probability; it goes on only below that",
-                |input| {
-                    let survival = survival_probability(input.0);
-                    if input.1 <= survival { input.0.map(|part| part / survival) } else { [0.0; 3] }
-                },
-            ),
-            Mistake::new(
-                "a probability above 1 divides light away; it is at most 1, and then nothing changes",
-                |input| {
-                    let survival = largest(input.0);
-                    played(input, survival, 1.0 / survival)
-                },
-            ),
-            Mistake::new(
-                "the probability is cut off below 1; it is at most 1, so that a path of throughput 1 always goes on",
-                |input| by(input, largest(input.0).min(0.95)),
-            ),
-            Mistake::new(
-                "the probability is cut off below 1; it is at most 1, so that a path of throughput 1 always goes on",
-                |input| by(input, largest(input.0).min(0.99)),
-            ),
-            Mistake::new(
-                "the probability is cut off below 1; it is at most 1, so that a path of throughput 1 always goes on",
-                |input| by(input, largest(input.0).min(0.9)),
-            ),
-            Mistake::new(
-                "the throughput is cut off at 1; only the probability is, and nothing else changes",
-                |input| by(&(input.0.map(|part| part.min(1.0)), input.1), survival_probability(input.0)),
-            ),
-            Mistake::new("the probability is the mean of the three; asked is the largest", |input| {
-                by(input, input.0.iter().sum::<f64>() / 3.0)
-            }),
-            Mistake::new("the probability is the luminance; asked is the largest of the three", |input| {
-                by(input, weighted(input, [0.2126, 0.7152, 0.0722]))
-            }),
-            Mistake::new("the probability is the luminance; asked is the largest of the three", |input| {
-                by(input, weighted(input, [0.299, 0.587, 0.114]))
-            }),
-            Mistake::new("a path ends by one probability and is divided by another; both must be the same", |input| {
-                played(input, input.0.iter().sum::<f64>() / 3.0, 1.0 / survival_probability(input.0))
-            }),
-            Mistake::new("a path ends by one probability and is divided by another; both must be the same", |input| {
-                played(input, weighted(input, [0.2126, 0.7152, 0.0722]), 1.0 / survival_probability(input.0))
-            }),
-            Mistake::new("the probability is the sum of the three; asked is the largest", |input| {
-                by(input, weighted(input, [1.0; 3]))
-            }),
-            Mistake::new("the probability is the smallest of the three; asked is the largest", |input| {
-                by(input, input.0[0].min(input.0[1]).min(input.0[2]))
-            }),
-            Mistake::new("the probability is that of red alone; asked is the largest of the three", |input| {
-                by(input, input.0[0])
-            }),
-            Mistake::new("the probability is that of green alone; asked is the largest of the three", |input| {
-                by(input, input.0[1])
-            }),
-            Mistake::new("the probability is that of blue alone; asked is the largest of the three", |input| {
-                by(input, input.0[2])
-            }),
-            Mistake::new(
-                "the probability is the length of the throughput; asked is the largest of the three",
-                |input| by(input, input.0.iter().map(|part| part * part).sum::<f64>().sqrt()),
-            ),
-            Mistake::new("the probability is the product of the three; asked is the largest", |input| {
-                by(input, input.0.iter().product::<f64>())
-            }),
-            Mistake::new("each colour plays for itself; a path is one ray, which goes on or does not", |input| {
-                input.0.map(|part| if input.1 < part.min(1.0) { part / part.min(1.0) } else { 0.0 })
-            }),
-            Mistake::new("each colour is divided by itself; all three are divided by the one probability", |input| {
-                if input.1 < survival_probability(input.0) { input.0.map(|part| part.max(1.0)) } else { [0.0; 3] }
-            }),
-            Mistake::new("each colour is divided by itself; all three are divided by the one probability", |input| {
-                if input.1 < survival_probability(input.0) { [1.0; 3] } else { [0.0; 3] }
-            }),
-        ],
+            )
+            .when(|input| if input.1 < survival_probability(input.0) { [1.0; 3] } else { [0.0; 3] }),
         hints: &[
             "the mean over all numbers must be the throughput itself: p × what goes on + (1 − p) × 0",
             "so what goes on is the throughput divided by p; compare the number with p first",

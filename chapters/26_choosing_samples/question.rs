@@ -3,7 +3,7 @@
 use super::mine::mine;
 use pinhole::follow::power_heuristic;
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Input = (f64, f64);
@@ -25,107 +25,66 @@ fn question() -> Question<Input, f64> {
         apart: |yours, right| absolute(&[*yours], &[*right]),
         allowed: 1e-12,
         measured: "of 1",
-        mistakes: vec![
-            Mistake::new("that is the balance heuristic; both pdfs are squared here", |&(own, other)| {
-                if own == 0.0 { 0.0 } else { own / (own + other) }
-            }),
-            Mistake::new(
-                "the two are swapped, and not squared: it is own² over the sum of both squares",
-                |&(own, other)| if other == 0.0 { 0.0 } else { other / (own + other) },
-            ),
-            Mistake::new("the two are swapped: the larger pdf has more weight", |&(own, other)| {
-                power_heuristic(other, own)
-            }),
-            Mistake::new("the two are swapped: the larger pdf has more weight", |&(own, other)| {
-                if own == 0.0 { 0.0 } else { power_heuristic(other, own) }
-            }),
-            Mistake::new("the two are swapped: the larger pdf has more weight", |&(own, other)| {
-                other * other / (own * own + other * other)
-            }),
-            Mistake::new("that is the balance heuristic squared; square each pdf, and then add", |&(own, other)| {
-                if own == 0.0 { 0.0 } else { (own / (own + other)).powi(2) }
-            }),
-            Mistake::new("that is the balance heuristic squared; square each pdf, and then add", |&(own, other)| {
-                own * own / ((own + other) * (own + other))
-            }),
-            Mistake::new(
-                "it is divided by the root of the sum of squares; the weight is own² over the sum itself",
-                |&(own, other)| if own == 0.0 { 0.0 } else { own / own.hypot(other) },
-            ),
-            Mistake::new(
-                "it is divided by the root of the sum of squares; the weight is own² over the sum itself",
-                |&(own, other)| power_heuristic(own, other) * own.hypot(other),
-            ),
-            Mistake::new(
-                "own stands above the line unsquared, or the weight is divided by own already; it is own² over the sum of squares",
-                |&(own, other)| if own == 0.0 { 0.0 } else { power_heuristic(own, other) / own },
-            ),
-            Mistake::new(
-                "own stands above the line unsquared, or the weight is divided by own already; it is own² over the sum of squares",
-                |&(own, other)| own / (own * own + other * other),
-            ),
-            Mistake::new(
-                "the weight is multiplied by own once more; it is own² over the sum of squares",
-                |&(own, other)| power_heuristic(own, other) * own,
-            ),
-            Mistake::new(
-                "own² is divided by the sum of the pdfs; each of them is squared there, too",
-                |&(own, other)| if own == 0.0 { 0.0 } else { own * own / (own + other) },
-            ),
-            Mistake::new("own² is divided by the difference of the squares; it is their sum", |&(own, other)| {
-                own * own / (own * own - other * other)
-            }),
-            Mistake::new(
-                "own² is divided by the other's alone; it is over the sum of both, from 0 to 1",
-                |&(own, other)| if own == 0.0 { 0.0 } else { (own / other).powi(2) },
-            ),
-            Mistake::new("the larger pdf has all the weight: that is the maximum heuristic", |&(own, other)| {
-                if own > other { 1.0 } else { 0.0 }
-            }),
-            Mistake::new("the larger pdf has all the weight: that is the maximum heuristic", |&(own, other)| {
-                if own >= other { 1.0 } else { 0.0 }
-            }),
-            Mistake::new("each pdf is cubed instead of squared", |&(own, other)| {
-                if own == 0.0 { 0.0 } else { 1.0 / (1.0 + (other / own).powi(3)) }
-            }),
-            Mistake::new("the roots of the pdfs are taken instead of their squares", |&(own, other)| {
-                if own == 0.0 { 0.0 } else { 1.0 / (1.0 + (other / own).sqrt()) }
-            }),
-            Mistake::new(
-                "the ratio own / other is infinite where other is 0 or tiny, and ∞ / ∞ is NaN; take other / own",
-                |&(own, other)| if own == 0.0 { 0.0 } else { by_own_over_other(own, other) },
-            ),
-            Mistake::new(
-                "the ratio own / other is infinite where other is 0 or tiny, and ∞ / ∞ is NaN; take other / own",
-                |&(own, other)| by_own_over_other(own, other),
-            ),
-            Mistake::new(
-                "squares overflow to infinity or vanish to 0, and their quotient is NaN or wrong; square only the ratio of the two",
-                |&(own, other)| if own == 0.0 { 0.0 } else { own * own / (own * own + other * other) },
-            ),
-            Mistake::new(
-                "squares overflow to infinity or vanish to 0, and their quotient is NaN or wrong; square only the ratio of the two, and return 0 where own is 0",
-                |&(own, other)| own * own / (own * own + other * other),
-            ),
-            Mistake::new(
-                "0 is divided by 0 where neither technique samples the path; there the weight is 0",
-                |&(own, other)| {
-                    let ratio = other / own;
-                    1.0 / (1.0 + ratio * ratio)
-                },
-            ),
-            Mistake::new(
-                "0 is divided by 0 where neither technique samples the path; there the weight is 0",
-                |&(own, other)| if own == 0.0 && other == 0.0 { f64::NAN } else { power_heuristic(own, other) },
-            ),
-            Mistake::new("the weight is not 0 where neither technique samples the path", |&(own, other)| {
-                if own == 0.0 && other == 0.0 { 1.0 } else { power_heuristic(own, other) }
-            }),
-            Mistake::new("the weight is not 0 where neither technique samples the path", |&(own, other)| {
-                if own == 0.0 && other == 0.0 { 0.5 } else { power_heuristic(own, other) }
-            }),
-            Mistake::new("each counts half; the larger pdf has more weight", |_| 0.5),
-        ],
+        mistakes: Mistakes::<Input, f64>::new()
+            .say("that is the balance heuristic; both pdfs are squared here")
+            .when(|&(own, other)| if own == 0.0 { 0.0 } else { own / (own + other) })
+            .say("the two are swapped, and not squared: it is own² over the sum of both squares")
+            .when(|&(own, other)| if other == 0.0 { 0.0 } else { other / (own + other) })
+            .say("the two are swapped: the larger pdf has more weight")
+            .when(|&(own, other)| power_heuristic(other, own))
+            .when(|&(own, other)| if own == 0.0 { 0.0 } else { power_heuristic(other, own) })
+            .when(|&(own, other)| other * other / (own * own + other * other))
+            .say("that is the balance heuristic squared; square each pdf, and then add")
+            .when(|&(own, other)| if own == 0.0 { 0.0 } else { (own / (own + other)).powi(2) })
+            .when(|&(own, other)| own * own / ((own + other) * (own + other)))
+            .say("it is divided by the root of the sum of squares; the weight is own² over the sum itself")
+            .when(|&(own, other)| if own == 0.0 { 0.0 } else { own / own.hypot(other) })
+            .when(|&(own, other)| power_heuristic(own, other) * own.hypot(other))
+            .say(
+                "own stands above the line unsquared, or the weight is divided by own already; it is own² over the \
+                 sum of squares",
+            )
+            .when(|&(own, other)| if own == 0.0 { 0.0 } else { power_heuristic(own, other) / own })
+            .when(|&(own, other)| own / (own * own + other * other))
+            .say("the weight is multiplied by own once more; it is own² over the sum of squares")
+            .when(|&(own, other)| power_heuristic(own, other) * own)
+            .say("own² is divided by the sum of the pdfs; each of them is squared there, too")
+            .when(|&(own, other)| if own == 0.0 { 0.0 } else { own * own / (own + other) })
+            .say("own² is divided by the difference of the squares; it is their sum")
+            .when(|&(own, other)| own * own / (own * own - other * other))
+            .say("own² is divided by the other's alone; it is over the sum of both, from 0 to 1")
+            .when(|&(own, other)| if own == 0.0 { 0.0 } else { (own / other).powi(2) })
+            .say("the larger pdf has all the weight: that is the maximum heuristic")
+            .when(|&(own, other)| if own > other { 1.0 } else { 0.0 })
+            .when(|&(own, other)| if own >= other { 1.0 } else { 0.0 })
+            .say("each pdf is cubed instead of squared")
+            .when(|&(own, other)| if own == 0.0 { 0.0 } else { 1.0 / (1.0 + (other / own).powi(3)) })
+            .say("the roots of the pdfs are taken instead of their squares")
+            .when(|&(own, other)| if own == 0.0 { 0.0 } else { 1.0 / (1.0 + (other / own).sqrt()) })
+            .say("the ratio own / other is infinite where other is 0 or tiny, and ∞ / ∞ is NaN; take other / own")
+            .when(|&(own, other)| if own == 0.0 { 0.0 } else { by_own_over_other(own, other) })
+            .when(|&(own, other)| by_own_over_other(own, other))
+            .say(
+                "squares overflow to infinity or vanish to 0, and their quotient is NaN or wrong; square only the \
+                 ratio of the two",
+            )
+            .when(|&(own, other)| if own == 0.0 { 0.0 } else { own * own / (own * own + other * other) })
+            .say(
+                "squares overflow to infinity or vanish to 0, and their quotient is NaN or wrong; square only the \
+                 ratio of the two, and return 0 where own is 0",
+            )
+            .when(|&(own, other)| own * own / (own * own + other * other))
+            .say("0 is divided by 0 where neither technique samples the path; there the weight is 0")
+            .when(|&(own, other)| {
+                let ratio = other / own;
+                1.0 / (1.0 + ratio * ratio)
+            })
+            .when(|&(own, other)| if own == 0.0 && other == 0.0 { f64::NAN } else { power_heuristic(own, other) })
+            .say("the weight is not 0 where neither technique samples the path")
+            .when(|&(own, other)| if own == 0.0 && other == 0.0 { 1.0 } else { power_heuristic(own, other) })
+            .when(|&(own, other)| if own == 0.0 && other == 0.0 { 0.5 } else { power_heuristic(own, other) })
+            .say("each counts half; the larger pdf has more weight")
+            .when(|_| 0.5),
         hints: &[
             "with two pdfs alike the answer is 1/2, and with one three times the other 9/10",
             "divide numerator and denominator by own²: only the ratio of the two pdfs is left",

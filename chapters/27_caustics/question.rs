@@ -5,7 +5,7 @@ use glam::{DMat3, DVec2, DVec3};
 use pinhole::extract::CameraJoinTable;
 use pinhole::rays::join_camera;
 use pinhole_lab::exercise::apart::relative;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Part, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Input = ([f64; 3], f64, f64);
@@ -45,99 +45,7 @@ fn question() -> Question<Input, f64> {
         apart: |yours, right| relative(&[*yours], &[*right]),
         allowed: 1e-10,
         measured: "of the fraction",
-        mistakes: vec![
-            Mistake::new("a point behind the eye counts; it reaches no pixel, so the fraction is 0", |&input| {
-                fraction(input, 3, 1.0).abs()
-            }),
-            Mistake::new("a point behind the eye counts; it reaches no pixel, so the fraction is 0", |&input| {
-                fraction(input, 3, 1.0)
-            }),
-            Mistake::new(
-                "cos⁴ is taken; it is cos³: the fourth belongs to an opening, which is seen obliquely too, and an eye is a point",
-                |&input| ahead(input, fraction(input, 4, 1.0)),
-            ),
-            Mistake::new(
-                "cos² is taken; it is cos³: the depth is d cos θ, so 1 / (A d² cos³ θ) is more than 1 / (A depth²)",
-                |&input| ahead(input, fraction(input, 2, 1.0)),
-            ),
-            Mistake::new("cos is taken; it is cos³: 1/d² is not yet all that the angle does", |&input| {
-                ahead(input, fraction(input, 1, 1.0))
-            }),
-            Mistake::new("cos³ θ is missing: a pixel off the axis fills a smaller solid angle", |&input| {
-                ahead(input, fraction(input, 0, 1.0))
-            }),
-            Mistake::new("the depth −z is taken for d, which is the distance to the eye", |&input| {
-                ahead(input, fraction(input, 5, 1.0))
-            }),
-            Mistake::new(
-                "the fraction is multiplied by the cosines; off the axis a pixel fills a smaller solid angle, so divide by cos³ θ",
-                |&input| ahead(input, fraction(input, -3, 1.0)),
-            ),
-            Mistake::new(
-                "the fraction is multiplied by the cosines; off the axis a pixel fills a smaller solid angle, so divide by cos³ θ",
-                |&input| ahead(input, fraction(input, -4, 1.0)),
-            ),
-            Mistake::new(
-                "the fraction is multiplied by the cosines; off the axis a pixel fills a smaller solid angle, so divide by cos³ θ",
-                |&input| ahead(input, fraction(input, -1, 1.0)),
-            ),
-            Mistake::new("the angle θ is that off the axis, of x and y together: cos θ = −z / d", |&input| {
-                ahead(input, about(input, 1))
-            }),
-            Mistake::new("the angle θ is that off the axis, of x and y together: cos θ = −z / d", |&input| {
-                ahead(input, about(input, 0))
-            }),
-            Mistake::new("cos θ is −z / d, not −z", |&input| {
-                ahead(input, fraction(input, 3, distance(input).powi(-3)))
-            }),
-            Mistake::new("d² cos³ θ is taken for (−z)³; as cos θ is −z / d, it is (−z)³ / d", |&input| {
-                ahead(input, fraction(input, 3, 1.0 / distance(input)))
-            }),
-            Mistake::new("A is the area of a pixel, its side squared", |&input| {
-                ahead(input, fraction(input, 3, side(input)))
-            }),
-            Mistake::new("the pixel's area A is missing: a smaller pixel gathers from fewer directions", |&input| {
-                ahead(input, fraction(input, 3, side(input) * side(input)))
-            }),
-            Mistake::new("the fraction is multiplied by the pixel's area A; it is 1 / (A d² cos³ θ)", |&input| {
-                ahead(input, fraction(input, 3, side(input).powi(4)))
-            }),
-            Mistake::new("the plane at distance 1 is 2 tan_half high, not tan_half", |&input| {
-                ahead(input, fraction(input, 3, 4.0))
-            }),
-            Mistake::new("the plane at distance 1 is 2 tan_half high, not 4 tan_half", |&input| {
-                ahead(input, fraction(input, 3, 0.25))
-            }),
-            Mistake::new(
-                "there are height² pixels on the plane, as it is height of them wide and high: A is (2 tan_half / height)²",
-                |&input| ahead(input, fraction(input, 3, 1.0 / input.2)),
-            ),
-            Mistake::new(
-                "there are height² pixels on the plane, as it is height of them wide and high: A is (2 tan_half / height)²",
-                |&input| ahead(input, fraction(input, 3, input.2.powi(-2))),
-            ),
-            Mistake::new("1/d² is missing: light thins out with the distance", |&input| {
-                ahead(input, fraction(input, 3, distance(input).powi(2)))
-            }),
-            Mistake::new(
-                "d counts once, or its root is missing: light thins out with d², which is x² + y² + z²",
-                |&input| ahead(input, fraction(input, 3, distance(input))),
-            ),
-            Mistake::new("d² is squared once more", |&input| {
-                ahead(input, fraction(input, 3, distance(input).powi(-2)))
-            }),
-            Mistake::new("that is A d² cos³ θ; the fraction is one over it", |&input| {
-                ahead(input, 1.0 / fraction(input, 3, 1.0))
-            }),
-            Mistake::new(
-                "the camera looks down −z: the depth is −z, and what has a z above 0 is behind it",
-                |&input| if input.0[2] > 0.0 { -fraction(input, 3, 1.0) } else { 0.0 },
-            ),
-            Mistake::new(
-                "the camera looks down −z: the depth is −z, and what has a z above 0 is behind it",
-                |&input| -fraction(input, 3, 1.0),
-            ),
-        ],
+        mistakes: mistakes(),
         hints: &[
             "on the axis θ is 0, and the fraction is 1 / (A d²)",
             "the pixel's side on the plane at distance 1 is 2 tan_half / height, and A is its square",
@@ -146,31 +54,74 @@ fn question() -> Question<Input, f64> {
     }
 }
 
-fn distance((point, ..): Input) -> f64 {
-    DVec3::from(point).length()
-}
-
-/// With the angle in one plane only.
-fn about(input: Input, axis: usize) -> f64 {
-    let (point, ..) = input;
-    let cosine = -point[2] / libm::hypot(point[axis], point[2]);
-    fraction(input, 0, cosine.powi(-3))
-}
-
-fn side((_, tan_half, height): Input) -> f64 {
-    2.0 * tan_half / height
-}
-
-/// With so many cosines, and another factor.
-fn fraction(input: Input, cosines: i32, factor: f64) -> f64 {
-    let (point, ..) = input;
-    let distance = distance(input);
-    let power = (-point[2] / distance).powi(cosines);
-    factor / (side(input) * side(input) * distance * distance * power)
-}
-
-fn ahead((point, ..): Input, fraction: f64) -> f64 {
-    if point[2] < 0.0 { fraction } else { 0.0 }
+fn mistakes() -> Mistakes<Input, f64> {
+    let ahead = Part::<Input, f64>::new(|i| f64::from(u8::from(i.0[2] < 0.0)))
+        .say("a point behind the eye counts; it reaches no pixel, so the fraction is 0")
+        .when(|_| 1.0)
+        .when(|i| -i.0[2].signum())
+        .say("the camera looks down −z: the depth is −z, and what has a z above 0 is behind it")
+        .when(|i| if i.0[2] > 0.0 { -1.0 } else { 0.0 })
+        .when(|_| -1.0);
+    let area = Part::<Input, f64>::new(|i| side(i) * side(i))
+        .say("A is the area of a pixel, its side squared")
+        .when(side)
+        .say("the pixel's area A is missing: a smaller pixel gathers from fewer directions")
+        .when(|_| 1.0)
+        .say("the fraction is multiplied by the pixel's area A; it is 1 / (A d² cos³ θ)")
+        .when(|i| side(i).powi(-2))
+        .say("the plane at distance 1 is 2 tan_half high, not tan_half")
+        .when(|i| side(i) * side(i) / 4.0)
+        .say("the plane at distance 1 is 2 tan_half high, not 4 tan_half")
+        .when(|i| 4.0 * side(i) * side(i))
+        .say(
+            "there are height² pixels on the plane, as it is height of them wide and high: A is (2 tan_half / \
+                 height)²",
+        )
+        .when(|i| side(i) * side(i) * i.2)
+        .when(|i| side(i) * side(i) * i.2 * i.2);
+    let squared = Part::<Input, f64>::new(|i| distance(i).powi(2))
+        .say("1/d² is missing: light thins out with the distance")
+        .when(|_| 1.0)
+        .say("d counts once, or its root is missing: light thins out with d², which is x² + y² + z²")
+        .when(distance)
+        .say("d² is squared once more")
+        .when(|i| distance(i).powi(4))
+        .say("d² cos³ θ is taken for (−z)³; as cos θ is −z / d, it is (−z)³ / d")
+        .when(|i| distance(i).powi(3));
+    let cosines = Part::<Input, f64>::new(|i| cosine(i).powi(3))
+        .say(
+            "cos⁴ is taken; it is cos³: the fourth belongs to an opening, which is seen obliquely too, and an \
+                 eye is a point",
+        )
+        .when(|i| cosine(i).powi(4))
+        .say("cos² is taken; it is cos³: the depth is d cos θ, so 1 / (A d² cos³ θ) is more than 1 / (A depth²)")
+        .when(|i| cosine(i).powi(2))
+        .say("cos is taken; it is cos³: 1/d² is not yet all that the angle does")
+        .when(cosine)
+        .say("cos³ θ is missing: a pixel off the axis fills a smaller solid angle")
+        .when(|_| 1.0)
+        .say("the depth −z is taken for d, which is the distance to the eye")
+        .when(|i| cosine(i).powi(5))
+        .say(
+            "the fraction is multiplied by the cosines; off the axis a pixel fills a smaller solid angle, so \
+                 divide by cos³ θ",
+        )
+        .when(|i| cosine(i).powi(-3))
+        .when(|i| cosine(i).powi(-4))
+        .when(|i| cosine(i).powi(-1))
+        .say("the angle θ is that off the axis, of x and y together: cos θ = −z / d")
+        .when(|i| (-i.0[2] / libm::hypot(i.0[1], i.0[2])).powi(3))
+        .when(|i| (-i.0[2] / libm::hypot(i.0[0], i.0[2])).powi(3))
+        .say("cos θ is −z / d, not −z")
+        .when(|i| (-i.0[2]).powi(3));
+    let whole = Part::<[f64; 4], f64>::new(
+        |&[ahead, area, squared, cosines]| {
+            if ahead == 0.0 { 0.0 } else { ahead / (area * squared * cosines) }
+        },
+    )
+    .say("that is A d² cos³ θ; the fraction is one over it")
+    .when(|&[ahead, area, squared, cosines]| ahead * area * squared * cosines);
+    Mistakes::<Input, f64>::new().of_parts([ahead, area, squared, cosines], whole)
 }
 
 fn asked() -> Vec<Probe<Input>> {
@@ -190,4 +141,16 @@ fn asked() -> Vec<Probe<Input>> {
     let behind = of(2744, 10, 1.0, 1.0).map(|([x, y, z], tan_half, height)| ([x, y, -z], tan_half, height));
     asked.extend(probes("behind the camera", behind));
     asked
+}
+
+fn distance(input: &Input) -> f64 {
+    DVec3::from(input.0).length()
+}
+
+fn cosine(input: &Input) -> f64 {
+    -input.0[2] / distance(input)
+}
+
+fn side(&(_, tan_half, height): &Input) -> f64 {
+    2.0 * tan_half / height
 }

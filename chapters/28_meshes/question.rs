@@ -4,7 +4,7 @@ use super::mine::mine;
 use glam::{DMat3, DQuat, DVec3};
 use pinhole::shapes::{direction_object_from_world, point_object_from_world};
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Part, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// Origin, direction, position, axes, scale.
@@ -33,85 +33,7 @@ fn question() -> Question<Input, Answer> {
         apart: |yours, right| absolute(yours.as_flattened(), right.as_flattened()),
         allowed: 1e-9,
         measured: "in each part",
-        mistakes: vec![
-            Mistake::new(
-                "the direction is of length 1 in object space too: then t counts in another unit than in the world, and hits of different meshes cannot be compared",
-                |input| both(right(input)[0], DVec3::from(right(input)[1]).normalize()),
-            ),
-            Mistake::new(
-                "the direction is not divided by the scale; in object space it is longer or shorter, too",
-                |input| [right(input)[0], scaled(input, [1.0; 3])[1]],
-            ),
-            Mistake::new("the direction stays as it is in the world; it is turned and scaled, too", |input| {
-                [right(input)[0], input.1]
-            }),
-            Mistake::new("the origin is not divided by the scale; it is, as the direction is", |input| {
-                [scaled(input, [1.0; 3])[0], right(input)[1]]
-            }),
-            Mistake::new(
-                "the direction is moved by the position; it is no place, and only turned and scaled",
-                |input| {
-                    let &(_, direction, position, axes, scale) = input;
-                    [right(input)[0], right(&(direction, direction, position, axes, scale))[0]]
-                },
-            ),
-            Mistake::new("the scale is left out", |input| scaled(input, [1.0; 3])),
-            Mistake::new(
-                "the ray is multiplied by the scale: what is longer in the world has the same numbers in its own space, so divide by it",
-                |input| scaled(input, input.4.map(|part| 1.0 / part)),
-            ),
-            Mistake::new(
-                "the direction is multiplied by the scale, as a normal would be; it is divided by it, as the origin is",
-                |input| [right(input)[0], scaled(input, input.4.map(|part| 1.0 / part))[1]],
-            ),
-            Mistake::new("one factor is taken for all three axes; each has its own", |input| {
-                scaled(input, [input.4[0]; 3])
-            }),
-            Mistake::new("the turn is to be undone before the scale, which is along the turned axes", |input| {
-                let &(o, d, position, axes, scale) = input;
-                [DVec3::from(o) - DVec3::from(position), d.into()]
-                    .map(|v| turned_back(axes, v / DVec3::from(scale)).into())
-            }),
-            Mistake::new(
-                "the vector is taken from object to world space; to object space each component is its product with one axis",
-                |input| {
-                    let &(o, d, position, axes, scale) = input;
-                    right(&(o, d, position, transposed(axes), scale))
-                },
-            ),
-            Mistake::new(
-                "that leads from the object to the world; asked is the opposite: subtract the position, undo the turn, divide by the scale",
-                |input| {
-                    let &(o, d, position, axes, scale) = input;
-                    let [o, d] = [o, d].map(|v| turned_back(transposed(axes), DVec3::from(v) * DVec3::from(scale)));
-                    both((o + DVec3::from(position)).into(), d)
-                },
-            ),
-            Mistake::new("the position is left out: the mesh is turned and scaled about its own origin", |input| {
-                put_at(input, [0.0; 3])
-            }),
-            Mistake::new("the position is added; to come back from it, subtract it", |input| {
-                put_at(input, input.2.map(|part| -part))
-            }),
-            Mistake::new(
-                "the position is subtracted last; it was added last, in the world, so it is the first to be undone",
-                |input| {
-                    both(
-                        (DVec3::from(put_at(input, [0.0; 3])[0]) - DVec3::from(input.2)).into(),
-                        right(input)[1].into(),
-                    )
-                },
-            ),
-            Mistake::new(
-                "the position is subtracted last; it was added last, in the world, so it is the first to be undone",
-                |input| {
-                    let &(o, _, position, axes, scale) = input;
-                    let start = (turned_back(axes, o.into()) - DVec3::from(position)) / DVec3::from(scale);
-                    both(start.into(), right(input)[1].into())
-                },
-            ),
-            Mistake::new("the two are swapped: the origin is first", |input| [right(input)[1], right(input)[0]]),
-        ],
+        mistakes: mistakes(),
         hints: &[
             "undo what placed the mesh, the last step first: the position, then the turn, then the scale",
             "a vector's component along an axis of length 1 is its dot product with that axis",
@@ -121,15 +43,69 @@ fn question() -> Question<Input, Answer> {
     }
 }
 
-fn both(origin: [f64; 3], direction: DVec3) -> Answer {
-    [origin, direction.into()]
+fn mistakes() -> Mistakes<Input, Answer> {
+    let origin = Part::<Input, [f64; 3]>::new(|i| right(i)[0])
+        .say("the origin is not divided by the scale; it is, as the direction is")
+        .when(|i| scaled(i, [1.0; 3])[0])
+        .say(TIMES)
+        .when(|i| scaled(i, i.4.map(|part| 1.0 / part))[0])
+        .say("the position is left out: the mesh is turned and scaled about its own origin")
+        .when(|i| put_at(i, [0.0; 3]))
+        .say("the position is added; to come back from it, subtract it")
+        .when(|i| put_at(i, i.2.map(|part| -part)))
+        .say("the position is subtracted last; it was added last, in the world, so it is the first to be undone")
+        .when(|i| (DVec3::from(put_at(i, [0.0; 3])) - DVec3::from(i.2)).into())
+        .when(|&(o, _, position, axes, scale)| {
+            ((turned_back(axes, o.into()) - DVec3::from(position)) / DVec3::from(scale)).into()
+        });
+    let direction = Part::<Input, [f64; 3]>::new(|i| right(i)[1])
+        .say(
+            "the direction is of length 1 in object space too: then t counts in another unit than in the \
+                 world, and hits of different meshes cannot be compared",
+        )
+        .when(|i| DVec3::from(right(i)[1]).normalize().into())
+        .say("the direction is not divided by the scale; in object space it is longer or shorter, too")
+        .when(|i| scaled(i, [1.0; 3])[1])
+        .say("the direction stays as it is in the world; it is turned and scaled, too")
+        .when(|i| i.1)
+        .say("the direction is moved by the position; it is no place, and only turned and scaled")
+        .when(|&(_, d, position, axes, scale)| right(&(d, d, position, axes, scale))[0])
+        .say(
+            "the direction is multiplied by the scale, as a normal would be; it is divided by it, as the \
+                 origin is",
+        )
+        .when(|i| scaled(i, i.4.map(|part| 1.0 / part))[1])
+        .say(TIMES)
+        .when(|i| scaled(i, i.4.map(|part| 1.0 / part))[1]);
+    let whole = Part::<[[f64; 3]; 2], Answer>::new(|&ray| ray)
+        .say("the two are swapped: the origin is first")
+        .when(|&[origin, direction]| [direction, origin]);
+    Mistakes::<Input, Answer>::new()
+        .say("the scale is left out")
+        .when(|i| scaled(i, [1.0; 3]))
+        .say("one factor is taken for all three axes; each has its own")
+        .when(|i| scaled(i, [i.4[0]; 3]))
+        .say("the turn is to be undone before the scale, which is along the turned axes")
+        .when(|&(o, d, position, axes, scale)| {
+            [DVec3::from(o) - DVec3::from(position), d.into()].map(|v| turned_back(axes, v / DVec3::from(scale)).into())
+        })
+        .say(
+            "the vector is taken from object to world space; to object space each component is its product \
+                 with one axis",
+        )
+        .when(|&(o, d, position, axes, scale)| right(&(o, d, position, transposed(axes), scale)))
+        .say(
+            "that leads from the object to the world; asked is the opposite: subtract the position, undo the \
+                 turn, divide by the scale",
+        )
+        .when(|&(o, d, position, axes, scale)| {
+            let [o, d] = [o, d].map(|v| turned_back(transposed(axes), DVec3::from(v) * DVec3::from(scale)));
+            [o + DVec3::from(position), d].map(DVec3::into)
+        })
+        .of_parts([origin, direction], whole)
 }
 
 fn scaled(&(o, d, position, axes, _): &Input, scale: [f64; 3]) -> Answer {
-    right(&(o, d, position, axes, scale))
-}
-
-fn put_at(&(o, d, _, axes, scale): &Input, position: [f64; 3]) -> Answer {
     right(&(o, d, position, axes, scale))
 }
 
@@ -173,4 +149,11 @@ fn placed(index: u64) -> Input {
     // From a quarter to four times as long.
     let scale = scale.map(|part| libm::exp2(2.0 * part));
     (origin, draws.unit_vector().into(), position, axes, scale)
+}
+
+const TIMES: &str = "the ray is multiplied by the scale: what is longer in the world has the same numbers in its own space, so divide by it";
+
+/// The origin, with the mesh in another place.
+fn put_at(&(o, d, _, axes, scale): &Input, position: [f64; 3]) -> [f64; 3] {
+    right(&(o, d, position, axes, scale))[0]
 }

@@ -2,7 +2,7 @@
 
 use super::mine::mine;
 use pinhole_lab::exercise::apart::exact;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// Origin, 1 over the direction, low, high, t_max; all with few digits, so that no product rounds.
@@ -29,85 +29,70 @@ fn question() -> Question<Input, bool> {
         apart: exact,
         allowed: 0.0,
         measured: "",
-        mistakes: vec![
-            Mistake::new(
-                "a ray in the plane of a face is lost, though faces belong to the box: min and max pass over NaN and give the infinity beside it",
-                by_min_and_max,
-            ),
-            Mistake::new(
-                "a ray in the plane of a face is sometimes lost: NaN compares with nothing, so take the two planes by the sign of `inverse`",
-                swapped,
-            ),
-            Mistake::new("a box behind the origin counts: t begins at 0", |input| {
-                entered(input).is_some_and(|[from, until]| from <= until.min(input.4))
-            }),
-            Mistake::new("a box beyond t_max counts", |input| {
-                entered(input).is_some_and(|[from, until]| from.max(0.0) <= until)
-            }),
-            Mistake::new("a box counts wherever it is on the line: t is from 0 to t_max", |input| {
-                entered(input).is_some_and(|[from, until]| from <= until)
-            }),
-            Mistake::new(
-                "flat boxes and edges are lost: where a ray enters and leaves at the same t, it hits, too",
-                |input| entered(input).is_some_and(|[from, until]| from.max(0.0) < until.min(input.4)),
-            ),
-            Mistake::new(
-                "flat boxes and edges are lost: where a ray enters and leaves at the same t, it hits, too",
-                |input| entered(input).is_some_and(|[from, until]| from < until && until >= 0.0 && from <= input.4),
-            ),
-            Mistake::new("a ray from inside the box is in it, too, though it entered before t = 0", |input| {
-                entered(input).is_some_and(|[from, until]| 0.0 <= from && from <= until.min(input.4))
-            }),
-            Mistake::new("a ray from inside the box is in it, too, though it entered before t = 0", |input| {
-                entered(input).is_some_and(|[from, until]| 0.0 < from && from <= until.min(input.4))
-            }),
-            Mistake::new("a box that reaches beyond t_max counts, too, where it begins before", |input| {
-                entered(input).is_some_and(|[from, until]| from.max(0.0) <= until && until <= input.4)
-            }),
-            Mistake::new("a box that begins just at t_max counts, too", |input| {
-                entered(input).is_some_and(|[from, until]| from.max(0.0) <= until && from < input.4)
-            }),
-            Mistake::new("t = 0 counts, too: a ray may begin on the box", |input| {
-                entered(input).is_some_and(|[from, until]| until > 0.0 && from <= until.min(input.4))
-            }),
-            Mistake::new(
-                "the smallest entry and the largest exit are taken; the ray is in the box from the last entry to the first exit",
-                from_first_to_last,
-            ),
-            Mistake::new("one slab is enough for a hit; the ray must be in all three at once", in_one_slab),
-            Mistake::new("each slab is asked at a t of its own; the ray must be in all three at once", in_each_slab),
-            Mistake::new("a ray that goes towards smaller coordinates enters by the upper plane", |input| {
-                in_order(input, [1.0; 3])
-            }),
-            Mistake::new(
-                "the planes are taken the wrong way round: a ray that goes upward enters by the lower one",
-                |input| in_order(input, [0, 1, 2].map(|axis| -input.1[axis])),
-            ),
-            Mistake::new("t is taken with the wrong sign: it is (plane − origin) · inverse", |input| {
+        mistakes: Mistakes::<Input, bool>::new()
+            .say(
+                "a ray in the plane of a face is lost, though faces belong to the box: min and max pass over NaN \
+                 and give the infinity beside it",
+            )
+            .when(by_min_and_max)
+            .say(
+                "a ray in the plane of a face is sometimes lost: NaN compares with nothing, so take the two planes \
+                 by the sign of `inverse`",
+            )
+            .when(swapped)
+            .say("a box behind the origin counts: t begins at 0")
+            .when(|input| entered(input).is_some_and(|[from, until]| from <= until.min(input.4)))
+            .say("a box beyond t_max counts")
+            .when(|input| entered(input).is_some_and(|[from, until]| from.max(0.0) <= until))
+            .say("a box counts wherever it is on the line: t is from 0 to t_max")
+            .when(|input| entered(input).is_some_and(|[from, until]| from <= until))
+            .say("flat boxes and edges are lost: where a ray enters and leaves at the same t, it hits, too")
+            .when(|input| entered(input).is_some_and(|[from, until]| from.max(0.0) < until.min(input.4)))
+            .when(|input| entered(input).is_some_and(|[from, until]| from < until && until >= 0.0 && from <= input.4))
+            .say("a ray from inside the box is in it, too, though it entered before t = 0")
+            .when(|input| entered(input).is_some_and(|[from, until]| 0.0 <= from && from <= until.min(input.4)))
+            .when(|input| entered(input).is_some_and(|[from, until]| 0.0 < from && from <= until.min(input.4)))
+            .say("a box that reaches beyond t_max counts, too, where it begins before")
+            .when(|input| entered(input).is_some_and(|[from, until]| from.max(0.0) <= until && until <= input.4))
+            .say("a box that begins just at t_max counts, too")
+            .when(|input| entered(input).is_some_and(|[from, until]| from.max(0.0) <= until && from < input.4))
+            .say("t = 0 counts, too: a ray may begin on the box")
+            .when(|input| entered(input).is_some_and(|[from, until]| until > 0.0 && from <= until.min(input.4)))
+            .say(
+                "the smallest entry and the largest exit are taken; the ray is in the box from the last entry to \
+                 the first exit",
+            )
+            .when(from_first_to_last)
+            .say("one slab is enough for a hit; the ray must be in all three at once")
+            .when(in_one_slab)
+            .say("each slab is asked at a t of its own; the ray must be in all three at once")
+            .when(in_each_slab)
+            .say("a ray that goes towards smaller coordinates enters by the upper plane")
+            .when(|input| in_order(input, [1.0; 3]))
+            .say("the planes are taken the wrong way round: a ray that goes upward enters by the lower one")
+            .when(|input| in_order(input, [0, 1, 2].map(|axis| -input.1[axis])))
+            .say("t is taken with the wrong sign: it is (plane − origin) · inverse")
+            .when(|input| {
                 let &(o, inverse, low, high, t_max) = input;
                 in_order(&(o, inverse.map(|part| -part), low, high, t_max), inverse.map(|part| -part))
-            }),
-            Mistake::new(
-                "it is divided by `inverse`, which is 1 over the direction already; multiply by it",
-                |input| {
-                    let &(o, inverse, low, high, t_max) = input;
-                    in_order(&(o, inverse.map(|part| 1.0 / part), low, high, t_max), inverse)
-                },
-            ),
-            Mistake::new(
-                "where `inverse` is infinite nothing is asked; the ray misses if its origin is not between the two faces",
-                |input| {
-                    let &(o, inverse, low, high, t_max) = input;
-                    let inside = [0, 1, 2].map(|axis| if inverse[axis].is_infinite() { low[axis] } else { o[axis] });
-                    entered(&(inside, inverse, low, high, t_max))
-                        .is_some_and(|[from, until]| from.max(0.0) <= until.min(t_max))
-                },
-            ),
-            Mistake::new(
-                "where `inverse` is infinite the ray is taken to miss; it is always between the two faces, or never",
-                |input| input.1.iter().all(|part| part.is_finite()) && in_order(input, input.1),
-            ),
-        ],
+            })
+            .say("it is divided by `inverse`, which is 1 over the direction already; multiply by it")
+            .when(|input| {
+                let &(o, inverse, low, high, t_max) = input;
+                in_order(&(o, inverse.map(|part| 1.0 / part), low, high, t_max), inverse)
+            })
+            .say(
+                "where `inverse` is infinite nothing is asked; the ray misses if its origin is not between the two \
+                 faces",
+            )
+            .when(|input| {
+                let &(o, inverse, low, high, t_max) = input;
+                let inside = [0, 1, 2].map(|axis| if inverse[axis].is_infinite() { low[axis] } else { o[axis] });
+                entered(&(inside, inverse, low, high, t_max))
+                    .is_some_and(|[from, until]| from.max(0.0) <= until.min(t_max))
+            })
+            .say("where `inverse` is infinite the ray is taken to miss; it is always between the two faces, or never")
+            .when(|input| input.1.iter().all(|part| part.is_finite()) && in_order(input, input.1)),
         hints: &[
             "along each axis the ray is between the two faces from one t to another; in the box it is where all three \
              are so, from 0 to t_max",

@@ -1,7 +1,7 @@
 //! Chapter 30: which children of a node a ray visits, and in which order.
 
 use super::mine::mine;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::naive::tree::to_visit;
 
@@ -26,93 +26,56 @@ fn question() -> Question<Input, Answer> {
         apart: |yours, right| if yours == right { 0.0 } else { 1.0 },
         allowed: 0.0,
         measured: "where 1 is a wrong list",
-        mistakes: vec![
-            Mistake::new(
-                "the farther child is left out: its box may overlap the nearer one and hold the closer hit",
-                |&(enters, closest)| [to_visit(enters, closest)[0], None],
-            ),
-            Mistake::new(
-                "the farther child is left out: its box may overlap the nearer one and hold the closer hit",
-                |&(enters, closest)| [in_order((enters, closest))[0], None],
-            ),
-            Mistake::new(
-                "a child that begins behind the closest hit is visited: it cannot hold a closer one",
-                |&(enters, _)| to_visit(enters, f64::INFINITY),
-            ),
-            Mistake::new(
-                "both are visited if the nearer one begins before the closest hit; the farther one must do so, too",
-                |&(enters, closest)| both_or_none(enters, closest),
-            ),
-            Mistake::new("child 0 first, whichever is nearer: the picture is right, and takes longer", |&input| {
-                in_order(input)
-            }),
-            Mistake::new(
-                "the farther child comes first: a hit there seldom spares the nearer one",
-                |&(enters, closest)| farther_first(enters, closest),
-            ),
-            Mistake::new(
-                "None stands before a child; where only one is visited, it is the first",
-                |&(enters, closest)| slots(enters, closest),
-            ),
-            Mistake::new(
-                "None stands before a child; where only one is visited, it is the first",
+        mistakes: Mistakes::<Input, Answer>::new()
+            .say("the farther child is left out: its box may overlap the nearer one and hold the closer hit")
+            .when(|&(enters, closest)| [to_visit(enters, closest)[0], None])
+            .when(|&(enters, closest)| [in_order((enters, closest))[0], None])
+            .say("a child that begins behind the closest hit is visited: it cannot hold a closer one")
+            .when(|&(enters, _)| to_visit(enters, f64::INFINITY))
+            .say("both are visited if the nearer one begins before the closest hit; the farther one must do so, too")
+            .when(|&(enters, closest)| both_or_none(enters, closest))
+            .say("child 0 first, whichever is nearer: the picture is right, and takes longer")
+            .when(|&input| in_order(input))
+            .say("the farther child comes first: a hit there seldom spares the nearer one")
+            .when(|&(enters, closest)| farther_first(enters, closest))
+            .say("None stands before a child; where only one is visited, it is the first")
+            .when(|&(enters, closest)| slots(enters, closest))
+            .when(|&(enters, closest)| {
+                if slots(enters, closest).contains(&None) { slots(enters, closest) } else { to_visit(enters, closest) }
+            })
+            .when(|&(enters, closest)| {
+                let [lower, upper] = slots(enters, closest);
+                if enters[1].zip(enters[0]).is_some_and(|(upper, lower)| upper < lower) {
+                    [upper, lower]
+                } else {
+                    [lower, upper]
+                }
+            })
+            .say("a box in which the ray begins, at t = 0, is left out; it is visited, too")
+            .when(|&(enters, closest)| to_visit(enters.map(|t| t.filter(|&t| t > 0.0)), closest))
+            .say("child 1 is first where both are equally near; then it is child 0")
+            .when(
                 |&(enters, closest)| {
-                    if slots(enters, closest).contains(&None) {
-                        slots(enters, closest)
-                    } else {
-                        to_visit(enters, closest)
-                    }
+                    if enters[0] == enters[1] { farther_first(enters, closest) } else { to_visit(enters, closest) }
                 },
-            ),
-            Mistake::new(
-                "None stands before a child; where only one is visited, it is the first",
-                |&(enters, closest)| {
-                    let [lower, upper] = slots(enters, closest);
-                    if enters[1].zip(enters[0]).is_some_and(|(upper, lower)| upper < lower) {
-                        [upper, lower]
-                    } else {
-                        [lower, upper]
-                    }
-                },
-            ),
-            Mistake::new(
-                "a box in which the ray begins, at t = 0, is left out; it is visited, too",
-                |&(enters, closest)| to_visit(enters.map(|t| t.filter(|&t| t > 0.0)), closest),
-            ),
-            Mistake::new("child 1 is first where both are equally near; then it is child 0", |&(enters, closest)| {
-                if enters[0] == enters[1] { farther_first(enters, closest) } else { to_visit(enters, closest) }
-            }),
-            Mistake::new(
-                "the comparison is the wrong way round: a child is visited that begins before `closest`",
-                |&(enters, closest)| to_visit(enters.map(|t| t.filter(|&t| t >= closest)), f64::INFINITY),
-            ),
-            Mistake::new("the children are counted from 1; they are 0 and 1", |&(enters, closest)| {
-                to_visit(enters, closest).map(|child| child.map(|number| number + 1))
-            }),
-            Mistake::new(
-                "the numbers are the wrong way round: the first of the two is child 0",
-                |&(enters, closest)| to_visit(enters, closest).map(|child| child.map(|number| 1 - number)),
-            ),
-            Mistake::new("a child is visited whose box the ray misses", |&(enters, closest)| {
-                to_visit(enters.map(|t| Some(t.unwrap_or(0.0))), closest)
-            }),
-            Mistake::new("a child is visited whose box the ray misses", |&(enters, closest)| {
-                to_visit(enters.map(|t| Some(t.unwrap_or(1e300))), closest)
-            }),
-            Mistake::new("a child is visited whose box the ray misses", |&(enters, closest)| {
-                to_visit(enters.map(|t| Some(t.unwrap_or(-1.0))), closest)
-            }),
-            Mistake::new(
-                "nothing is visited unless both children are; where only one is, it is visited alone",
-                |&(enters, closest)| if enters.contains(&None) { [None; 2] } else { to_visit(enters, closest) },
-            ),
-            Mistake::new(
-                "nothing is visited unless both children are; where only one is, it is visited alone",
+            )
+            .say("the comparison is the wrong way round: a child is visited that begins before `closest`")
+            .when(|&(enters, closest)| to_visit(enters.map(|t| t.filter(|&t| t >= closest)), f64::INFINITY))
+            .say("the children are counted from 1; they are 0 and 1")
+            .when(|&(enters, closest)| to_visit(enters, closest).map(|child| child.map(|number| number + 1)))
+            .say("the numbers are the wrong way round: the first of the two is child 0")
+            .when(|&(enters, closest)| to_visit(enters, closest).map(|child| child.map(|number| 1 - number)))
+            .say("a child is visited whose box the ray misses")
+            .when(|&(enters, closest)| to_visit(enters.map(|t| Some(t.unwrap_or(0.0))), closest))
+            .when(|&(enters, closest)| to_visit(enters.map(|t| Some(t.unwrap_or(1e300))), closest))
+            .when(|&(enters, closest)| to_visit(enters.map(|t| Some(t.unwrap_or(-1.0))), closest))
+            .say("nothing is visited unless both children are; where only one is, it is visited alone")
+            .when(|&(enters, closest)| if enters.contains(&None) { [None; 2] } else { to_visit(enters, closest) })
+            .when(
                 |&(enters, closest)| {
                     if slots(enters, closest).contains(&None) { [None; 2] } else { to_visit(enters, closest) }
                 },
             ),
-        ],
         hints: &[
             "there are four cases: neither child is visited, only child 0, only child 1, or both",
             "a child is visited if the ray enters its box, and does so before `closest`",

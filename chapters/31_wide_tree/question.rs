@@ -1,7 +1,7 @@
 //! Chapter 31: the mask of the boxes that a ray enters.
 
 use super::mine::mine;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::naive::wide::entered;
 
@@ -27,110 +27,64 @@ fn question() -> Question<Input, u32> {
         apart: |yours, right| f64::from((yours ^ right).count_ones()),
         allowed: 0.0,
         measured: "wrong bits",
-        mistakes: vec![
-            Mistake::new("the bits are in the opposite order: bit 0 is the first box", |&(enters, leaves, closest)| {
-                entered(enters, leaves, closest).reverse_bits() >> 24
-            }),
-            Mistake::new("the bits begin with bit 1: bit 0 is the first box", |&(enters, leaves, closest)| {
-                entered(enters, leaves, closest) << 1
-            }),
-            Mistake::new(
-                "the mask is inverted: a bit is to be set where the ray enters the box",
-                |&(enters, leaves, closest)| 255 ^ entered(enters, leaves, closest),
-            ),
-            Mistake::new(
-                "the boxes are counted; asked is a mask, with one bit for each",
-                |&(enters, leaves, closest)| entered(enters, leaves, closest).count_ones(),
-            ),
-            Mistake::new(
-                "only the first box is in the mask; all that the ray enters are to be",
-                |&(enters, leaves, closest)| {
-                    entered(enters, leaves, closest) & entered(enters, leaves, closest).wrapping_neg()
-                },
-            ),
-            Mistake::new(
-                "only the nearest box is in the mask; all that the ray enters are to be",
-                |&(enters, leaves, closest)| nearest(enters, leaves, closest),
-            ),
-            Mistake::new(
-                "a box that begins behind the closest hit is entered; it cannot hold a closer one",
-                |&(enters, leaves, _)| entered(enters, leaves, f64::INFINITY),
-            ),
-            Mistake::new("a box behind the ray is one that it has left before t = 0", |&(enters, leaves, closest)| {
-                those(|i| enters[i] <= leaves[i] && enters[i] <= closest)
-            }),
-            Mistake::new(
-                "a box counts wherever it is on the ray's line; it is to be there at a t from 0 to `closest`",
-                |&(enters, leaves, _)| those(|i| enters[i] <= leaves[i]),
-            ),
-            Mistake::new(
-                "a box is missed in which the ray starts; it was entered before t = 0",
-                |&(enters, leaves, closest)| {
-                    those(|i| enters[i] <= leaves[i] && enters[i] >= 0.0 && enters[i] <= closest)
-                },
-            ),
-            Mistake::new(
-                "a box is missed in which the ray starts; it was entered before t = 0",
-                |&(enters, leaves, closest)| {
-                    those(|i| enters[i] <= leaves[i] && enters[i] > 0.0 && enters[i] <= closest)
-                },
-            ),
-            Mistake::new("a ray misses a box that it leaves before it enters it", |&(enters, leaves, closest)| {
-                those(|i| leaves[i] >= 0.0 && enters[i] <= closest)
-            }),
-            Mistake::new(
-                "a box that reaches behind the closest hit counts, too, where it begins before",
-                |&(enters, leaves, closest)| those(|i| enters[i].max(0.0) <= leaves[i] && leaves[i] <= closest),
-            ),
-            Mistake::new(
-                "a box that reaches behind the closest hit counts, too, where it begins before",
-                |&(enters, leaves, closest)| those(|i| enters[i].max(0.0) <= leaves[i] && leaves[i] < closest),
-            ),
-            Mistake::new(
-                "the comparison with the closest hit is the wrong way round: a box that begins behind it is missed",
-                |&(enters, leaves, closest)| those(|i| enters[i].max(0.0) <= leaves[i] && enters[i] >= closest),
-            ),
-            Mistake::new(
-                "flat boxes are lost: where a ray enters and leaves at the same t, it does enter",
-                |&(enters, leaves, closest)| those(|i| enters[i].max(0.0) < leaves[i].min(closest)),
-            ),
-            Mistake::new(
-                "flat boxes are lost: where a ray enters and leaves at the same t, it does enter",
-                |&(enters, leaves, closest)| {
-                    those(|i| enters[i] < leaves[i] && leaves[i] >= 0.0 && enters[i] <= closest)
-                },
-            ),
-            Mistake::new(
-                "flat boxes are lost: where a ray enters and leaves at the same t, it does enter",
-                |&(enters, leaves, closest)| those(|i| enters[i] < leaves[i] && leaves[i] > 0.0 && enters[i] < closest),
-            ),
-            Mistake::new(
-                "a box that begins just at the closest hit is not behind it, so it counts",
-                |&(enters, leaves, closest)| those(|i| enters[i].max(0.0) <= leaves[i] && enters[i] < closest),
-            ),
-            Mistake::new(
-                "a box that the ray leaves just at t = 0 counts: the ray begins there",
-                |&(enters, leaves, closest)| those(|i| enters[i] <= leaves[i].min(closest) && leaves[i] > 0.0),
-            ),
-            Mistake::new(
-                "a box that just ends at 0, or begins at the closest hit, counts",
-                |&(enters, leaves, closest)| {
-                    those(|i| enters[i] <= leaves[i] && leaves[i] > 0.0 && enters[i] < closest)
-                },
-            ),
-            Mistake::new(
-                "the boxes are compared with one another; `closest` is of a hit, and a box that is entered is none yet",
-                |&(enters, leaves, closest)| one_by_one(enters, leaves, closest, |_, leaves| leaves),
-            ),
-            Mistake::new(
-                "the boxes are compared with one another; `closest` is of a hit, and a box that is entered is none yet",
-                |&(enters, leaves, closest)| one_by_one(enters, leaves, closest, |enters, _| enters.max(0.0)),
-            ),
-            Mistake::new(
-                "the boxes are compared with one another; `closest` is of a hit, and a box that is entered is none yet",
-                |&(enters, leaves, closest)| one_by_one(enters, leaves, closest, |enters, _| enters),
-            ),
-        ],
+        mistakes: Mistakes::<Input, u32>::new()
+            .say("the bits are in the opposite order: bit 0 is the first box")
+            .when(|&(enters, leaves, closest)| entered(enters, leaves, closest).reverse_bits() >> 24)
+            .say("the bits begin with bit 1: bit 0 is the first box")
+            .when(|&(enters, leaves, closest)| entered(enters, leaves, closest) << 1)
+            .say("the mask is inverted: a bit is to be set where the ray enters the box")
+            .when(|&(enters, leaves, closest)| 255 ^ entered(enters, leaves, closest))
+            .say("the boxes are counted; asked is a mask, with one bit for each")
+            .when(|&(enters, leaves, closest)| entered(enters, leaves, closest).count_ones())
+            .say("only the first box is in the mask; all that the ray enters are to be")
+            .when(|&(enters, leaves, closest)| {
+                entered(enters, leaves, closest) & entered(enters, leaves, closest).wrapping_neg()
+            })
+            .say("only the nearest box is in the mask; all that the ray enters are to be")
+            .when(|&(enters, leaves, closest)| nearest(enters, leaves, closest))
+            .say("a box that begins behind the closest hit is entered; it cannot hold a closer one")
+            .when(|&(enters, leaves, _)| entered(enters, leaves, f64::INFINITY))
+            .say("a box behind the ray is one that it has left before t = 0")
+            .when(|&(enters, leaves, closest)| those(|i| enters[i] <= leaves[i] && enters[i] <= closest))
+            .say("a box counts wherever it is on the ray's line; it is to be there at a t from 0 to `closest`")
+            .when(|&(enters, leaves, _)| those(|i| enters[i] <= leaves[i]))
+            .say("a box is missed in which the ray starts; it was entered before t = 0")
+            .when(|&(enters, leaves, closest)| {
+                those(|i| enters[i] <= leaves[i] && enters[i] >= 0.0 && enters[i] <= closest)
+            })
+            .when(|&(enters, leaves, closest)| {
+                those(|i| enters[i] <= leaves[i] && enters[i] > 0.0 && enters[i] <= closest)
+            })
+            .say("a ray misses a box that it leaves before it enters it")
+            .when(|&(enters, leaves, closest)| those(|i| leaves[i] >= 0.0 && enters[i] <= closest))
+            .say("a box that reaches behind the closest hit counts, too, where it begins before")
+            .when(|&(enters, leaves, closest)| those(|i| enters[i].max(0.0) <= leaves[i] && leaves[i] <= closest))
+            .when(|&(enters, leaves, closest)| those(|i| enters[i].max(0.0) <= leaves[i] && leaves[i] < closest))
+            .say("the comparison with the closest hit is the wrong way round: a box that begins behind it is missed")
+            .when(|&(enters, leaves, closest)| those(|i| enters[i].max(0.0) <= leaves[i] && enters[i] >= closest))
+            .say("flat boxes are lost: where a ray enters and leaves at the same t, it does enter")
+            .when(|&(enters, leaves, closest)| those(|i| enters[i].max(0.0) < leaves[i].min(closest)))
+            .when(|&(enters, leaves, closest)| {
+                those(|i| enters[i] < leaves[i] && leaves[i] >= 0.0 && enters[i] <= closest)
+            })
+            .when(|&(enters, leaves, closest)| {
+                those(|i| enters[i] < leaves[i] && leaves[i] > 0.0 && enters[i] < closest)
+            })
+            .say("a box that begins just at the closest hit is not behind it, so it counts")
+            .when(|&(enters, leaves, closest)| those(|i| enters[i].max(0.0) <= leaves[i] && enters[i] < closest))
+            .say("a box that the ray leaves just at t = 0 counts: the ray begins there")
+            .when(|&(enters, leaves, closest)| those(|i| enters[i] <= leaves[i].min(closest) && leaves[i] > 0.0))
+            .say("a box that just ends at 0, or begins at the closest hit, counts")
+            .when(|&(enters, leaves, closest)| {
+                those(|i| enters[i] <= leaves[i] && leaves[i] > 0.0 && enters[i] < closest)
+            })
+            .say(
+                "the boxes are compared with one another; `closest` is of a hit, and a box that is entered is none \
+                 yet",
+            )
+            .when(|&(enters, leaves, closest)| one_by_one(enters, leaves, closest, |_, leaves| leaves))
+            .when(|&(enters, leaves, closest)| one_by_one(enters, leaves, closest, |enters, _| enters.max(0.0)))
+            .when(|&(enters, leaves, closest)| one_by_one(enters, leaves, closest, |enters, _| enters)),
         hints: &[
             "one box first: the part of it that the ray can still use begins at max(enters, 0)",
             "and it ends at min(leaves, closest): the box counts if that is not before the beginning",

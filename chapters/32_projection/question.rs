@@ -4,7 +4,7 @@ use super::mine::mine;
 use glam::{DMat3, DVec2, DVec3};
 use pinhole::rasterise::{clip_from_camera, ndc_from_clip, raster_from_ndc};
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// Point, eye, axes, tan_half, size.
@@ -32,139 +32,89 @@ fn question() -> Question<Input, [f64; 2]> {
         apart: |yours, right| absolute(yours, right),
         allowed: 1e-6,
         measured: "pixels",
-        mistakes: vec![
-            Mistake::new(
-                "the eye is not subtracted: the point is seen as if the camera stood at the origin",
-                |input| raster(axes(input).transpose() * DVec3::from(input.0), input, 1.0),
-            ),
-            Mistake::new("the eye is added; subtract it from the point", |input| {
-                raster(axes(input).transpose() * (DVec3::from(input.0) + DVec3::from(input.1)), input, 1.0)
-            }),
-            Mistake::new(
-                "the eye is subtracted after the turn; it is a place of the world, so subtract it first",
-                |input| raster(axes(input).transpose() * DVec3::from(input.0) - DVec3::from(input.1), input, 1.0),
-            ),
-            Mistake::new(
-                "the point goes from the camera to the world: multiply by the transpose, that is, take the dot product with each axis",
-                |input| raster(axes(input) * (DVec3::from(input.0) - DVec3::from(input.1)), input, 1.0),
-            ),
-            Mistake::new(
-                "the point goes from the camera to the world: multiply by the transpose, that is, take the dot product with each axis",
-                |input| raster(axes(input) * DVec3::from(input.0) - DVec3::from(input.1), input, 1.0),
-            ),
-            Mistake::new("y is not turned down: the picture stands on its head", |input| {
-                on_image(input, |[x, y], [_, height]| [x, height - y])
-            }),
-            Mistake::new("x is turned round: it is to the right in the camera and in the image", |input| {
-                on_image(input, |[x, y], [width, _]| [width - x, y])
-            }),
-            Mistake::new("the aspect is left out: x is in half heights until it is divided by width/height", |input| {
-                raster(camera(input) * DVec3::new(aspect(input), 1.0, 1.0), input, 1.0)
-            }),
-            Mistake::new("the aspect is upside down: x is divided by width/height", |input| {
-                raster(camera(input) * DVec3::new(aspect(input).powi(2), 1.0, 1.0), input, 1.0)
-            }),
-            Mistake::new(
-                "tan_half is that of the vertical field of view: y is divided by it, and x by it and the aspect",
-                |input| raster(camera(input) * DVec3::new(aspect(input), aspect(input), 1.0), input, 1.0),
-            ),
-            Mistake::new(
-                "tan_half is that of the vertical field of view: y is divided by it, and x by it and the aspect",
-                |input| raster(camera(input) * DVec3::new(aspect(input), 1.0 / aspect(input), 1.0), input, 1.0),
-            ),
-            Mistake::new(
-                "tan_half is that of the vertical field of view: y is divided by it, and x by it and the aspect",
-                |input| raster(camera(input) * DVec3::new(1.0, 1.0 / aspect(input), 1.0), input, 1.0),
-            ),
-            Mistake::new(
-                "tan_half is that of the vertical field of view: y is divided by it, and x by it and the aspect",
-                |input| raster(camera(input) * DVec3::new(1.0, aspect(input), 1.0), input, 1.0),
-            ),
-            Mistake::new(
-                "the aspect is a division of whole numbers, which drops the rest: make them f64 first",
-                by_whole_aspect,
-            ),
-            Mistake::new("the size is taken for height and width; it is width and height", |input| {
-                raster(camera(input), &swapped(input), 1.0)
-            }),
-            Mistake::new("it is divided by z, which is negative in front of the camera: take −z", |input| {
-                raster(camera(input) * DVec3::new(-1.0, -1.0, 1.0), input, 1.0)
-            }),
-            Mistake::new(
-                "it is divided by the distance from the eye; the depth is the distance along the axis",
-                |input| {
-                    let camera = camera(input);
-                    raster(camera, input, -camera.length() / camera.z)
-                },
-            ),
-            Mistake::new("the field of view is left out", |input| {
-                raster(camera(input), &with_tan_half(input, 1.0), 1.0)
-            }),
-            Mistake::new(
-                "it is multiplied by tan_half; the wider the field of view, the smaller is everything, so divide by it",
-                |input| raster(camera(input), &with_tan_half(input, 1.0 / input.3), 1.0),
-            ),
-            Mistake::new("tan_half is taken for an angle; it is the tangent already", |input| {
-                raster(camera(input), &with_tan_half(input, libm::tan(input.3)), 1.0)
-            }),
-            Mistake::new("tan_half is halved or doubled; it belongs to half the angle already", |input| {
-                raster(camera(input), &with_tan_half(input, 0.5 * input.3), 1.0)
-            }),
-            Mistake::new("tan_half is halved or doubled; it belongs to half the angle already", |input| {
-                raster(camera(input), &with_tan_half(input, 2.0 * input.3), 1.0)
-            }),
-            Mistake::new("nothing is divided by the depth, as for an orthographic camera", |input| {
+        mistakes: Mistakes::<Input, [f64; 2]>::new()
+            .say("the eye is not subtracted: the point is seen as if the camera stood at the origin")
+            .when(|input| raster(axes(input).transpose() * DVec3::from(input.0), input, 1.0))
+            .say("the eye is added; subtract it from the point")
+            .when(|input| raster(axes(input).transpose() * (DVec3::from(input.0) + DVec3::from(input.1)), input, 1.0))
+            .say("the eye is subtracted after the turn; it is a place of the world, so subtract it first")
+            .when(|input| raster(axes(input).transpose() * DVec3::from(input.0) - DVec3::from(input.1), input, 1.0))
+            .say(
+                "the point goes from the camera to the world: multiply by the transpose, that is, take the dot \
+                 product with each axis",
+            )
+            .when(|input| raster(axes(input) * (DVec3::from(input.0) - DVec3::from(input.1)), input, 1.0))
+            .when(|input| raster(axes(input) * DVec3::from(input.0) - DVec3::from(input.1), input, 1.0))
+            .say("y is not turned down: the picture stands on its head")
+            .when(|input| on_image(input, |[x, y], [_, height]| [x, height - y]))
+            .say("x is turned round: it is to the right in the camera and in the image")
+            .when(|input| on_image(input, |[x, y], [width, _]| [width - x, y]))
+            .say("the aspect is left out: x is in half heights until it is divided by width/height")
+            .when(|input| raster(camera(input) * DVec3::new(aspect(input), 1.0, 1.0), input, 1.0))
+            .say("the aspect is upside down: x is divided by width/height")
+            .when(|input| raster(camera(input) * DVec3::new(aspect(input).powi(2), 1.0, 1.0), input, 1.0))
+            .say("tan_half is that of the vertical field of view: y is divided by it, and x by it and the aspect")
+            .when(|input| raster(camera(input) * DVec3::new(aspect(input), aspect(input), 1.0), input, 1.0))
+            .when(|input| raster(camera(input) * DVec3::new(aspect(input), 1.0 / aspect(input), 1.0), input, 1.0))
+            .when(|input| raster(camera(input) * DVec3::new(1.0, 1.0 / aspect(input), 1.0), input, 1.0))
+            .when(|input| raster(camera(input) * DVec3::new(1.0, aspect(input), 1.0), input, 1.0))
+            .say("the aspect is a division of whole numbers, which drops the rest: make them f64 first")
+            .when(by_whole_aspect)
+            .say("the size is taken for height and width; it is width and height")
+            .when(|input| raster(camera(input), &swapped(input), 1.0))
+            .say("it is divided by z, which is negative in front of the camera: take −z")
+            .when(|input| raster(camera(input) * DVec3::new(-1.0, -1.0, 1.0), input, 1.0))
+            .say("it is divided by the distance from the eye; the depth is the distance along the axis")
+            .when(|input| {
+                let camera = camera(input);
+                raster(camera, input, -camera.length() / camera.z)
+            })
+            .say("the field of view is left out")
+            .when(|input| raster(camera(input), &with_tan_half(input, 1.0), 1.0))
+            .say(
+                "it is multiplied by tan_half; the wider the field of view, the smaller is everything, so divide \
+                 by it",
+            )
+            .when(|input| raster(camera(input), &with_tan_half(input, 1.0 / input.3), 1.0))
+            .say("tan_half is taken for an angle; it is the tangent already")
+            .when(|input| raster(camera(input), &with_tan_half(input, libm::tan(input.3)), 1.0))
+            .say("tan_half is halved or doubled; it belongs to half the angle already")
+            .when(|input| raster(camera(input), &with_tan_half(input, 0.5 * input.3), 1.0))
+            .when(|input| raster(camera(input), &with_tan_half(input, 2.0 * input.3), 1.0))
+            .say("nothing is divided by the depth, as for an orthographic camera")
+            .when(|input| {
                 let camera = camera(input);
                 raster(camera, input, -1.0 / camera.z)
-            }),
-            Mistake::new(
-                "half a pixel is subtracted: x and y are counted from the corner, and pixel centres are at halves already",
-                |input| on_image(input, |[x, y], _| [x - 0.5, y - 0.5]),
-            ),
-            Mistake::new("half a pixel is added: it is a point that is asked for, and not a pixel's centre", |input| {
-                on_image(input, |[x, y], _| [x + 0.5, y + 0.5])
-            }),
-            Mistake::new("the point is rounded to a whole pixel; asked is where it is, with its fraction", |input| {
-                on_image(input, |at, _| at.map(f64::floor))
-            }),
-            Mistake::new("the point is rounded to a whole pixel; asked is where it is, with its fraction", |input| {
-                on_image(input, |at, _| at.map(f64::round))
-            }),
-            Mistake::new(
-                "the point is rounded to a pixel's centre; asked is where it is, with its fraction",
-                |input| on_image(input, |at, _| at.map(|part| part.floor() + 0.5)),
-            ),
-            Mistake::new(
-                "the last pixel is taken for the edge: NDC is times the size, not times the size less 1",
-                |input| on_image(input, |[x, y], [width, height]| [x - x / width, y - y / height]),
-            ),
-            Mistake::new("a point beside the image is pulled to its edge; it is somewhere outside", |input| {
-                on_image(input, |[x, y], [width, height]| [x.clamp(0.0, width), y.clamp(0.0, height)])
-            }),
-            Mistake::new("that is NDC, from 0 to 1; times the size it is in pixels", |input| {
-                on_image(input, |[x, y], [width, height]| [x / width, y / height])
-            }),
-            Mistake::new("that is the screen, from −1 to 1; pixels are counted from the upper left corner", |input| {
+            })
+            .say(
+                "half a pixel is subtracted: x and y are counted from the corner, and pixel centres are at halves \
+                 already",
+            )
+            .when(|input| on_image(input, |[x, y], _| [x - 0.5, y - 0.5]))
+            .say("half a pixel is added: it is a point that is asked for, and not a pixel's centre")
+            .when(|input| on_image(input, |[x, y], _| [x + 0.5, y + 0.5]))
+            .say("the point is rounded to a whole pixel; asked is where it is, with its fraction")
+            .when(|input| on_image(input, |at, _| at.map(f64::floor)))
+            .when(|input| on_image(input, |at, _| at.map(f64::round)))
+            .say("the point is rounded to a pixel's centre; asked is where it is, with its fraction")
+            .when(|input| on_image(input, |at, _| at.map(|part| part.floor() + 0.5)))
+            .say("the last pixel is taken for the edge: NDC is times the size, not times the size less 1")
+            .when(|input| on_image(input, |[x, y], [width, height]| [x - x / width, y - y / height]))
+            .say("a point beside the image is pulled to its edge; it is somewhere outside")
+            .when(|input| on_image(input, |[x, y], [width, height]| [x.clamp(0.0, width), y.clamp(0.0, height)]))
+            .say("that is NDC, from 0 to 1; times the size it is in pixels")
+            .when(|input| on_image(input, |[x, y], [width, height]| [x / width, y / height]))
+            .say("that is the screen, from −1 to 1; pixels are counted from the upper left corner")
+            .when(|input| {
                 on_image(input, |[x, y], [width, height]| [(2.0 * x - width) / height, 1.0 - 2.0 * y / height])
-            }),
-            Mistake::new("that is the screen, from −1 to 1; pixels are counted from the upper left corner", |input| {
-                on_image(input, |[x, y], [width, height]| [2.0 * x / width - 1.0, 1.0 - 2.0 * y / height])
-            }),
-            Mistake::new(
-                "the middle of the image is at half its size: x and y are moved there, and y is turned down",
-                |input| on_image(input, |[x, y], [width, height]| [x - width / 2.0, height / 2.0 - y]),
-            ),
-            Mistake::new(
-                "the middle of the image is at half its size: x and y are moved there, and y is turned down",
-                |input| on_image(input, |[x, y], [width, height]| [x - width / 2.0, y - height / 2.0]),
-            ),
-            Mistake::new("the image is 2 screen units high, from −1 to 1: the size is to be halved", |input| {
-                on_image(input, |[x, y], [width, height]| [2.0 * x - width / 2.0, 2.0 * y - height / 2.0])
-            }),
-            Mistake::new("the image is 2 screen units high, from −1 to 1: the size is to be halved", |input| {
-                on_image(input, |[x, y], _| [2.0 * x, 2.0 * y])
-            }),
-        ],
+            })
+            .when(|input| on_image(input, |[x, y], [width, height]| [2.0 * x / width - 1.0, 1.0 - 2.0 * y / height]))
+            .say("the middle of the image is at half its size: x and y are moved there, and y is turned down")
+            .when(|input| on_image(input, |[x, y], [width, height]| [x - width / 2.0, height / 2.0 - y]))
+            .when(|input| on_image(input, |[x, y], [width, height]| [x - width / 2.0, y - height / 2.0]))
+            .say("the image is 2 screen units high, from −1 to 1: the size is to be halved")
+            .when(|input| on_image(input, |[x, y], [width, height]| [2.0 * x - width / 2.0, 2.0 * y - height / 2.0]))
+            .when(|input| on_image(input, |[x, y], _| [2.0 * x, 2.0 * y])),
         hints: &[
             "subtract the eye from the point; what is left along each of the three axes is a dot product",
             "the depth is minus the part along the axis that points back; x and y divided by depth · tan_half are the \

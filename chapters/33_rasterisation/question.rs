@@ -3,7 +3,7 @@
 use super::mine::mine;
 use pinhole::rasterise::Edge;
 use pinhole_lab::exercise::apart::exact;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// From, to, sample, in 1/256 of a pixel.
@@ -26,113 +26,72 @@ fn question() -> Question<Input, bool> {
         apart: exact,
         allowed: 0.0,
         measured: "",
-        mistakes: vec![
-            Mistake::new("a sample on an edge is never inside: two triangles leave a crack between them", |input| {
-                by_rule(input, |_, _| false)
-            }),
-            Mistake::new("a sample on an edge is always inside: it belongs to both triangles", |input| {
-                by_rule(input, |_, _| true)
-            }),
-            Mistake::new(
-                "a bias of −1 goes with ≥ 0, not with > 0: now samples beside an edge are lost, too",
-                |input| area(input) + i64::from(on_top_left(input)) - 1 > 0,
-            ),
-            Mistake::new("a bias of 1 goes with > 0: now samples beside an edge are inside, too", |input| {
-                area(input) + i64::from(on_top_left(input)) >= 0
-            }),
-            Mistake::new("the inside is to the left: with y down, a positive area is to the right", |input| {
-                -area(input) > 0 || (area(input) == 0 && on_top_left(input))
-            }),
-            Mistake::new("the inside is to the left: with y down, a positive area is to the right", |input| {
-                -area(input) > 0 || (area(input) == 0 && !on_top_left(input))
-            }),
-            Mistake::new("the inside is to the left: with y down, a positive area is to the right", |input| {
-                -area(input) > 0
-            }),
-            Mistake::new("the inside is to the left: with y down, a positive area is to the right", |input| {
-                -area(input) >= 0
-            }),
-            Mistake::new(
-                "the inside is taken to be on the image's right; if an edge goes down, its right is the image's left",
-                to_the_right_in_the_image,
-            ),
-            Mistake::new(
-                "level edges are forgotten: a top edge belongs to the triangle, a bottom edge does not",
-                |input| by_rule(input, |_, dy| dy < 0),
-            ),
-            Mistake::new("left edges are forgotten: one that goes up belongs to the triangle", |input| {
-                by_rule(input, |dx, dy| dy == 0 && dx > 0)
-            }),
-            Mistake::new(
-                "a level edge belongs to the triangle where it goes to the right, a top edge; to the left it is a bottom edge",
-                |input| by_rule(input, |_, dy| dy <= 0),
-            ),
-            Mistake::new(
-                "a level edge belongs to the triangle where it goes to the right, a top edge; to the left it is a bottom edge",
-                |input| by_rule(input, |dx, dy| dy < 0 || (dy == 0 && dx < 0)),
-            ),
-            Mistake::new("left edges go up, and y points down: the edge's end has the smaller y", |input| {
-                by_rule(input, |dx, dy| dy > 0 || (dy == 0 && dx > 0))
-            }),
-            Mistake::new("left edges go up, and y points down: the edge's end has the smaller y", |input| {
-                by_rule(input, |_, dy| dy > 0)
-            }),
-            Mistake::new("left edges go up, and y points down: the edge's end has the smaller y", |input| {
-                by_rule(input, |_, dy| dy >= 0)
-            }),
-            Mistake::new(
-                "the rule is turned round, to bottom and right edges: left edges go up, to a smaller y, and top edges to the right",
-                |input| by_rule(input, |dx, dy| dy > 0 || (dy == 0 && dx < 0)),
-            ),
-            Mistake::new(
-                "x and y are swapped in the rule: a left edge goes up, a top edge is level and goes to the right",
-                |input| by_rule(input, |dx, dy| dx > 0 || (dx == 0 && dy < 0)),
-            ),
-            Mistake::new(
-                "x and y are swapped in the rule: a left edge goes up, a top edge is level and goes to the right",
-                |input| by_rule(input, |dx, dy| dx < 0 || (dx == 0 && dy < 0)),
-            ),
-            Mistake::new(
-                "x and y are swapped in the rule: a left edge goes up, a top edge is level and goes to the right",
-                |input| by_rule(input, |dx, dy| dx < 0 || (dx == 0 && dy > 0)),
-            ),
-            Mistake::new(
-                "the rule takes either for enough; a top edge is level and goes to the right, both at once",
-                |input| by_rule(input, |dx, dy| dy < 0 || dx > 0),
-            ),
-            Mistake::new("the products are added; the edge function is their difference", |input| {
-                summed(input, |[dx, dy], [x, y]| dx * y + dy * x)
-            }),
-            Mistake::new("that is a dot product; the edge function multiplies x by y and y by x", |input| {
-                summed(input, |[dx, dy], [x, y]| dx * x + dy * y)
-            }),
-            Mistake::new("the sample is not taken from an end of the edge: subtract `from` from it, too", |input| {
+        mistakes: Mistakes::<Input, bool>::new()
+            .say("a sample on an edge is never inside: two triangles leave a crack between them")
+            .when(|input| by_rule(input, |_, _| false))
+            .say("a sample on an edge is always inside: it belongs to both triangles")
+            .when(|input| by_rule(input, |_, _| true))
+            .say("a bias of −1 goes with ≥ 0, not with > 0: now samples beside an edge are lost, too")
+            .when(|input| area(input) + i64::from(on_top_left(input)) - 1 > 0)
+            .say("a bias of 1 goes with > 0: now samples beside an edge are inside, too")
+            .when(|input| area(input) + i64::from(on_top_left(input)) >= 0)
+            .say("the inside is to the left: with y down, a positive area is to the right")
+            .when(|input| -area(input) > 0 || (area(input) == 0 && on_top_left(input)))
+            .when(|input| -area(input) > 0 || (area(input) == 0 && !on_top_left(input)))
+            .when(|input| -area(input) > 0)
+            .when(|input| -area(input) >= 0)
+            .say("the inside is taken to be on the image's right; if an edge goes down, its right is the image's left")
+            .when(to_the_right_in_the_image)
+            .say("level edges are forgotten: a top edge belongs to the triangle, a bottom edge does not")
+            .when(|input| by_rule(input, |_, dy| dy < 0))
+            .say("left edges are forgotten: one that goes up belongs to the triangle")
+            .when(|input| by_rule(input, |dx, dy| dy == 0 && dx > 0))
+            .say(
+                "a level edge belongs to the triangle where it goes to the right, a top edge; to the left it is a \
+                 bottom edge",
+            )
+            .when(|input| by_rule(input, |_, dy| dy <= 0))
+            .when(|input| by_rule(input, |dx, dy| dy < 0 || (dy == 0 && dx < 0)))
+            .say("left edges go up, and y points down: the edge's end has the smaller y")
+            .when(|input| by_rule(input, |dx, dy| dy > 0 || (dy == 0 && dx > 0)))
+            .when(|input| by_rule(input, |_, dy| dy > 0))
+            .when(|input| by_rule(input, |_, dy| dy >= 0))
+            .say(
+                "the rule is turned round, to bottom and right edges: left edges go up, to a smaller y, and top \
+                 edges to the right",
+            )
+            .when(|input| by_rule(input, |dx, dy| dy > 0 || (dy == 0 && dx < 0)))
+            .say("x and y are swapped in the rule: a left edge goes up, a top edge is level and goes to the right")
+            .when(|input| by_rule(input, |dx, dy| dx > 0 || (dx == 0 && dy < 0)))
+            .when(|input| by_rule(input, |dx, dy| dx < 0 || (dx == 0 && dy < 0)))
+            .when(|input| by_rule(input, |dx, dy| dx < 0 || (dx == 0 && dy > 0)))
+            .say("the rule takes either for enough; a top edge is level and goes to the right, both at once")
+            .when(|input| by_rule(input, |dx, dy| dy < 0 || dx > 0))
+            .say("the products are added; the edge function is their difference")
+            .when(|input| summed(input, |[dx, dy], [x, y]| dx * y + dy * x))
+            .say("that is a dot product; the edge function multiplies x by y and y by x")
+            .when(|input| summed(input, |[dx, dy], [x, y]| dx * x + dy * y))
+            .say("the sample is not taken from an end of the edge: subtract `from` from it, too")
+            .when(|input| {
                 let &([fx, fy], [tx, ty], [x, y]) = input;
                 at([tx - fx, ty - fy].map(i64::from), [x, y].map(i64::from), |[dx, dy], [x, y]| dx * y - dy * x)
-            }),
-            Mistake::new(
-                "the sample's x and y are measured from different ends of the edge: subtract `from` from both",
-                |input| moved(input, [0, input.0[1] - input.1[1]]),
-            ),
-            Mistake::new(
-                "half a pixel is added to the sample; its coordinates already say exactly where it is",
-                |input| moved(input, [128, 128]),
-            ),
-            Mistake::new("the edge's end is taken for its direction: subtract `from` from `to`", |input| {
+            })
+            .say("the sample's x and y are measured from different ends of the edge: subtract `from` from both")
+            .when(|input| moved(input, [0, input.0[1] - input.1[1]]))
+            .say("half a pixel is added to the sample; its coordinates already say exactly where it is")
+            .when(|input| moved(input, [128, 128]))
+            .say("the edge's end is taken for its direction: subtract `from` from `to`")
+            .when(|input| {
                 let &([fx, fy], to, [x, y]) = input;
                 at(to.map(i64::from), [x - fx, y - fy].map(i64::from), |[dx, dy], [x, y]| dx * y - dy * x)
-            }),
-            Mistake::new(
-                "the coordinates are divided first, which drops their fractions; the rule needs every 1/256",
-                |input| divided(input, |part| part / 256),
-            ),
-            Mistake::new(
-                "the coordinates are divided first, which drops their fractions; the rule needs every 1/256",
-                |input| divided(input, |part| part >> 8),
-            ),
-            Mistake::new("the products overflow i32: two numbers of 25 bits take 50", narrow),
-            Mistake::new("the edge function is rounded: f32 has 24 bits, and the products take 50", rounded),
-        ],
+            })
+            .say("the coordinates are divided first, which drops their fractions; the rule needs every 1/256")
+            .when(|input| divided(input, |part| part / 256))
+            .when(|input| divided(input, |part| part >> 8))
+            .say("the products overflow i32: two numbers of 25 bits take 50")
+            .when(narrow)
+            .say("the edge function is rounded: f32 has 24 bits, and the products take 50")
+            .when(rounded),
         hints: &[
             "the edge function is twice the area of the triangle from, to, sample: \
              (to.x − from.x)(sample.y − from.y) − (to.y − from.y)(sample.x − from.x), in i64",

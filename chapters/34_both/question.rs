@@ -2,7 +2,7 @@
 
 use super::mine::mine;
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, extremes, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Probe, Question, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::naive::both::{interval_at_its_depth, sphere_interval};
 
@@ -29,210 +29,152 @@ fn question() -> Question<Input, [f64; 2]> {
         apart: |yours, right| absolute(yours, right),
         allowed: 1e-9,
         measured: "of each end",
-        mistakes: vec![
-            Mistake::new(
-                "both ends are taken at the depth of the centre: the outline of a sphere is nearer to the eye",
-                |&[right, ahead, radius, half]| cut(interval_at_its_depth(right, ahead, radius), half),
-            ),
-            Mistake::new(
-                "this is the interval of a box around the sphere, taken at its near side: it is wider than the sphere",
-                |&[right, ahead, radius, half]| cut(in_front(right, ahead, radius), half),
-            ),
-            Mistake::new(
-                "this is the interval of a box around the sphere, taken at its near side: it is wider than the sphere",
+        mistakes: Mistakes::<Input, [f64; 2]>::new()
+            .say("both ends are taken at the depth of the centre: the outline of a sphere is nearer to the eye")
+            .when(|&[right, ahead, radius, half]| cut(interval_at_its_depth(right, ahead, radius), half))
+            .say(
+                "this is the interval of a box around the sphere, taken at its near side: it is wider than the \
+                 sphere",
+            )
+            .when(|&[right, ahead, radius, half]| cut(in_front(right, ahead, radius), half))
+            .when(
                 |&[right, ahead, radius, half]| {
                     if ahead <= radius { [-half, half] } else { cut(in_front(right, ahead, radius), half) }
                 },
-            ),
-            Mistake::new(
-                "both ends are taken at the depth of the far side; the outline of a sphere is nearer to the eye than its centre",
-                |&[right, ahead, radius, half]| cut(in_front(right, ahead + 2.0 * radius, radius), half),
-            ),
-            Mistake::new(
-                "the two ends are as far from the centre's image as if it were straight ahead; to the side a sphere looks wider, and its centre is not in the middle",
-                |&[right, ahead, radius, half]| cut(as_if_ahead(right / ahead, ahead * ahead, radius), half),
-            ),
-            Mistake::new(
-                "the two ends are as far from the centre's image as if it were straight ahead; to the side a sphere looks wider, and its centre is not in the middle",
-                |&[right, ahead, radius, half]| {
-                    cut(as_if_ahead(right / ahead, right * right + ahead * ahead, radius), half)
-                },
-            ),
-            Mistake::new(
-                "the two ends are as far from the centre's image as if it were straight ahead; to the side a sphere looks wider, and its centre is not in the middle",
-                |&[right, ahead, radius, half]| {
-                    let squared = right * right + ahead * ahead;
-                    if squared <= radius * radius || ahead <= 0.0 {
-                        [-half, half]
-                    } else {
-                        cut(as_if_ahead(right / ahead, squared, radius), half)
-                    }
-                },
-            ),
-            Mistake::new(
-                "the two ends are as far from the centre's image as if it were straight ahead; to the side a sphere looks wider, and its centre is not in the middle",
-                |&[right, ahead, radius, half]| {
-                    cut(
-                        [
-                            right / ahead - radius / libm::hypot(right, ahead),
-                            right / ahead + radius / libm::hypot(right, ahead),
-                        ],
-                        half,
-                    )
-                },
-            ),
-            Mistake::new(
-                "it is divided by the distance to the centre, where an image divides by how far something is ahead",
-                |&[right, ahead, radius, half]| {
-                    cut([right - radius, right + radius].map(|end| end / libm::hypot(right, ahead)), half)
-                },
-            ),
-            Mistake::new(
-                "the sphere is on the wrong side: to the right is positive",
-                |&[right, ahead, radius, most]| sphere_interval(-right, ahead, radius, most),
-            ),
-            Mistake::new(
-                "`right` and `ahead` are exchanged: the tangent is right over ahead",
-                |&[right, ahead, radius, most]| sphere_interval(ahead, right, radius, most),
-            ),
-            Mistake::new("the ends are swapped: the left one is first", |&[right, ahead, radius, half]| {
+            )
+            .say(
+                "both ends are taken at the depth of the far side; the outline of a sphere is nearer to the eye \
+                 than its centre",
+            )
+            .when(|&[right, ahead, radius, half]| cut(in_front(right, ahead + 2.0 * radius, radius), half))
+            .say(
+                "the two ends are as far from the centre's image as if it were straight ahead; to the side a \
+                 sphere looks wider, and its centre is not in the middle",
+            )
+            .when(|&[right, ahead, radius, half]| cut(as_if_ahead(right / ahead, ahead * ahead, radius), half))
+            .when(|&[right, ahead, radius, half]| {
+                cut(as_if_ahead(right / ahead, right * right + ahead * ahead, radius), half)
+            })
+            .when(|&[right, ahead, radius, half]| {
+                let squared = right * right + ahead * ahead;
+                if squared <= radius * radius || ahead <= 0.0 {
+                    [-half, half]
+                } else {
+                    cut(as_if_ahead(right / ahead, squared, radius), half)
+                }
+            })
+            .when(|&[right, ahead, radius, half]| {
+                cut(
+                    [
+                        right / ahead - radius / libm::hypot(right, ahead),
+                        right / ahead + radius / libm::hypot(right, ahead),
+                    ],
+                    half,
+                )
+            })
+            .say("it is divided by the distance to the centre, where an image divides by how far something is ahead")
+            .when(|&[right, ahead, radius, half]| {
+                cut([right - radius, right + radius].map(|end| end / libm::hypot(right, ahead)), half)
+            })
+            .say("the sphere is on the wrong side: to the right is positive")
+            .when(|&[right, ahead, radius, most]| sphere_interval(-right, ahead, radius, most))
+            .say("`right` and `ahead` are exchanged: the tangent is right over ahead")
+            .when(|&[right, ahead, radius, most]| sphere_interval(ahead, right, radius, most))
+            .say("the ends are swapped: the left one is first")
+            .when(|&[right, ahead, radius, half]| {
                 let [low, high] = sphere_interval(right, ahead, radius, half);
                 [high, low]
-            }),
-            Mistake::new(
-                "the radius over the distance is the sine of the angle between centre and outline, not its tangent",
-                |&[right, ahead, radius, half]| {
-                    by_angle([right, ahead, radius, half], libm::atan(radius / libm::hypot(right, ahead)), libm::tan)
-                },
-            ),
-            Mistake::new(
-                "the radius over the distance is the sine of the angle, not the angle itself",
-                |&[right, ahead, radius, half]| {
-                    by_angle([right, ahead, radius, half], radius / libm::hypot(right, ahead), libm::tan)
-                },
-            ),
-            Mistake::new(
-                "the radius over the distance is the sine of the angle, not its cosine",
-                |&[right, ahead, radius, half]| {
-                    by_angle([right, ahead, radius, half], libm::acos(radius / libm::hypot(right, ahead)), libm::tan)
-                },
-            ),
-            Mistake::new(
-                "the radius is divided by how far the centre is ahead; the sine of the angle is radius over distance, √(right² + ahead²)",
-                |&[right, ahead, radius, half]| {
+            })
+            .say("the radius over the distance is the sine of the angle between centre and outline, not its tangent")
+            .when(|&[right, ahead, radius, half]| {
+                by_angle([right, ahead, radius, half], libm::atan(radius / libm::hypot(right, ahead)), libm::tan)
+            })
+            .say("the radius over the distance is the sine of the angle, not the angle itself")
+            .when(|&[right, ahead, radius, half]| {
+                by_angle([right, ahead, radius, half], radius / libm::hypot(right, ahead), libm::tan)
+            })
+            .say("the radius over the distance is the sine of the angle, not its cosine")
+            .when(|&[right, ahead, radius, half]| {
+                by_angle([right, ahead, radius, half], libm::acos(radius / libm::hypot(right, ahead)), libm::tan)
+            })
+            .say(
+                "the radius is divided by how far the centre is ahead; the sine of the angle is radius over \
+                 distance, √(right² + ahead²)",
+            )
+            .when(|&[right, ahead, radius, half]| {
+                by_angle([right, ahead, radius, half], libm::asin(radius / ahead), libm::tan)
+            })
+            .when(|&[right, ahead, radius, half]| {
+                by_angle([right, ahead, radius, half], libm::atan(radius / ahead), libm::tan)
+            })
+            .when(|&[right, ahead, radius, half]| {
+                if ahead <= radius {
+                    [-half, half]
+                } else {
                     by_angle([right, ahead, radius, half], libm::asin(radius / ahead), libm::tan)
-                },
-            ),
-            Mistake::new(
-                "the radius is divided by how far the centre is ahead; the sine of the angle is radius over distance, √(right² + ahead²)",
-                |&[right, ahead, radius, half]| {
+                }
+            })
+            .when(|&[right, ahead, radius, half]| {
+                if ahead <= radius {
+                    [-half, half]
+                } else {
                     by_angle([right, ahead, radius, half], libm::atan(radius / ahead), libm::tan)
-                },
-            ),
-            Mistake::new(
-                "the radius is divided by how far the centre is ahead; the sine of the angle is radius over distance, √(right² + ahead²)",
-                |&[right, ahead, radius, half]| {
-                    if ahead <= radius {
-                        [-half, half]
-                    } else {
-                        by_angle([right, ahead, radius, half], libm::asin(radius / ahead), libm::tan)
-                    }
-                },
-            ),
-            Mistake::new(
-                "the radius is divided by how far the centre is ahead; the sine of the angle is radius over distance, √(right² + ahead²)",
-                |&[right, ahead, radius, half]| {
-                    if ahead <= radius {
-                        [-half, half]
-                    } else {
-                        by_angle([right, ahead, radius, half], libm::atan(radius / ahead), libm::tan)
-                    }
-                },
-            ),
-            Mistake::new(
-                "the angle between centre and outline is halved or doubled; its sine is radius over distance",
-                |&[right, ahead, radius, half]| {
-                    by_angle(
-                        [right, ahead, radius, half],
-                        0.5 * libm::asin(radius / libm::hypot(right, ahead)),
-                        libm::tan,
-                    )
-                },
-            ),
-            Mistake::new(
-                "the angle between centre and outline is halved or doubled; its sine is radius over distance",
-                |&[right, ahead, radius, half]| {
-                    by_angle(
-                        [right, ahead, radius, half],
-                        2.0 * libm::asin(radius / libm::hypot(right, ahead)),
-                        libm::tan,
-                    )
-                },
-            ),
-            Mistake::new(
-                "those are angles, or their sines; on a plane at distance 1 the ends are at their tangents",
-                |&[right, ahead, radius, half]| {
-                    by_angle([right, ahead, radius, half], libm::asin(radius / libm::hypot(right, ahead)), |angle| {
-                        angle
-                    })
-                },
-            ),
-            Mistake::new(
-                "those are angles, or their sines; on a plane at distance 1 the ends are at their tangents",
-                |&[right, ahead, radius, half]| {
-                    by_angle([right, ahead, radius, half], libm::asin(radius / libm::hypot(right, ahead)), libm::sin)
-                },
-            ),
-            Mistake::new(
-                "the centre's distance is taken for the tangents' length, which is √(right² + ahead² − radius²)",
-                |&[right, ahead, radius, half]| cut(turned(right, ahead, radius, libm::hypot(right, ahead)), half),
-            ),
-            Mistake::new(
-                "beside the image one end is left outside: each end must be cut off at both edges",
-                |&[right, ahead, radius, half]| {
-                    let [low, high] = sphere_interval(right, ahead, radius, 1e9);
-                    [low.max(-half), high.min(half)]
-                },
-            ),
-            Mistake::new(
-                "an end beyond the image's edge is left there; it must be cut off at the edge",
-                |&[right, ahead, radius, _]| sphere_interval(right, ahead, radius, 1e9),
-            ),
-            Mistake::new(
-                "the ends are divided by half; they lie between −half and half",
-                |&[right, ahead, radius, most]| sphere_interval(right, ahead, radius, most).map(|end| end / most),
-            ),
-            Mistake::new(
-                "a tangent that is not in front of the eye is divided all the same: the interval then goes on to the image's edge",
-                |&[right, ahead, radius, half]| cut(divided(right, ahead, radius), half),
-            ),
-            Mistake::new(
-                "a tangent that is not in front of the eye is divided all the same: the interval then goes on to the image's edge",
-                |&[right, ahead, radius, half]| cut(nan_inside(right, ahead, radius), half),
-            ),
-            Mistake::new(
-                "the whole image is taken as soon as the sphere reaches beside the eye; only the end on that side goes on to the edge",
+                }
+            })
+            .say("the angle between centre and outline is halved or doubled; its sine is radius over distance")
+            .when(|&[right, ahead, radius, half]| {
+                by_angle([right, ahead, radius, half], 0.5 * libm::asin(radius / libm::hypot(right, ahead)), libm::tan)
+            })
+            .when(|&[right, ahead, radius, half]| {
+                by_angle([right, ahead, radius, half], 2.0 * libm::asin(radius / libm::hypot(right, ahead)), libm::tan)
+            })
+            .say("those are angles, or their sines; on a plane at distance 1 the ends are at their tangents")
+            .when(|&[right, ahead, radius, half]| {
+                by_angle([right, ahead, radius, half], libm::asin(radius / libm::hypot(right, ahead)), |angle| angle)
+            })
+            .when(|&[right, ahead, radius, half]| {
+                by_angle([right, ahead, radius, half], libm::asin(radius / libm::hypot(right, ahead)), libm::sin)
+            })
+            .say("the centre's distance is taken for the tangents' length, which is √(right² + ahead² − radius²)")
+            .when(|&[right, ahead, radius, half]| cut(turned(right, ahead, radius, libm::hypot(right, ahead)), half))
+            .say("beside the image one end is left outside: each end must be cut off at both edges")
+            .when(|&[right, ahead, radius, half]| {
+                let [low, high] = sphere_interval(right, ahead, radius, 1e9);
+                [low.max(-half), high.min(half)]
+            })
+            .say("an end beyond the image's edge is left there; it must be cut off at the edge")
+            .when(|&[right, ahead, radius, _]| sphere_interval(right, ahead, radius, 1e9))
+            .say("the ends are divided by half; they lie between −half and half")
+            .when(|&[right, ahead, radius, most]| sphere_interval(right, ahead, radius, most).map(|end| end / most))
+            .say(
+                "a tangent that is not in front of the eye is divided all the same: the interval then goes on to \
+                 the image's edge",
+            )
+            .when(|&[right, ahead, radius, half]| cut(divided(right, ahead, radius), half))
+            .when(|&[right, ahead, radius, half]| cut(nan_inside(right, ahead, radius), half))
+            .say(
+                "the whole image is taken as soon as the sphere reaches beside the eye; only the end on that side \
+                 goes on to the edge",
+            )
+            .when(
                 |&[right, ahead, radius, half]| {
                     if ahead <= radius { [-half, half] } else { sphere_interval(right, ahead, radius, half) }
                 },
-            ),
-            Mistake::new(
-                "with its centre behind the eye the sphere still reaches in front of it, on one side",
+            )
+            .say("with its centre behind the eye the sphere still reaches in front of it, on one side")
+            .when(
                 |&[right, ahead, radius, half]| {
                     if ahead <= 0.0 { [-half, half] } else { sphere_interval(right, ahead, radius, half) }
                 },
-            ),
-            Mistake::new(
-                "the eye may be inside the disk: there is no tangent then, and the interval is the whole image",
-                |&[right, ahead, radius, half]| {
-                    if right * right + ahead * ahead <= radius * radius {
-                        [f64::NAN; 2]
-                    } else {
-                        sphere_interval(right, ahead, radius, half)
-                    }
-                },
-            ),
-        ],
+            )
+            .say("the eye may be inside the disk: there is no tangent then, and the interval is the whole image")
+            .when(|&[right, ahead, radius, half]| {
+                if right * right + ahead * ahead <= radius * radius {
+                    [f64::NAN; 2]
+                } else {
+                    sphere_interval(right, ahead, radius, half)
+                }
+            }),
         hints: &[
             "look from above: the sphere is a disk, and the ends are where the two tangents from the eye cross the image \
              plane; if the eye is inside the disk, every x may see the sphere",

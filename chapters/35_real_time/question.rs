@@ -3,7 +3,7 @@
 use super::mine::mine;
 use glam::DVec3;
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, extremes, probes};
+use pinhole_lab::exercise::{Exercise, Mistakes, Part, Probe, Question, Shown, extremes, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::naive::denoise;
 
@@ -34,129 +34,99 @@ fn question() -> Question<Input, f64> {
         apart: |yours, right| absolute(&[*yours], &[*right]),
         allowed: 1e-9,
         measured: "of the weight",
-        mistakes: vec![
-            Mistake::new(
-                "an offset of length 0 divides by 0: two pixels may show the same point, which lies in the plane",
-                |input| if vectors(input)[2] == DVec3::ZERO { f64::NAN } else { normals(input) * plane(input) },
-            ),
-            Mistake::new("the same point lies in the plane: s is 0, and the normals alone count", |input| {
-                if vectors(input)[2] == DVec3::ZERO { 0.0 } else { normals(input) * plane(input) }
-            }),
-            Mistake::new("the same point lies in the plane: s is 0, and the normals alone count", |input| {
-                if vectors(input)[2] == DVec3::ZERO { 1.0 } else { normals(input) * plane(input) }
-            }),
-            Mistake::new(
-                "surfaces that face away count: 32 is even, so a negative cosine has a positive power; make it 0 first",
-                |input| power(cosine(input)) * plane(input),
-            ),
-            Mistake::new(
-                "the distance from the plane is not divided by the offset's length: the weight then depends on the scene's units",
-                |input| normals(input) * falloff(across(input)),
-            ),
-            Mistake::new(
-                "the distance from the plane is divided by the offset's length squared: divide once, or square the distance, too",
-                |input| normals(input) * falloff(across(input) / length(input).powi(2)),
-            ),
-            Mistake::new(
-                "the distance from the plane is not squared, but the offset's length is: s² is (normal · offset)² over it",
-                |input| normals(input) * 0.01 / (0.01 + across(input).abs() / length(input).powi(2)),
-            ),
-            Mistake::new("s² is (normal · offset)² over the offset's length squared, not over the length", |input| {
-                normals(input) * 0.01 / (0.01 + across(input).powi(2) / length(input))
-            }),
-            Mistake::new("it is the neighbour's plane: take the one across the pixel's own normal", |input| {
-                let &(normal, neighbour, offset) = input;
-                normals(input) * plane(&(neighbour, normal, offset))
-            }),
-            Mistake::new("only the normals count: light is carried across every step between parallel faces", normals),
-            Mistake::new("only the plane counts: faces that meet at an edge are mixed along it", plane),
-            Mistake::new("the sine is not squared: at 0.1 the weight must be one half", |input| {
-                normals(input) * 0.01 / (0.01 + sine(input).abs())
-            }),
-            Mistake::new("the sine is not squared: at 0.1 the weight must be one half", |input| {
-                normals(input) * 0.01 / (0.01 + sine(input))
-            }),
-            Mistake::new(
-                "what lies below the plane counts in full; the sine is squared, so its sign makes no difference",
-                |input| normals(input) * falloff(sine(input).max(0.0)),
-            ),
-            Mistake::new(
-                "that is the angle to the normal; s is the sine of the angle to the plane, normal · offset over the length",
-                |input| normals(input) * falloff(libm::acos(sine(input).clamp(-1.0, 1.0))),
-            ),
-            Mistake::new("s is taken for an angle; it is the sine itself", |input| {
-                normals(input) * falloff(libm::asin(sine(input).clamp(-1.0, 1.0)))
-            }),
-            Mistake::new("the cosine lacks its 32nd power", |input| cosine(input).max(0.0) * plane(input)),
-            Mistake::new("both factors are raised to the 32nd power; only the cosine is", |input| {
-                power(cosine(input).max(0.0) * plane(input))
-            }),
-            Mistake::new("the plane's factor is raised to the 32nd power instead of the cosine", |input| {
-                cosine(input).max(0.0) * power(plane(input))
-            }),
-            Mistake::new("the power is not the 32nd: five squarings make it", |input| {
-                cosine(input).max(0.0).powi(2) * plane(input)
-            }),
-            Mistake::new("the power is not the 32nd: five squarings make it", |input| {
-                cosine(input).max(0.0).powi(5) * plane(input)
-            }),
-            Mistake::new("the power is not the 32nd: five squarings make it", |input| {
-                cosine(input).max(0.0).powi(16) * plane(input)
-            }),
-            Mistake::new("the power is not the 32nd: five squarings make it", |input| {
-                cosine(input).max(0.0).powi(31) * plane(input)
-            }),
-            Mistake::new("the power is not the 32nd: five squarings make it", |input| {
-                cosine(input).max(0.0).powi(33) * plane(input)
-            }),
-            Mistake::new("the power is not the 32nd: five squarings make it", |input| {
-                cosine(input).max(0.0).powi(64) * plane(input)
-            }),
-            Mistake::new("the factors are added; they are to be multiplied", |input| normals(input) + plane(input)),
-            Mistake::new("the mean of the factors is taken; they are to be multiplied", |input| {
-                0.5 * (normals(input) + plane(input))
-            }),
-            Mistake::new("the smaller factor is taken; they are to be multiplied", |input| {
-                normals(input).min(plane(input))
-            }),
-            Mistake::new("the plane's factor lacks its 0.01 above the line: in the plane it is 1", |input| {
-                normals(input) / (0.01 + sine(input).powi(2))
-            }),
-            Mistake::new("0.1 is taken for 0.01: a sine of 0.1 makes one half", |input| {
-                normals(input) * 0.1 / (0.1 + sine(input).powi(2))
-            }),
-            Mistake::new("0.1 is taken for 0.01: a sine of 0.1 makes one half", |input| {
-                normals(input) * 0.01 / (0.1 + sine(input).powi(2))
-            }),
-            Mistake::new("brackets are missing: it is 0.01 / (0.01 + s²)", |input| {
-                normals(input) + sine(input).powi(2)
-            }),
-            Mistake::new("brackets are missing: it is 0.01 / (0.01 + s²)", |input| {
-                normals(input) * (1.0 + sine(input).powi(2))
-            }),
-            Mistake::new("the plane's factor is upside down: it is 1 in the plane, and less off it", |input| {
-                normals(input) * (1.0 - plane(input))
-            }),
-            Mistake::new(
-                "that is the cosine, the part along the plane; what must be small is the part across it",
-                |input| {
-                    let sine = sine(input);
-                    normals(input) * 0.01 / (0.01 + (1.0 - sine * sine))
-                },
-            ),
-            Mistake::new(
-                "that is the cosine, the part along the plane; what must be small is the part across it",
-                |input| {
-                    normals(input) * 0.01 / (0.01 + if length(input) == 0.0 { 0.0 } else { 1.0 - sine(input).powi(2) })
-                },
-            ),
-        ],
+        mistakes: mistakes(),
         hints: &[
             "the cosine of the angle between unit vectors is their dot product; below 0 the surfaces face away",
             "the 32nd power is five squarings, one after the other",
             "the dot product of normal and offset is the distance from the plane; over the offset's length it is the sine",
         ],
     }
+}
+
+fn mistakes() -> Mistakes<Input, f64> {
+    let facing = Part::<Input, f64>::new(normals)
+        .say(
+            "surfaces that face away count: 32 is even, so a negative cosine has a positive power; make it 0 \
+                 first",
+        )
+        .when(|i| power(cosine(i)))
+        .say("only the plane counts: faces that meet at an edge are mixed along it")
+        .when(|_| 1.0)
+        .say("the cosine lacks its 32nd power")
+        .when(|i| cosine(i).max(0.0))
+        .say("the power is not the 32nd: five squarings make it")
+        .when(|i| cosine(i).max(0.0).powi(2))
+        .when(|i| cosine(i).max(0.0).powi(5))
+        .when(|i| cosine(i).max(0.0).powi(16))
+        .when(|i| cosine(i).max(0.0).powi(31))
+        .when(|i| cosine(i).max(0.0).powi(33))
+        .when(|i| cosine(i).max(0.0).powi(64));
+    let near = Part::<Input, f64>::new(plane)
+        .say("an offset of length 0 divides by 0: two pixels may show the same point, which lies in the plane")
+        .when(|i| if length(i) == 0.0 { f64::NAN } else { plane(i) })
+        .say("the same point lies in the plane: s is 0, and the normals alone count")
+        .when(|i| if length(i) == 0.0 { 0.0 } else { plane(i) })
+        .when(|i| if length(i) == 0.0 { 1.0 / normals(i) } else { plane(i) })
+        .say(
+            "the distance from the plane is not divided by the offset's length: the weight then depends on the \
+                 scene's units",
+        )
+        .when(|i| falloff(across(i)))
+        .say(
+            "the distance from the plane is divided by the offset's length squared: divide once, or square the \
+                 distance, too",
+        )
+        .when(|i| falloff(across(i) / length(i).powi(2)))
+        .say(
+            "the distance from the plane is not squared, but the offset's length is: s² is (normal · offset)² \
+                 over it",
+        )
+        .when(|i| 0.01 / (0.01 + across(i).abs() / length(i).powi(2)))
+        .say("s² is (normal · offset)² over the offset's length squared, not over the length")
+        .when(|i| 0.01 / (0.01 + across(i).powi(2) / length(i)))
+        .say("it is the neighbour's plane: take the one across the pixel's own normal")
+        .when(|&(normal, neighbour, offset)| plane(&(neighbour, normal, offset)))
+        .say("only the normals count: light is carried across every step between parallel faces")
+        .when(|_| 1.0)
+        .say("the sine is not squared: at 0.1 the weight must be one half")
+        .when(|i| 0.01 / (0.01 + sine(i).abs()))
+        .when(|i| 0.01 / (0.01 + sine(i)))
+        .say("what lies below the plane counts in full; the sine is squared, so its sign makes no difference")
+        .when(|i| falloff(sine(i).max(0.0)))
+        .say(
+            "that is the angle to the normal; s is the sine of the angle to the plane, normal · offset over \
+                 the length",
+        )
+        .when(|i| falloff(libm::acos(sine(i).clamp(-1.0, 1.0))))
+        .say("s is taken for an angle; it is the sine itself")
+        .when(|i| falloff(libm::asin(sine(i).clamp(-1.0, 1.0))))
+        .say("the plane's factor lacks its 0.01 above the line: in the plane it is 1")
+        .when(|i| 1.0 / (0.01 + sine(i).powi(2)))
+        .say("0.1 is taken for 0.01: a sine of 0.1 makes one half")
+        .when(|i| 0.1 / (0.1 + sine(i).powi(2)))
+        .when(|i| 0.01 / (0.1 + sine(i).powi(2)))
+        .say("brackets are missing: it is 0.01 / (0.01 + s²)")
+        .when(|i| 1.0 + sine(i).powi(2))
+        .say("the plane's factor is upside down: it is 1 in the plane, and less off it")
+        .when(|i| 1.0 - plane(i))
+        .say("that is the cosine, the part along the plane; what must be small is the part across it")
+        .when(|i| 0.01 / (0.01 + (1.0 - sine(i) * sine(i))))
+        .when(|i| 0.01 / (0.01 + if length(i) == 0.0 { 0.0 } else { 1.0 - sine(i).powi(2) }));
+    let whole = Part::<[f64; 2], f64>::new(|[facing, near]| facing * near)
+        .say("the factors are added; they are to be multiplied")
+        .when(|[facing, near]| facing + near)
+        .say("the mean of the factors is taken; they are to be multiplied")
+        .when(|[facing, near]| 0.5 * (facing + near))
+        .say("the smaller factor is taken; they are to be multiplied")
+        .when(|[facing, near]| facing.min(*near));
+    Mistakes::<Input, f64>::new()
+        .say("both factors are raised to the 32nd power; only the cosine is")
+        .when(|i| power(cosine(i).max(0.0) * plane(i)))
+        .say("the plane's factor is raised to the 32nd power instead of the cosine")
+        .when(|i| cosine(i).max(0.0) * power(plane(i)))
+        .say("brackets are missing: it is 0.01 / (0.01 + s²)")
+        .when(|i| normals(i) + sine(i).powi(2))
+        .of_parts([facing, near], whole)
 }
 
 fn vectors(&(normal, neighbour, offset): &Input) -> [DVec3; 3] {
