@@ -6,11 +6,13 @@ use pinhole::extract::{ShapeTable, TriangleTable, VertexNormalTable};
 use pinhole::intersect::{Hits, ShadingNormals, Surfaces, falling_cosine};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
+use pinhole::shade;
 use pinhole::shade::LightRays;
 use pinhole::shapes::{ShapeKind, TriangleHit};
-use pinhole::{intersect, shade};
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes};
+use pinhole_lab::exercise::{
+    Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes,
+};
 use pinhole_lab::measure::ray_aim::Draws;
 
 type Vector = [f64; 3];
@@ -46,100 +48,7 @@ fn question() -> Question<Input, f64> {
         apart: |yours, right| absolute(&[*yours], &[*right]),
         allowed: 1e-12,
         measured: "of the cosine",
-        mistakes: Mistakes::<Input, f64>::new()
-            .say("light falls as the surface lies, whatever its corners' normals are")
-            .when(|i| cosine(i, faced(i)).max(0.0))
-            .say("the mixed normal is not brought to length 1")
-            .when(|i| cosine(i, turned(i) * mixed(i).length()).max(0.0))
-            .say(
-                "the cosines at the corners are mixed; mix the normals and take one cosine, of their mean brought \
-                 to length 1",
-            )
-            .when(|i| if above(i) { of_corners(i, |cosine| cosine.max(0.0)) } else { 0.0 })
-            .when(|i| if above(i) { of_corners(i, f64::abs) } else { 0.0 })
-            .when(|i| of_corners(i, |cosine| cosine.max(0.0)))
-            .say("the weights are left out; each corner's normal counts as much as its weight")
-            .when(|i| right(&(i.0, i.1, [1.0 / 3.0; 3], i.3, i.4)))
-            .say("the weights go with the wrong corners; the first belongs to the first normal")
-            .when(|i| right(&(i.0, i.1, [i.2[1], i.2[2], i.2[0]], i.3, i.4)))
-            .say("light comes from below the surface, where the mixed normal leans to it; that counts as none")
-            .when(|i| turned(i).dot(light(i)).max(0.0))
-            .say("the answer is negative where the mixed normal faces away; it is 0")
-            .when(|i| cosine(i, turned(i)))
-            .say(
-                "light falls on the mixed normal from behind, too: where its cosine is below 0 the answer is 0, \
-                 not the cosine without its sign",
-            )
-            .when(|i| cosine(i, turned(i)).abs())
-            .when(|i| turned(i).dot(light(i)).abs())
-            .say("the mixed normal is not turned to the eye's side of the surface")
-            .when(|i| cosine(i, mixed(i).normalize()).max(0.0))
-            .when(|i| cosine(i, mixed(i).normalize()))
-            .say("the mixed normal is not turned to the eye's side, and light from below the surface is not left out")
-            .when(|i| mixed(i).normalize().dot(light(i)).max(0.0))
-            .say(
-                "the mixed normal is not turned to the eye's side, but light falls only on the side that \
-                 `geometric` is on",
-            )
-            .when(|i| on_own_side(i, mixed(i).normalize()))
-            .say("the side is that of `geometric`, wherever the eye is; the triangle is lit on the eye's side")
-            .when(|i| on_own_side(i, to_side(mixed(i).normalize(), i.0)))
-            .say(
-                "the mixed normal is turned to the side of `geometric`, which may be the other one: what counts is \
-                 the eye's",
-            )
-            .when(|i| cosine(i, to_side(mixed(i).normalize(), i.0)).max(0.0))
-            .when(|i| to_side(mixed(i).normalize(), i.0).dot(light(i)).max(0.0))
-            .say("the side that is lit is the light's; it is the eye's, and light from the other side counts as none")
-            .when(|i| {
-                let side = to_side(i.0.into(), i.4);
-                to_side(mixed(i).normalize(), side.into()).dot(light(i)).max(0.0)
-            })
-            .say(
-                "the mixed normal is turned to the eye by its own direction; what counts is the side of the \
-                 surface on which the eye is",
-            )
-            .when(|i| cosine(i, to_side(mixed(i).normalize(), i.3)).max(0.0))
-            .when(|i| to_side(mixed(i).normalize(), i.3).dot(light(i)).max(0.0))
-            .say("the mixed normal is turned to the light; on which side of it the light is decides whether any falls")
-            .when(|i| cosine(i, to_side(mixed(i).normalize(), i.4)).max(0.0))
-            .say("each corner's normal is turned to the eye by itself; they are all on one side of the triangle")
-            .when(|i| {
-                let normals = i.1.map(|normal| to_side(normal.into(), i.3).to_array());
-                let mixed = mixed(&(i.0, normals, i.2, i.3, i.4)).normalize();
-                cosine(i, mixed).max(0.0)
-            })
-            .say("the direction to the light is not brought to length 1")
-            .when(|i| right(i) * DVec3::from(i.4).length())
-            .say("neither the mixed normal nor the direction to the light is brought to length 1")
-            .when(|i| right(i) * DVec3::from(i.4).length() * mixed(i).length())
-            .say("this is the cosine towards the eye; that towards the light is asked for")
-            .when(|i| if above(i) { turned(i).dot(DVec3::from(i.3).normalize()).max(0.0) } else { 0.0 })
-            .say("the direction leads from the light to the point; the opposite is meant")
-            .when(|i| right(&(i.0, i.1, i.2, i.3, i.4.map(|part| -part))))
-            .say("the cosine is multiplied by that of the surface itself; the mixed normal takes its place")
-            .when(|i| right(i) * faced(i).dot(light(i)).max(0.0))
-            .say(
-                "the mixed normal is turned about where the triangle's own is, but it may be on the other side \
-                 already",
-            )
-            .when(|i| {
-                let turn = if DVec3::from(i.0).dot(i.3.into()) < 0.0 { -1.0 } else { 1.0 };
-                cosine(i, turn * mixed(i).normalize()).max(0.0)
-            })
-            .say("one corner's normal is taken; all three are to be mixed by their weights")
-            .when(|i| {
-                let heaviest = (0..3).fold(0, |best, corner| if i.2[corner] > i.2[best] { corner } else { best });
-                cosine(i, to_side(i.1[heaviest].into(), faced(i).into())).max(0.0)
-            })
-            .when(|i| cosine(i, to_side(i.1[0].into(), faced(i).into())).max(0.0))
-            .say("the normals are added without their weights")
-            .when(|i| right(&(i.0, i.1, [1.0; 3], i.3, i.4)) * mixed(&(i.0, i.1, [1.0; 3], i.3, i.4)).length())
-            .say(
-                "the smaller of the two cosines is taken; the surface's own only tells whether any light falls at \
-                 all",
-            )
-            .when(|i| faced(i).dot(light(i)).min(turned(i).dot(light(i))).max(0.0)),
+        mistakes: mistakes(),
         hints: &[
             "three steps: mix the corners' normals by the weights; see on which side of the triangle eye and light are; \
              take the cosine",
@@ -149,6 +58,81 @@ fn question() -> Question<Input, f64> {
              normal, on their side, and to_light, and 0 where that is negative",
         ],
     }
+}
+
+fn mistakes() -> Mistakes<Input, f64> {
+    let normal = Part::<Input, DVec3>::new(turned)
+        .say("light falls as the surface lies, whatever its corners' normals are")
+        .when(faced)
+        .say("the mixed normal is not brought to length 1")
+        .when(|i| turned(i) * mixed(i).length())
+        .say("the weights are left out; each corner's normal counts as much as its weight")
+        .when(|i| turned(&weighted(i, [1.0 / 3.0; 3])))
+        .say("the weights go with the wrong corners; the first belongs to the first normal")
+        .when(|i| turned(&weighted(i, [i.2[1], i.2[2], i.2[0]])))
+        .say("the normals are added without their weights")
+        .when(|i| turned(&weighted(i, [1.0; 3])) * mixed(&weighted(i, [1.0; 3])).length())
+        .say("the mixed normal is not turned to the eye's side of the surface")
+        .when(|i| mixed(i).normalize())
+        .say("the mixed normal is turned to the side of `geometric`, which may be the other one: what counts is the eye's")
+        .when(|i| to_side(mixed(i).normalize(), i.0))
+        .say(
+            "the mixed normal is turned to the eye by its own direction; what counts is the side of the surface on \
+             which the eye is",
+        )
+        .when(|i| to_side(mixed(i).normalize(), i.3))
+        .say("the mixed normal is turned to the light; on which side of it the light is decides whether any falls")
+        .when(|i| to_side(mixed(i).normalize(), i.4))
+        .say("each corner's normal is turned to the eye by itself; they are all on one side of the triangle")
+        .when(|i| {
+            let normals = i.1.map(|normal| to_side(normal.into(), i.3).to_array());
+            mixed(&(i.0, normals, i.2, i.3, i.4)).normalize()
+        })
+        .say("the mixed normal is turned about where the triangle's own is, but it may be on the other side already")
+        .when(|i| if DVec3::from(i.0).dot(i.3.into()) < 0.0 { -mixed(i).normalize() } else { mixed(i).normalize() })
+        .say("one corner's normal is taken; all three are to be mixed by their weights")
+        .when(|i| {
+            let heaviest = (0..3).fold(0, |best, corner| if i.2[corner] > i.2[best] { corner } else { best });
+            to_side(i.1[heaviest].into(), faced(i).into())
+        })
+        .when(|i| to_side(i.1[0].into(), faced(i).into()));
+    let to_light = Part::<Input, DVec3>::new(light)
+        .say("the direction to the light is not brought to length 1")
+        .when(|i| i.4.into())
+        .say("the direction leads from the light to the point; the opposite is meant")
+        .when(|i| -light(i));
+    let cosine = Part::<[DVec3; 3], f64>::new(|&[side, normal, light]| falling_cosine(side, normal, light).max(0.0))
+        .say("light comes from below the surface, where the mixed normal leans to it; that counts as none")
+        .when(|&[_, normal, light]| normal.dot(light).max(0.0))
+        .say("the answer is negative where the mixed normal faces away; it is 0")
+        .when(|&[side, normal, light]| falling_cosine(side, normal, light))
+        .say(FROM_BEHIND)
+        .when(|&[side, normal, light]| falling_cosine(side, normal, light).abs())
+        .when(|&[_, normal, light]| normal.dot(light).abs())
+        .say("the cosine is multiplied by that of the surface itself; the mixed normal takes its place")
+        .when(|&[side, normal, light]| falling_cosine(side, normal, light).max(0.0) * side.dot(light).max(0.0))
+        .say("the smaller of the two cosines is taken; the surface's own only tells whether any light falls at all")
+        .when(|&[side, normal, light]| side.dot(light).min(normal.dot(light)).max(0.0));
+    Mistakes::<Input, f64>::new()
+        .say("the cosines at the corners are mixed; mix the normals and take one cosine, of their mean brought to length 1")
+        .when(|i| if above(i) { of_corners(i, |cosine| cosine.max(0.0)) } else { 0.0 })
+        .when(|i| if above(i) { of_corners(i, f64::abs) } else { 0.0 })
+        .when(|i| of_corners(i, |cosine| cosine.max(0.0)))
+        // The same comes out where the normal is turned to the light.
+        .say(FROM_BEHIND)
+        .when(|i| falling_cosine(faced(i), turned(i), light(i)).abs())
+        .when(|i| turned(i).dot(light(i)).abs())
+        .say("the mixed normal is not turned to the eye's side of the surface")
+        .when(|i| falling_cosine(faced(i), mixed(i).normalize(), light(i)))
+        .say("the mixed normal is not turned to the eye's side, but light falls only on the side that `geometric` is on")
+        .when(|i| on_own_side(i, mixed(i).normalize()))
+        .say("the side is that of `geometric`, wherever the eye is; the triangle is lit on the eye's side")
+        .when(|i| on_own_side(i, to_side(mixed(i).normalize(), i.0)))
+        .say("the side that is lit is the light's; it is the eye's, and light from the other side counts as none")
+        .when(|i| to_side(mixed(i).normalize(), to_side(i.0.into(), i.4).into()).dot(light(i)).max(0.0))
+        .say("this is the cosine towards the eye; that towards the light is asked for")
+        .when(|i| if above(i) { turned(i).dot(DVec3::from(i.3).normalize()).max(0.0) } else { 0.0 })
+        .of_parts([Part::new(faced), normal, to_light], cosine)
 }
 
 fn mixed((_, normals, weights, ..): &Input) -> DVec3 {
@@ -167,11 +151,6 @@ fn turned(input: &Input) -> DVec3 {
 
 fn light(input: &Input) -> DVec3 {
     DVec3::from(input.4).normalize()
-}
-
-/// As pinhole has it.
-fn cosine(input: &Input, normal: DVec3) -> f64 {
-    intersect::falling_cosine(faced(input), normal, light(input))
 }
 
 fn asked() -> Vec<Probe<Input>> {
@@ -220,7 +199,12 @@ fn somewhere(at: u64) -> Input {
 }
 
 fn right(input: &Input) -> f64 {
-    cosine(input, turned(input)).max(0.0)
+    falling_cosine(faced(input), turned(input), light(input)).max(0.0)
+}
+
+/// With other weights.
+fn weighted(&(geometric, normals, _, eye, light): &Input, weights: Vector) -> Input {
+    (geometric, normals, weights, eye, light)
 }
 
 /// Whether the light is on the eye's side of the triangle.
@@ -238,6 +222,9 @@ fn of_corners(input: &Input, made: fn(f64) -> f64) -> f64 {
 fn on_own_side(input: &Input, normal: DVec3) -> f64 {
     if DVec3::from(input.0).dot(light(input)) > 0.0 { normal.dot(light(input)).max(0.0) } else { 0.0 }
 }
+
+const FROM_BEHIND: &str = "light falls on the mixed normal from behind, too: where its cosine is below 0 the \
+                           answer is 0, not the cosine without its sign";
 
 fn to_side(normal: DVec3, side: Vector) -> DVec3 {
     if normal.dot(side.into()) < 0.0 { -normal } else { normal }

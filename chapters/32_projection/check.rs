@@ -10,7 +10,7 @@ use pinhole::rasterise::{
 };
 use pinhole::rays::{RasterPoints, Tile, WorldRays};
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, Setting, Shown, StandIn, probes};
+use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Part, Probe, Question, Setting, Shown, StandIn, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::naive::rasterise::{fill_hits, raster_triangles};
 use std::sync::{Arc, OnceLock};
@@ -36,93 +36,11 @@ fn question() -> Question<Input, [f64; 2]> {
             let [point, eye] = [point, eye].map(Shown::shown);
             format!("point {point}, eye {eye}, axes {right} {up} {back}, tan_half {tan_half:?}, size {size:?}")
         },
-        right: |input| raster(camera(input), input, 1.0),
+        right,
         apart: |yours, right| absolute(yours, right),
         allowed: 1e-6,
         measured: "pixels",
-        mistakes: Mistakes::<Input, [f64; 2]>::new()
-            .say("the eye is not subtracted: the point is seen as if the camera stood at the origin")
-            .when(|input| raster(axes(input).transpose() * DVec3::from(input.0), input, 1.0))
-            .say("the eye is added; subtract it from the point")
-            .when(|input| raster(axes(input).transpose() * (DVec3::from(input.0) + DVec3::from(input.1)), input, 1.0))
-            .say("the eye is subtracted after the turn; it is a place of the world, so subtract it first")
-            .when(|input| raster(axes(input).transpose() * DVec3::from(input.0) - DVec3::from(input.1), input, 1.0))
-            .say(
-                "the point goes from the camera to the world: multiply by the transpose, that is, take the dot \
-                 product with each axis",
-            )
-            .when(|input| raster(axes(input) * (DVec3::from(input.0) - DVec3::from(input.1)), input, 1.0))
-            .when(|input| raster(axes(input) * DVec3::from(input.0) - DVec3::from(input.1), input, 1.0))
-            .say("y is not turned down: the picture stands on its head")
-            .when(|input| on_image(input, |[x, y], [_, height]| [x, height - y]))
-            .say("x is turned round: it is to the right in the camera and in the image")
-            .when(|input| on_image(input, |[x, y], [width, _]| [width - x, y]))
-            .say("the aspect is left out: x is in half heights until it is divided by width/height")
-            .when(|input| raster(camera(input) * DVec3::new(aspect(input), 1.0, 1.0), input, 1.0))
-            .say("the aspect is upside down: x is divided by width/height")
-            .when(|input| raster(camera(input) * DVec3::new(aspect(input).powi(2), 1.0, 1.0), input, 1.0))
-            .say("tan_half is that of the vertical field of view: y is divided by it, and x by it and the aspect")
-            .when(|input| raster(camera(input) * DVec3::new(aspect(input), aspect(input), 1.0), input, 1.0))
-            .when(|input| raster(camera(input) * DVec3::new(aspect(input), 1.0 / aspect(input), 1.0), input, 1.0))
-            .when(|input| raster(camera(input) * DVec3::new(1.0, 1.0 / aspect(input), 1.0), input, 1.0))
-            .when(|input| raster(camera(input) * DVec3::new(1.0, aspect(input), 1.0), input, 1.0))
-            .say("the aspect is a division of whole numbers, which drops the rest: make them f64 first")
-            .when(by_whole_aspect)
-            .say("the size is taken for height and width; it is width and height")
-            .when(|input| raster(camera(input), &swapped(input), 1.0))
-            .say("it is divided by z, which is negative in front of the camera: take −z")
-            .when(|input| raster(camera(input) * DVec3::new(-1.0, -1.0, 1.0), input, 1.0))
-            .say("it is divided by the distance from the eye; the depth is the distance along the axis")
-            .when(|input| {
-                let camera = camera(input);
-                raster(camera, input, -camera.length() / camera.z)
-            })
-            .say("the field of view is left out")
-            .when(|input| raster(camera(input), &with_tan_half(input, 1.0), 1.0))
-            .say(
-                "it is multiplied by tan_half; the wider the field of view, the smaller is everything, so divide \
-                 by it",
-            )
-            .when(|input| raster(camera(input), &with_tan_half(input, 1.0 / input.3), 1.0))
-            .say("tan_half is taken for an angle; it is the tangent already")
-            .when(|input| raster(camera(input), &with_tan_half(input, libm::tan(input.3)), 1.0))
-            .say("tan_half is halved or doubled; it belongs to half the angle already")
-            .when(|input| raster(camera(input), &with_tan_half(input, 0.5 * input.3), 1.0))
-            .when(|input| raster(camera(input), &with_tan_half(input, 2.0 * input.3), 1.0))
-            .say("nothing is divided by the depth, as for an orthographic camera")
-            .when(|input| {
-                let camera = camera(input);
-                raster(camera, input, -1.0 / camera.z)
-            })
-            .say(
-                "half a pixel is subtracted: x and y are counted from the corner, and pixel centres are at halves \
-                 already",
-            )
-            .when(|input| on_image(input, |[x, y], _| [x - 0.5, y - 0.5]))
-            .say("half a pixel is added: it is a point that is asked for, and not a pixel's centre")
-            .when(|input| on_image(input, |[x, y], _| [x + 0.5, y + 0.5]))
-            .say("the point is rounded to a whole pixel; asked is where it is, with its fraction")
-            .when(|input| on_image(input, |at, _| at.map(f64::floor)))
-            .when(|input| on_image(input, |at, _| at.map(f64::round)))
-            .say("the point is rounded to a pixel's centre; asked is where it is, with its fraction")
-            .when(|input| on_image(input, |at, _| at.map(|part| part.floor() + 0.5)))
-            .say("the last pixel is taken for the edge: NDC is times the size, not times the size less 1")
-            .when(|input| on_image(input, |[x, y], [width, height]| [x - x / width, y - y / height]))
-            .say("a point beside the image is pulled to its edge; it is somewhere outside")
-            .when(|input| on_image(input, |[x, y], [width, height]| [x.clamp(0.0, width), y.clamp(0.0, height)]))
-            .say("that is NDC, from 0 to 1; times the size it is in pixels")
-            .when(|input| on_image(input, |[x, y], [width, height]| [x / width, y / height]))
-            .say("that is the screen, from −1 to 1; pixels are counted from the upper left corner")
-            .when(|input| {
-                on_image(input, |[x, y], [width, height]| [(2.0 * x - width) / height, 1.0 - 2.0 * y / height])
-            })
-            .when(|input| on_image(input, |[x, y], [width, height]| [2.0 * x / width - 1.0, 1.0 - 2.0 * y / height]))
-            .say("the middle of the image is at half its size: x and y are moved there, and y is turned down")
-            .when(|input| on_image(input, |[x, y], [width, height]| [x - width / 2.0, height / 2.0 - y]))
-            .when(|input| on_image(input, |[x, y], [width, height]| [x - width / 2.0, y - height / 2.0]))
-            .say("the image is 2 screen units high, from −1 to 1: the size is to be halved")
-            .when(|input| on_image(input, |[x, y], [width, height]| [2.0 * x - width / 2.0, 2.0 * y - height / 2.0]))
-            .when(|input| on_image(input, |[x, y], _| [2.0 * x, 2.0 * y])),
+        mistakes: mistakes(),
         hints: &[
             "subtract the eye from the point; what is left along each of the three axes is a dot product",
             "the depth is minus the part along the axis that points back; x and y divided by depth · tan_half are the \
@@ -132,28 +50,88 @@ fn question() -> Question<Input, [f64; 2]> {
     }
 }
 
-/// The right answer, changed with the size at hand.
-fn on_image(input: &Input, change: fn([f64; 2], [f64; 2]) -> [f64; 2]) -> [f64; 2] {
-    change(raster(camera(input), input, 1.0), input.4.map(f64::from))
+fn mistakes() -> Mistakes<Input, [f64; 2]> {
+    let seen = Part::<Input, DVec3>::new(camera)
+        .say("the eye is not subtracted: the point is seen as if the camera stood at the origin")
+        .when(|i| axes(i).transpose() * DVec3::from(i.0))
+        .say("the eye is added; subtract it from the point")
+        .when(|i| axes(i).transpose() * (DVec3::from(i.0) + DVec3::from(i.1)))
+        .say("the eye is subtracted after the turn; it is a place of the world, so subtract it first")
+        .when(|i| axes(i).transpose() * DVec3::from(i.0) - DVec3::from(i.1))
+        .say(
+            "the point goes from the camera to the world: multiply by the transpose, that is, take the dot product \
+             with each axis",
+        )
+        .when(|i| axes(i) * (DVec3::from(i.0) - DVec3::from(i.1)))
+        .when(|i| axes(i) * DVec3::from(i.0) - DVec3::from(i.1))
+        .say("it is divided by z, which is negative in front of the camera: take −z")
+        .when(|i| camera(i) * DVec3::new(-1.0, -1.0, 1.0))
+        .say("it is divided by the distance from the eye; the depth is the distance along the axis")
+        .when(|i| DVec3 { z: -camera(i).length(), ..camera(i) })
+        .say("nothing is divided by the depth, as for an orthographic camera")
+        .when(|i| DVec3 { z: -1.0, ..camera(i) });
+    let half = Part::<Input, DVec3>::new(|i| half(i.3, aspect(i)))
+        .say("the aspect is left out: x is in half heights until it is divided by width/height")
+        .when(|i| half(i.3, 1.0))
+        .say("the aspect is upside down: x is divided by width/height")
+        .when(|i| half(i.3, 1.0 / aspect(i)))
+        .say("the aspect is a division of whole numbers, which drops the rest: make them f64 first")
+        .when(|i| half(i.3, f64::from(i.4[0] / i.4[1])))
+        .say("tan_half is that of the vertical field of view: y is divided by it, and x by it and the aspect")
+        .when(|i| half(i.3 / aspect(i), aspect(i)))
+        .when(|i| DVec3::new(i.3, i.3 * aspect(i), 0.0))
+        .when(|i| DVec3::new(i.3 * aspect(i), i.3 * aspect(i), 0.0))
+        .when(|i| DVec3::new(i.3 * aspect(i), i.3 / aspect(i), 0.0))
+        .say("the field of view is left out")
+        .when(|i| half(1.0, aspect(i)))
+        .say("it is multiplied by tan_half; the wider the field of view, the smaller is everything, so divide by it")
+        .when(|i| half(1.0 / i.3, aspect(i)))
+        .say("tan_half is taken for an angle; it is the tangent already")
+        .when(|i| half(libm::tan(i.3), aspect(i)))
+        .say("tan_half is halved or doubled; it belongs to half the angle already")
+        .when(|i| half(0.5 * i.3, aspect(i)))
+        .when(|i| half(2.0 * i.3, aspect(i)));
+    let size = Part::<Input, DVec3>::new(|i| DVec3::new(f64::from(i.4[0]), f64::from(i.4[1]), 0.0));
+    let place = Part::<[DVec3; 3], [f64; 2]>::new(raster)
+        .say("y is not turned down: the picture stands on its head")
+        .when(|of| on_image(of, |[x, y], [_, height]| [x, height - y]))
+        .say("x is turned round: it is to the right in the camera and in the image")
+        .when(|of| on_image(of, |[x, y], [width, _]| [width - x, y]))
+        .say(
+            "half a pixel is subtracted: x and y are counted from the corner, and pixel centres are at halves \
+             already",
+        )
+        .when(|of| on_image(of, |[x, y], _| [x - 0.5, y - 0.5]))
+        .say("half a pixel is added: it is a point that is asked for, and not a pixel's centre")
+        .when(|of| on_image(of, |[x, y], _| [x + 0.5, y + 0.5]))
+        .say("the point is rounded to a whole pixel; asked is where it is, with its fraction")
+        .when(|of| on_image(of, |at, _| at.map(f64::floor)))
+        .when(|of| on_image(of, |at, _| at.map(f64::round)))
+        .say("the point is rounded to a pixel's centre; asked is where it is, with its fraction")
+        .when(|of| on_image(of, |at, _| at.map(|part| part.floor() + 0.5)))
+        .say("the last pixel is taken for the edge: NDC is times the size, not times the size less 1")
+        .when(|of| on_image(of, |[x, y], [width, height]| [x - x / width, y - y / height]))
+        .say("a point beside the image is pulled to its edge; it is somewhere outside")
+        .when(|of| on_image(of, |[x, y], [width, height]| [x.clamp(0.0, width), y.clamp(0.0, height)]))
+        .say("that is NDC, from 0 to 1; times the size it is in pixels")
+        .when(|of| on_image(of, |[x, y], [width, height]| [x / width, y / height]))
+        .say("that is the screen, from −1 to 1; pixels are counted from the upper left corner")
+        .when(|of| on_image(of, |[x, y], [width, height]| [(2.0 * x - width) / height, 1.0 - 2.0 * y / height]))
+        .when(|of| on_image(of, |[x, y], [width, height]| [2.0 * x / width - 1.0, 1.0 - 2.0 * y / height]))
+        .say("the middle of the image is at half its size: x and y are moved there, and y is turned down")
+        .when(|of| on_image(of, |[x, y], [width, height]| [x - width / 2.0, height / 2.0 - y]))
+        .when(|of| on_image(of, |[x, y], [width, height]| [x - width / 2.0, y - height / 2.0]))
+        .say("the image is 2 screen units high, from −1 to 1: the size is to be halved")
+        .when(|of| on_image(of, |[x, y], [width, height]| [2.0 * x - width / 2.0, 2.0 * y - height / 2.0]))
+        .when(|of| on_image(of, |[x, y], _| [2.0 * x, 2.0 * y]));
+    Mistakes::<Input, [f64; 2]>::new()
+        .say("the size is taken for height and width; it is width and height")
+        .when(|&(point, eye, axes, tan_half, [width, height])| right(&(point, eye, axes, tan_half, [height, width])))
+        .of_parts([seen, half, size], place)
 }
 
 fn aspect(&(.., [width, height]): &Input) -> f64 {
     f64::from(width) / f64::from(height)
-}
-
-fn by_whole_aspect(input: &Input) -> [f64; 2] {
-    let &(.., tan_half, [width, height]) = input;
-    let camera = camera(input);
-    let screen = camera.x / (-camera.z * tan_half * f64::from(width / height));
-    [f64::from(width) * (0.5 + 0.5 * screen), raster(camera, input, 1.0)[1]]
-}
-
-fn swapped(&(point, eye, axes, tan_half, [width, height]): &Input) -> Input {
-    (point, eye, axes, tan_half, [height, width])
-}
-
-fn with_tan_half(&(point, eye, axes, _, size): &Input, tan_half: f64) -> Input {
-    (point, eye, axes, tan_half, size)
 }
 
 fn axes(&(_, _, [x, y, z], ..): &Input) -> DMat3 {
@@ -165,12 +143,23 @@ fn camera(input: &Input) -> DVec3 {
     axes(input).inverse() * (DVec3::from(input.0) - DVec3::from(input.1))
 }
 
-/// The raster point of one in camera space, divided by its depth times this factor.
-fn raster(camera: DVec3, &(.., tan_half, [width, height]): &Input, factor: f64) -> [f64; 2] {
-    let size = DVec2::new(f64::from(width), f64::from(height));
-    let mut clip = clip_from_camera(camera, DVec2::new(tan_half * size.x / size.y, tan_half), true);
-    clip.w *= factor;
-    raster_from_ndc(ndc_from_clip(clip), size).into()
+/// Half the image's width and height on the plane at distance 1.
+fn half(tan_half: f64, aspect: f64) -> DVec3 {
+    DVec3::new(tan_half * aspect, tan_half, 0.0)
+}
+
+/// Of a point in camera space, these halves, and the size.
+fn raster(&[camera, half, size]: &[DVec3; 3]) -> [f64; 2] {
+    raster_from_ndc(ndc_from_clip(clip_from_camera(camera, half.truncate(), true)), size.truncate()).into()
+}
+
+/// The place changed with the size at hand.
+fn on_image(of: &[DVec3; 3], change: fn([f64; 2], [f64; 2]) -> [f64; 2]) -> [f64; 2] {
+    change(raster(of), of[2].truncate().to_array())
+}
+
+fn right(input: &Input) -> [f64; 2] {
+    raster(&[camera(input), half(input.3, aspect(input)), DVec2::from(input.4.map(f64::from)).extend(0.0)])
 }
 
 fn asked() -> Vec<Probe<Input>> {

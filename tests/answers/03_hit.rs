@@ -11,7 +11,7 @@ pub fn answers() -> Answers {
         wrong: [
             (exercise(first), "behind the origin is hit too"),
             (exercise(second), "b has the wrong sign"),
-            (exercise(third), "radius is not squared"),
+            (exercise(third), "Second, what lies behind"),
             (exercise(fourth), "brought to length 1 and t is left so"),
             (exercise(fifth), "with half of b are mixed"),
             (exercise(sixth), "half the chord is r − |l|"),
@@ -102,22 +102,12 @@ fn second(origin: [f64; 3], direction: [f64; 3], centre: [f64; 3], radius: f64) 
     [near, far].into_iter().find(|&t| t > 0.0)
 }
 
-/// C is the square of f less the radius.
-fn third(origin: [f64; 3], direction: [f64; 3], centre: [f64; 3], radius: f64) -> Option<f64> {
-    fn dot(p: [f64; 3], q: [f64; 3]) -> f64 {
-        p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-    }
-    let f = [centre[0] - origin[0], centre[1] - origin[1], centre[2] - origin[2]];
-    let a = dot(direction, direction);
-    let b = -2.0 * dot(f, direction);
-    let c = dot(f, f) - radius;
-    let discriminant = b * b - 4.0 * a * c;
-    if discriminant < 0.0 {
-        return None;
-    }
-    let near = (-b - discriminant.sqrt()) / (2.0 * a);
-    let far = (-b + discriminant.sqrt()) / (2.0 * a);
-    [near, far].into_iter().find(|&t| t > 0.0)
+/// The sphere is at the origin of its own space, and the first root is where the ray comes in.
+fn third(origin: [f64; 3], direction: [f64; 3], _: [f64; 3], radius: f64) -> Option<f64> {
+    let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let (a, b, c) = (dot(direction, direction), dot(origin, direction), dot(origin, origin) - radius * radius);
+    let discriminant = b * b - a * c;
+    (discriminant >= 0.0).then(|| (-b - discriminant.sqrt()) / a)
 }
 
 /// R must have length 1, chapter 2 says so, so I bring it to length 1 before I do anything else.

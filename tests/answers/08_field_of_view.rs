@@ -15,7 +15,7 @@ pub fn answers() -> Answers {
             (exercise(third), "larger side are swapped"),
             (exercise(fourth), "diagonal is compared with the width"),
             (exercise(fifth), "sines are taken"),
-            (exercise(sixth), "degrees for radians"),
+            (exercise(sixth), "Second, the diagonal is taken to be √2"),
         ],
     }
 }
@@ -121,7 +121,7 @@ fn sixth(angle: f64, axis: FovAxis, width: u32, height: u32) -> f64 {
         FovAxis::Horizontal => aspect,
         FovAxis::Smaller => aspect.min(1.0),
         FovAxis::Larger => aspect.max(1.0),
-        FovAxis::Diagonal => (aspect * aspect + 1.0).sqrt(),
+        FovAxis::Diagonal => 2.0_f64.sqrt(),
         _ => 1.0,
     };
     2.0 * ((angle / 2.0).tan() / heights).atan().to_degrees()

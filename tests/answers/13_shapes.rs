@@ -13,7 +13,7 @@ pub fn answers() -> Answers {
             (exercise(second), "from inside, nothing is hit"),
             (exercise(third), "while any slab has it"),
             (exercise(fourth), "through an edge"),
-            (exercise(fifth), "the first or last face that is found counts"),
+            (exercise(fifth), "Second, the far side is taken"),
             (exercise(sixth), "a whole size from the centre"),
         ],
     }
@@ -140,32 +140,14 @@ fn fourth(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]
     best
 }
 
-/// I tried the six faces one after the other and returned the first whose point lies within it.
+/// Along an axis on which nothing moves nothing is asked, and the ray hits the box where it has been through.
 fn fifth(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<f64> {
-    for k in 0..3 {
-        if direction[k] == 0.0 {
-            continue;
-        }
-        for face in [least[k], most[k]] {
-            let t = (face - origin[k]) / direction[k];
-            if !(t > 0.0) {
-                continue;
-            }
-            let mut inside = true;
-            for other in 0..3 {
-                if other != k {
-                    let p = origin[other] + t * direction[other];
-                    if p < least[other] || p > most[other] {
-                        inside = false;
-                    }
-                }
-            }
-            if inside {
-                return Some(t);
-            }
-        }
+    let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
+    for axis in (0..3).filter(|&axis| direction[axis] != 0.0) {
+        let [a, b] = [least, most].map(|face| (face[axis] - origin[axis]) / direction[axis]);
+        (enters, leaves) = (enters.max(a.min(b)), leaves.min(a.max(b)));
     }
-    None
+    Some(leaves).filter(|&t| enters <= t && t > 0.0)
 }
 
 /// I used the page's (n·f ∓ h) / n·R with the centre between the corners, and took for h how large the box is, most −

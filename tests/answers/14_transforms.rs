@@ -10,7 +10,7 @@ pub fn answers() -> Answers {
         textbook: None,
         wrong: [
             (exercise(first), "by its own direction"),
-            (exercise(second), "mixed normal is not brought to length 1"),
+            (exercise(second), "Second, the answer is negative"),
             (exercise(third), "side is that of `geometric`"),
             (exercise(fourth), "from behind, too"),
             (exercise(fifth), "cosines at the corners are mixed"),
@@ -60,26 +60,12 @@ fn first(geometric: [f64; 3], normals: [[f64; 3]; 3], weights: [f64; 3], to_eye:
     if dot(g, to_light) > 0.0 { (dot(n, to_light) / (dot(n, n).sqrt() * light)).max(0.0) } else { 0.0 }
 }
 
-/// The weights are together 1 and the normals have length 1, so their mean has length 1 too.
+/// The mean of unit vectors is one, and where the surface is lit its cosine is what it is.
 fn second(geometric: [f64; 3], normals: [[f64; 3]; 3], weights: [f64; 3], to_eye: [f64; 3], to_light: [f64; 3]) -> f64 {
-    fn dot(p: [f64; 3], q: [f64; 3]) -> f64 {
-        p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-    }
-    let side = if dot(geometric, to_eye) < 0.0 { -1.0 } else { 1.0 };
-    let g = geometric.map(|part| side * part);
-    let mut n = [0.0f64; 3];
-    for k in 0..3 {
-        for i in 0..3 {
-            n[i] += weights[k] * normals[k][i];
-        }
-    }
-    if dot(n, g) < 0.0 {
-        n = n.map(|part| -part);
-    }
-    if dot(g, to_light) <= 0.0 {
-        return 0.0;
-    }
-    (dot(n, to_light) / dot(to_light, to_light).sqrt()).max(0.0)
+    let mixed = [0, 1, 2].map(|axis| (0..3).map(|corner| weights[corner] * normals[corner][axis]).sum::<f64>());
+    let faced = geometric.map(|part| if dot(geometric, to_eye) < 0.0 { -part } else { part });
+    let turned = mixed.map(|part| if dot(mixed, faced) < 0.0 { -part } else { part });
+    if dot(faced, to_light) > 0.0 { dot(turned, to_light) / dot(to_light, to_light).sqrt() } else { 0.0 }
 }
 
 /// The geometric normal says which side is up; the shading normal is turned to it, and light from below counts as

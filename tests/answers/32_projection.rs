@@ -11,7 +11,7 @@ pub fn answers() -> Answers {
         wrong: [
             (exercise(first), "half a pixel"),
             (exercise(second), "vertical field of view"),
-            (exercise(third), "subtracted after the turn"),
+            (exercise(third), "Second, y is not turned down"),
             (exercise(fourth), "division of whole numbers"),
             (exercise(fifth), "it is divided by the distance from"),
             (exercise(sixth), "the point goes from the camera to"),
@@ -50,15 +50,11 @@ fn second(point: [f64; 3], eye: [f64; 3], axes: [[f64; 3]; 3], tan_half: f64, si
     [width * (0.5 + 0.5 * x / (w * tan_half)), height * (0.5 - 0.5 * y * aspect / (w * tan_half))]
 }
 
-/// First turn the point into the camera's axes, then subtract the eye.
+/// On the screen both run from −1 to 1, x to the right and y up, and from there 0 to 1 is half of it and a half.
 fn third(point: [f64; 3], eye: [f64; 3], axes: [[f64; 3]; 3], tan_half: f64, size: [u32; 2]) -> [f64; 2] {
-    let mut p = [0.0; 3];
-    for i in 0..3 {
-        p[i] = axes[i][0] * point[0] + axes[i][1] * point[1] + axes[i][2] * point[2] - eye[i];
-    }
-    let w = -p[2];
-    let (width, height) = (size[0] as f64, size[1] as f64);
-    [width * (0.5 + 0.5 * p[0] / (w * tan_half * width / height)), height * (0.5 - 0.5 * p[1] / (w * tan_half))]
+    let [x, y, z] = axes.map(|axis| (0..3).map(|at| axis[at] * (point[at] - eye[at])).sum::<f64>());
+    let screen = [x, y].map(|part| part / (-z * tan_half));
+    [0, 1].map(|at| f64::from(size[at]) * (0.5 + 0.5 * screen[at]))
 }
 
 /// The aspect ratio is size[0] / size[1] (a division of whole numbers).
