@@ -60,7 +60,7 @@ const ORDER: &[(&str, &[&str])] = &[
     ),
     ("lab", &["png_url", "repository", "naive", "measure", "figure", "review", "report", "exercise"]),
     ("live", &["answer", "guard", "peer", "http", "view"]),
-    ("", &["exercises", "questions", "figures", "command"]),
+    ("", &["exercises", "checks", "figures", "command"]),
 ];
 
 /// What every folder may name at the crate's root.
