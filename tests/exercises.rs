@@ -293,6 +293,9 @@ fn the_program_lists_checks_and_ends_with_1_on_a_mismatch() {
     for (chapter, answers) in answers::ALL {
         assert!(said.contains(chapter) && said.contains(answers().solution.function), "no {chapter} in\n{said}");
     }
+    let columns = |line: &str| line.strip_suffix("not tried").map(|before| before.chars().count());
+    let columns: std::collections::BTreeSet<_> = said.lines().filter_map(columns).collect();
+    assert_eq!(columns.len(), 1, "what is said of each is no column: {said}");
     assert!(!said.contains("cover") && !folder.path().join("out").exists(), "{said}");
     let none = run(folder.path(), &["check", "cover"]);
     let said = String::from_utf8(none.stderr).expect("UTF-8");

@@ -16,8 +16,13 @@ use std::fs;
 /// Tries a group, prints its table, and asks that pinhole holds everywhere and each naive method breaks somewhere.
 fn holds(group: Group, rays: u64) {
     let cases = try_group(group, "", rays, &());
-    cases.iter().for_each(|case| eprint!("{case}"));
+    // Longer lines of a table would be broken on a page of the book.
+    let fits = |line: &str| line.chars().count() <= 84;
+    assert!(group.heading().lines().last().is_some_and(fits), "{}", group.heading());
     for case in &cases {
+        eprint!("{case}");
+        let wide = case.outcomes.iter().map(Outcome::to_string).find(|line| !fits(line));
+        assert_eq!(wide, None, "a line of a table is wider than a page of the book");
         assert!(case.held(), "pinhole does not hold in:\n{case}");
         assert!(case.rays > 0, "nothing was tried in {}", case.name);
         let too_long = case.to_string().lines().find(|line| line.chars().count() > 100).map(String::from);

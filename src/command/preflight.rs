@@ -9,6 +9,7 @@ use pinhole::Chapter;
 use pinhole::look::{Foretold, MISTAKES, Preflight, foretell, preflight};
 use pinhole::plan::{Census, Stage};
 use pinhole::render::{RenderInProgress, check_film_fits, prepare};
+use pinhole::scene::in_words_of_files;
 use serde_json::json;
 use std::io::Write;
 use std::time::Instant;
@@ -23,6 +24,7 @@ pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, format: Forma
         let wanted = asked.options.asked(false);
         let told =
             said(&subject.world(&wanted), &subject.stages(), began).map_err(|error| subject.placed(error, &wanted))?;
+        let told: Vec<String> = told.into_iter().map(|sentence| subject.in_its_words(sentence)).collect();
         return match format {
             Format::Json => print_json(&json!({ "scene": subject.name(), "warnings": told }), out),
             Format::Text => print_lines(&told, "", out),
@@ -34,7 +36,8 @@ pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, format: Forma
         let mut scene = World::new();
         (mistake.scene)(&mut scene);
         let (warnings, refused) = match said(&scene, &stages, Instant::now()) {
-            Ok(told) => (told, None),
+            // As a file would have them, on whose page of the book they stand.
+            Ok(told) => (told.iter().map(|sentence| in_words_of_files(sentence)).collect(), None),
             Err(pinhole::Error::SceneError(scene_error)) => (Vec::new(), Some(scene_error.to_string())),
             Err(error) => return Err(error.into()),
         };
@@ -70,6 +73,7 @@ fn print_lines(told: &[String], indent: &str, out: &mut dyn Write) -> Result {
 
 /// Says what a reader should know before they wait; a program is told with the rest.
 pub fn before_rendering(
+    subject: &Subject<'_>,
     scene: &Census<'_>,
     options: &RenderOptions,
     (render, began): (&RenderInProgress, Instant),
@@ -81,7 +85,8 @@ pub fn before_rendering(
     }
     let (threads, ends_in_time) = (options.threads.map(usize::from), options.time.is_some());
     let asked = Preflight { threads, ends_in_time, ..Preflight::default() }.since(began);
-    let said = foretell(scene, (&render.plan, render.tables()), asked)?;
+    let mut said = foretell(scene, (&render.plan, render.tables()), asked)?;
+    said.warnings = said.warnings.into_iter().map(|sentence| subject.in_its_words(sentence)).collect();
     if !json {
         said.warnings.iter().try_for_each(|warning| streams.note(&format!("before rendering: {warning}")))?;
     }

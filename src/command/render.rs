@@ -226,7 +226,8 @@ fn render_with(
         let said = notes.iter().chain(&*image_remarks(census)?).map(|note| format!("note: {note}")).collect::<Vec<_>>();
         said.iter().try_for_each(|note| streams.note(note))?;
     }
-    let Foretold { warnings: said, lit_pixel } = before_rendering(census, options, (&render, began), json, streams)?;
+    let Foretold { warnings: said, lit_pixel } =
+        before_rendering(subject, census, options, (&render, began), json, streams)?;
 
     let files = Files::new(targets, census, &render.plan, mine);
     let waiting = waiting(watched.as_deref(), options, &render, streams);

@@ -26,8 +26,12 @@ pub struct Remarks {
     pub unused_vertices: u64,
     /// Faces with a vertex that is not there, dropped.
     pub absent_vertices: u64,
+    /// The line of the first of them.
+    pub absent_vertex_line: Option<usize>,
     /// Corners whose texture coordinate or normal is not there.
     pub absent_attributes: u64,
+    /// The line of the first of them.
+    pub absent_attribute_line: Option<usize>,
     /// Rows with more values than their element has properties.
     pub extra_values: u64,
     /// Numbers of materials, lights and cameras out of their range, replaced by the nearest in it.
@@ -107,14 +111,10 @@ impl Remarks {
                 "vertex that no triangle uses was left out",
                 "vertices that no triangle uses were left out",
             ),
-            (
-                self.absent_vertices,
-                "face with a vertex that the file does not have was dropped",
-                "faces with a vertex that the file does not have were dropped",
-            ),
+            (self.absent_vertices, ABSENT_VERTEX, "faces with a vertex that the file does not have were dropped"),
             (
                 self.absent_attributes,
-                "corner has a texture coordinate or a normal that the file does not have, and goes without",
+                ABSENT_ATTRIBUTE,
                 "corners have a texture coordinate or a normal that the file does not have, and go without",
             ),
             (
@@ -131,7 +131,16 @@ impl Remarks {
         let mut sentences: Vec<String> = counted
             .into_iter()
             .filter(|(count, ..)| *count > 0)
-            .map(|(count, one, many)| format!("{count} {}.", if count == 1 { one } else { many }))
+            .map(|(count, one, many)| {
+                let line = match one {
+                    ABSENT_VERTEX => self.absent_vertex_line,
+                    ABSENT_ATTRIBUTE => self.absent_attribute_line,
+                    _ => None,
+                };
+                let first = if count == 1 { "" } else { "the first " };
+                let place = line.map_or_else(String::new, |line| format!(" ({first}on line {line})"));
+                format!("{count} {}{place}.", if count == 1 { one } else { many })
+            })
             .collect();
         if !self.unread.is_empty() {
             let named = self.unread.iter().map(|(name, count)| format!("{name} ({count})")).collect::<Vec<_>>();
@@ -141,6 +150,10 @@ impl Remarks {
         sentences
     }
 }
+
+const ABSENT_VERTEX: &str = "face with a vertex that the file does not have was dropped";
+const ABSENT_ATTRIBUTE: &str =
+    "corner has a texture coordinate or a normal that the file does not have, and goes without";
 
 #[cfg(test)]
 mod tests {

@@ -75,8 +75,12 @@ pub fn read_obj(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Model
                 let (rows, mut is_there) = (columns.rows(), true);
                 let (group, faces) = groups.current();
                 for word in words {
+                    let absent = model.remarks.absent_attributes;
                     let corner = Corner::read(word, rows, all, &mut model.remarks)
                         .map_err(|accepted| ModelError::new(name, place(number, "f"), shown_bytes(word), accepted))?;
+                    if model.remarks.absent_attributes > absent {
+                        model.remarks.absent_attribute_line.get_or_insert(number);
+                    }
                     match corner {
                         Some(corner) if is_there => polygon.push(vertices.find(corner, group, faces)),
                         _ => is_there = false,
@@ -87,6 +91,7 @@ pub fn read_obj(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Model
                     faces.add_polygon(&polygon, &mut model.remarks);
                 } else {
                     model.remarks.absent_vertices += 1;
+                    model.remarks.absent_vertex_line.get_or_insert(number);
                 }
             }
             b"usemtl" => groups.use_material(&rest_of(&line)),

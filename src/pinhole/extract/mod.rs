@@ -136,7 +136,7 @@ pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_ev
 pub use moving::{MovingTable, shape_bodies};
 pub use normal_map::{NormalMapTable, normal_map_evidence};
 pub use pixel_steps::PixelSteps;
-pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, world_from_entity};
+pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, upward, world_from_entity};
 pub use pyramid::{Pyramid, halved};
 pub use rasterisation::{box_evidence, no_plane_to_rasterise, rasterisation_evidence, rasterising_camera};
 pub use ray_origins::{RayOrigins, ray_origins_evidence};

@@ -29,8 +29,8 @@ impl Group {
     pub fn heading(self) -> String {
         let [checked, _, wrong] = self.words();
         format!(
-            "{self}: {checked}, checked by exact arithmetic; u = 2^-24\n{:<42}{wrong:>12}{:>21}   {:<8}{:>12}",
-            "", "worst error", "", "asked"
+            "{self}: {checked}, checked by exact arithmetic\n  {:<27}{wrong:>13}{:>22}  {:<8} {:>9}",
+            "u = 2^-24", "worst error", "", "asked"
         )
     }
 }
@@ -85,9 +85,9 @@ impl Outcome {
     pub fn words(&self) -> Words {
         let Self { method, score } = self;
         let (worst, asked) = match method.unit {
-            "" => (String::new(), "none wrong".into()),
-            unit if method.bound.is_infinite() => (format!("{} {unit}", short(score.worst)), "none wrong".into()),
-            unit => (format!("{} {unit}", short(score.worst)), format!("<= {}", short(method.bound))),
+            "" => (String::new(), "0 wrong".into()),
+            unit if method.bound.is_infinite() => (format!("{} {unit}", short(score.worst)), "0 wrong".into()),
+            unit => (format!("{} {unit}", short(score.worst)), format!("≤ {}", short(method.bound))),
         };
         let result = match (method.of_pinhole, self.passes()) {
             (true, true) => "held",
@@ -102,9 +102,16 @@ impl Outcome {
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Words { worst, asked, result, .. } = self.words();
-        write!(f, "  {:<40}{:>12} {worst:>20}   {result:<8}{asked:>12}", self.method.name, self.score.wrong)
+        let (name, wrong) = (self.method.name, self.score.wrong);
+        // A long name takes room from the next number but one: a line of a page of the book has no more.
+        let beyond = name.chars().count().saturating_sub(NAME);
+        let room = 21_usize.saturating_sub(beyond);
+        write!(f, "  {name:<NAME$}{wrong:>7} {worst:>room$}  {result:<8} {asked:>9}")
     }
 }
+
+/// How wide the names of methods are, but for a few.
+const NAME: usize = 33;
 
 /// A distance or another number, or that there is none.
 fn said(value: Option<f64>) -> String {
