@@ -21,6 +21,10 @@ pub fn glb_of(mesh: &TriangleMesh) -> Option<Vec<u8>> {
         let parts = uvs.iter().flatten().map(|part| part.to_le_bytes());
         attributes["TEXCOORD_0"] = json!(buffer.add(parts, ("VEC2", 2), FLOAT));
     }
+    if let Some(colours) = &mesh.colours {
+        let parts = colours.iter().flatten().map(|part| part.to_le_bytes());
+        attributes["COLOR_0"] = json!(buffer.add(parts, ("VEC3", 3), FLOAT));
+    }
     let corners = mesh.triangles.iter().flatten().map(|corner| corner.to_le_bytes());
     let indices = buffer.add(corners, ("SCALAR", 1), UNSIGNED_INT);
     let document = json!({
@@ -102,14 +106,15 @@ mod tests {
         let normals: Vec<[f32; 3]> =
             (0..4).map(|i| glam::DVec3::new(0.3, f64::from(i), -1.7).normalize().as_vec3().to_array()).collect();
         let uvs = vec![[0.1, 0.9], [1e-9, 1.0 - 1e-7], [0.0, 1.0], [third, -2.5]];
+        let colours = vec![[0.0, 1.0, third], [1e-9, 1.0 - 1e-7, 0.5], [0.25; 3], [1.0; 3]];
         let triangles = vec![[0, 1, 2], [2, 1, 3]];
-        for columns in 0..4 {
+        for columns in 0..8 {
             let mesh = TriangleMesh {
                 positions: positions.clone(),
                 triangles: triangles.clone(),
                 normals: (columns & 1 != 0).then(|| normals.clone()),
                 uvs: (columns & 2 != 0).then(|| uvs.clone()),
-                ..TriangleMesh::default()
+                colours: (columns & 4 != 0).then(|| colours.clone()),
             };
             let file = glb_of(&mesh).expect("a small file");
             assert_eq!(file.len() % 4, 0);
