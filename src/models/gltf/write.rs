@@ -1,7 +1,7 @@
 use crate::triangle_mesh::TriangleMesh;
 use serde_json::{Value, json};
 
-/// A mesh as a binary glTF file without materials, of which `read_model` makes the same mesh.
+/// A mesh as a binary glTF file without materials of its own, of which `read_model` makes the same mesh.
 ///
 /// Its one node places it where it is.
 /// The layout is that of the glTF 2.0 specification, "GLB File Format".
@@ -120,7 +120,7 @@ mod tests {
             assert_eq!(file.len() % 4, 0);
             let none = |_: &str| Err("there is none".to_owned());
             let model = read_model("own.glb", &file, &none).expect("can be read");
-            assert_eq!((model.meshes.len(), model.instances.len(), model.materials.len()), (1, 1, 0));
+            assert_eq!((model.meshes.len(), model.instances.len(), model.materials.len()), (1, 1, 1));
             assert_eq!(*model.meshes[0], mesh);
             assert_eq!(model.instances[0].world_from_object, glam::DAffine3::IDENTITY);
             assert_eq!(glb_of(&model.meshes[0]), Some(file), "written again");
