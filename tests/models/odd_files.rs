@@ -122,6 +122,26 @@ fn cases() -> Vec<Odd> {
             &[],
         ),
         obj(
+            "colours of vertices that are no colours",
+            &format!("v 0 0 0 nan 0 0\nv 1 0 0 1.5 -1 inf\nv 1 1 0 0.5 0.5 0.5\nv 0 1 0\n{PLAIN}"),
+            &[],
+            |model| {
+                is_square(model)
+                    && model.meshes[0]
+                        .colours
+                        .as_ref()
+                        .is_some_and(|own| own[..2] == [[0.0; 3], [1.0, 0.0, 1.0]] && own[3] == [1.0; 3])
+            },
+            &["1 vertex has a colour with a part that is not a number", "1 vertex has a colour with a part below 0"],
+        ),
+        obj(
+            "colours of vertices as bytes",
+            &format!("{}{PLAIN}", SQUARE.replace(" 0\n", " 0 200 100 0\n")),
+            &[],
+            |model| is_square(model) && model.meshes[0].colours.as_ref().is_some_and(|own| own[0] == [1.0, 1.0, 0.0]),
+            &["4 vertices have a colour with a part below 0 or above 1", "go up to 200, as if they were bytes"],
+        ),
+        obj(
             "a missing library",
             &format!("mtllib b.mtl\n{SQUARE}{PLAIN}"),
             &[],
@@ -182,6 +202,17 @@ fn cases() -> Vec<Odd> {
             ply("", "", PLY_SQUARE, "").replace("element face 0\nproperty list uchar int vertex_indices\n", ""),
             |model| model.instances.is_empty(),
             &["points without faces (4)"],
+        ),
+        of_ply(
+            "colours of vertices as bytes in floats",
+            ply(
+                "",
+                "property float red\nproperty float green\nproperty float blue\n",
+                &PLY_SQUARE.replace(" 0\n", " 0 250 100 nan\n"),
+                "4 0 1 2 3\n",
+            ),
+            |model| is_square(model) && model.meshes[0].colours.as_ref().is_some_and(|own| own[0] == [1.0, 1.0, 0.0]),
+            &["4 vertices have a colour with a part that is not a number", "go up to 250, as if they were bytes"],
         ),
         of_ply(
             "colours of vertices",

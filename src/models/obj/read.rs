@@ -65,7 +65,7 @@ pub fn read_obj(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Model
                 if let Some(colour) = colour(words) {
                     // Those before it that have none are white.
                     columns.colours.resize(columns.positions.len() - 1, [1.0; 3]);
-                    columns.colours.push(colour);
+                    columns.colours.push(model.remarks.vertex_colour(colour).map(linear_from_srgb));
                 }
             }
             b"vn" => columns.normals.push(numbers(name, number, "vn", &mut words)?.map(|part| part as f32)),
@@ -129,15 +129,15 @@ fn numbers<'w, const N: usize>(
     Ok(numbers)
 }
 
-/// The colour behind a position, in linear light: three numbers, or four of which the first is the position's weight.
-fn colour<'w>(words: impl Iterator<Item = &'w [u8]>) -> Option<[f32; 3]> {
+/// The colour behind a position, as the file has it: three numbers, or four of which the first is the position's weight.
+fn colour<'w>(words: impl Iterator<Item = &'w [u8]>) -> Option<[f64; 3]> {
     let (mut numbers, mut count) = ([0.0; 4], 0);
     for (number, word) in numbers.iter_mut().zip(words) {
         *number = double(word)?;
         count += 1;
     }
     match (numbers, count) {
-        ([r, g, b, _], 3) | ([_, r, g, b], 4) => Some([r, g, b].map(linear_from_srgb)),
+        ([r, g, b, _], 3) | ([_, r, g, b], 4) => Some([r, g, b]),
         _ => None,
     }
 }
