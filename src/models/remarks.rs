@@ -12,6 +12,10 @@ pub struct Remarks {
     pub not_finite: u64,
     /// Normals without a direction, which became zero.
     pub zero_normals: u64,
+    /// Vertices without a normal in a mesh where others have one; the normal became zero.
+    pub missing_normals: u64,
+    /// Vertices without a texture coordinate in a mesh with a texture where others have one, which became (0, 0).
+    pub missing_uvs: u64,
     /// Texture coordinates that were infinite or NaN and became (0, 0).
     pub uvs_not_finite: u64,
     /// Colours of vertices with a part that was not a number, which became 0.
@@ -99,6 +103,16 @@ impl Remarks {
                 self.zero_normals,
                 "vertex normal has no direction, and the triangle's own is used there",
                 "vertex normals have no direction, and the triangle's own is used there",
+            ),
+            (
+                self.missing_normals,
+                "vertex has no normal, as others of its mesh have, and the triangle's own is used there",
+                "vertices have no normal, as others of their mesh have, and the triangle's own is used there",
+            ),
+            (
+                self.missing_uvs,
+                "vertex has no texture coordinate, as others of its mesh have, and takes (0, 0)",
+                "vertices have no texture coordinate, as others of their mesh have, and take (0, 0)",
             ),
             (
                 self.uvs_not_finite,
@@ -189,6 +203,8 @@ mod tests {
             degenerate: 1,
             not_finite: 1,
             zero_normals: 1,
+            missing_normals: 1,
+            missing_uvs: 1,
             uvs_not_finite: 1,
             colours_not_numbers: 1,
             colours_clamped: 1,
@@ -203,7 +219,7 @@ mod tests {
             clamped: 1,
             ..Remarks::default()
         };
-        assert_eq!(one.sentences().len(), 15);
+        assert_eq!(one.sentences().len(), 17);
         assert!(one.sentences().iter().all(|sentence| sentence.starts_with("1 ") && sentence.ends_with('.')));
         let many = Remarks { degenerate: 12, ..Remarks::default() };
         assert_eq!(many.sentences(), ["12 triangles without an area were dropped."]);
