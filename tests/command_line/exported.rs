@@ -180,7 +180,8 @@ fn what_is_exported_has_the_colours_of_the_model() {
     }
     let mut models: Vec<String> = names(path).into_iter().filter(|name| is_model(name)).collect();
     let given = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/models");
-    models.extend(names(&given).iter().filter(|name| is_model(name)).map(|name| given.join(name).display().to_string()));
+    models
+        .extend(names(&given).iter().filter(|name| is_model(name)).map(|name| given.join(name).display().to_string()));
     assert!(models.len() > 20, "{models:?}");
     let mut tinted = 0;
     for (number, model) in models.iter().enumerate() {

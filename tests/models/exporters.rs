@@ -68,7 +68,8 @@ fn files_of_exporters_hold_what_their_libraries_say() {
         let mut materials: Vec<usize> = model.instances.iter().filter_map(|instance| instance.material).collect();
         // A file that has colours of its vertices, and no materials, gets one that shows them, and what has none in a glTF
         // file its default.
-        materials.retain(|material| !["vertex colours", "default material"].contains(&&*model.materials[*material].name));
+        materials
+            .retain(|material| !["vertex colours", "default material"].contains(&&*model.materials[*material].name));
         materials.sort_unstable();
         materials.dedup();
         assert_eq!(materials.len(), count(11), "{name}: materials");

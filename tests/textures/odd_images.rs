@@ -214,7 +214,8 @@ fn an_orientation_that_is_not_applied_is_said() {
     let folder = tempfile::tempdir().expect("a folder");
     let plain = encoded(image::ImageFormat::Jpeg);
     let with_orientation = |orientation: u8| {
-        let tiff = [b"II*\0", &[8, 0, 0, 0, 1, 0, 0x12, 1, 3, 0, 1, 0, 0, 0, orientation, 0, 0, 0, 0, 0, 0, 0][..]].concat();
+        let tiff =
+            [b"II*\0", &[8, 0, 0, 0, 1, 0, 0x12, 1, 3, 0, 1, 0, 0, 0, orientation, 0, 0, 0, 0, 0, 0, 0][..]].concat();
         let chunk = [b"Exif\0\0", &tiff[..]].concat();
         let length = (chunk.len() as u16 + 2).to_be_bytes();
         [&plain[..2], &[0xff, 0xe1], &length, &chunk, &plain[2..]].concat()

@@ -180,8 +180,7 @@ mod tests {
 
     #[test]
     fn what_is_not_read_is_said() {
-        let (_, _, remarks) =
-            read("Kd 1 1 1\nnewmtl a\nKa 1 1 1\nTf 1 1 1\nTf 1 1 1\nmap_Ks z.png\nmap_Ka a.png");
+        let (_, _, remarks) = read("Kd 1 1 1\nnewmtl a\nKa 1 1 1\nTf 1 1 1\nTf 1 1 1\nmap_Ks z.png\nmap_Ka a.png");
         let sentence = "Not read: lines before the first material of a library (1), `Tf` (2), `map_Ks` (1), `map_Ka` \
                         without `map_Kd` (1).";
         assert_eq!(remarks.sentences(), [sentence]);

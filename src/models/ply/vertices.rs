@@ -95,7 +95,13 @@ impl VertexParts {
     }
 
     /// Reads the vertices of a binary file whose rows all have one size.
-    pub fn read_rows<const BIG: bool>(&self, element: &Element, bytes: &[u8], size: usize, remarks: &mut Remarks) -> Vertices {
+    pub fn read_rows<const BIG: bool>(
+        &self,
+        element: &Element,
+        bytes: &[u8],
+        size: usize,
+        remarks: &mut Remarks,
+    ) -> Vertices {
         let offset = |place: usize| element.properties[..place].iter().map(|own| own.number.size()).sum::<usize>();
         let columns = self.places.map(|place| {
             let place = place.unwrap_or(0);

@@ -56,7 +56,10 @@ fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
             Err(SceneError::new(kind_and_name(scene, "tint", owner), "material", value, accepted))
         };
         if !materials.contains(&owner) {
-            return refused("missing", "a tint belongs on an entity that is a material, such as one with a Matte".into());
+            return refused(
+                "missing",
+                "a tint belongs on an entity that is a material, such as one with a Matte".into(),
+            );
         }
         let own = one_material(scene, owner)?;
         if !own.textured {
