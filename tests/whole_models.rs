@@ -295,3 +295,26 @@ fn images_that_cannot_be_decoded_are_replaced() {
         assert!(!said.contains("replaced") && !same_picture(&film, &missing), "{}: {said}", texture.0);
     }
 }
+
+/// A film that is continued must be of the same picture: colours of vertices, factors and images within the file count.
+#[test]
+fn other_colours_are_another_film() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let print =
+        |changes: &[(&str, Value)]| fingerprint(&world(&write(folder.path(), "m.gltf", &with(changes))).expect("read"));
+    let texture = ("/materials/0/pbrMetallicRoughness/baseColorTexture", json!({ "index": 0 }));
+    let of_image = |blue| ("/images/0/uri", uri(&image(image::ImageFormat::Png, |_, _| [9, 9, blue])));
+    let factor = ("/materials/0/pbrMetallicRoughness/baseColorFactor", json!([0.5, 0.5, 0.5, 1.0]));
+    let colours = |accessor: u32| ("/meshes/0/primitives/0/attributes/COLOR_0", json!(accessor));
+    let prints = [
+        print(&[texture.clone(), of_image(10)]),
+        print(&[texture.clone(), of_image(11)]),
+        print(&[texture.clone(), of_image(10), factor]),
+        print(&[texture.clone(), of_image(10), colours(0)]),
+        print(&[texture.clone(), of_image(10), colours(1)]),
+    ];
+    assert_eq!(prints[0], print(&[texture, of_image(10)]));
+    for (number, one) in prints.iter().enumerate() {
+        assert!(prints[number + 1..].iter().all(|other| other != one), "{number}");
+    }
+}
