@@ -4,6 +4,7 @@ use super::format::{Format, print_json};
 use super::options::RenderOptions;
 use super::streams::Streams;
 use super::subject::{Subject, every_stage};
+use super::warnings::notes;
 use bevy_ecs::prelude::*;
 use pinhole::Chapter;
 use pinhole::look::{Foretold, MISTAKES, Preflight, foretell, preflight};
@@ -17,19 +18,28 @@ use std::time::Instant;
 /// What would be said before a render, a line each; without a subject, of small scenes with something wrong.
 ///
 /// Errors: what the scene of a subject is refused for.
-pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, format: Format, out: &mut dyn Write) -> Result {
+pub fn print_preflight(
+    chapters: &[Chapter],
+    asked: &TryPreflight,
+    format: Format,
+    streams: &mut Streams<'_>,
+) -> Result {
     let began = Instant::now();
     if let Some(chapter) = &asked.chapter {
         let subject = Subject::find(chapters, chapter)?.set(&asked.options.set)?;
         let wanted = asked.options.asked(false);
-        let told =
-            said(&subject.world(&wanted), &subject.stages(), began).map_err(|error| subject.placed(error, &wanted))?;
+        let world = subject.world(&wanted);
+        let told = said(&world, &subject.stages(), began).map_err(|error| subject.placed(error, &wanted))?;
         let told: Vec<String> = told.into_iter().map(|sentence| subject.in_its_words(sentence)).collect();
         return match format {
-            Format::Json => print_json(&json!({ "scene": subject.name(), "warnings": told }), out),
-            Format::Text => print_lines(&told, "", out),
+            Format::Json => print_json(&json!({ "scene": subject.name(), "warnings": told }), streams.out),
+            Format::Text => {
+                notes(&Census::of(&world))?.iter().try_for_each(|note| streams.note(note))?;
+                print_lines(&told, "", streams.out)
+            }
         };
     }
+    let out = &mut *streams.out;
     let stages = every_stage().stages();
     let mut scenes = Vec::new();
     for mistake in MISTAKES {

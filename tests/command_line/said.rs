@@ -204,3 +204,24 @@ fn without_preflight_nothing_is_foretold_and_the_picture_is_the_same() {
     assert_eq!((told.0, untold.0), (true, false));
     assert_eq!(told.1, untold.1);
 }
+
+/// What a model lost is said by every command that reads it, not by `render` alone.
+#[test]
+fn every_command_that_reads_a_model_says_what_was_left_out() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path();
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+    fs::write(path.join("m.obj"), format!("mtllib m.mtl\n{square}usemtl a\nf 1/1 2/2 3/3 4/4\n")).expect("written");
+    fs::write(path.join("m.mtl"), "newmtl a\nKd 1 1 1\nmap_Kd none.png\nd 0.5\nTr 0.5\n").expect("written");
+    for words in [&["render", "m.obj", "--size", "8x5"][..], &["preflight", "m.obj"], &["export", "m.obj"]] {
+        let told = run(path, words);
+        let notes = text(&told.stderr);
+        assert!(told.status.success(), "{words:?}: {notes}");
+        for once in ["m.obj: 1 mesh has no vertex normals", "none.png", "see-through"] {
+            let lines = notes.lines().filter(|line| line.starts_with("note: ") && line.contains(once)).count();
+            assert_eq!(lines, 1, "{words:?}, {once}: {notes}");
+        }
+        let false_words = ["doubleSided", "no direction", "opacity below"];
+        assert!(!false_words.iter().any(|word| notes.contains(word)), "{words:?}: {notes}");
+    }
+}

@@ -253,6 +253,13 @@ pub const MEANING: &[Case] = &[
         &["filter c is 7"],
     ),
     ("a checker without a material", "[@, ^(name: \"a\", checker: ())]", &["checker \"a\"", "a matte"]),
+    ("a tint without a material", "[@, ^(name: \"a\", tint: ())]", &["tint \"a\"", "a matte"]),
+    ("a tint on glass", "[@, ^(name: \"a\", sphere: (), glass: (), tint: ())]", &["tint \"a\"", "glass", "a matte"]),
+    (
+        "a tint that gives back more than it gets",
+        "[@, (name: \"a\", sphere: (), matte: (), tint: (factor: ^(1, 2, 1)))]",
+        &["tint \"a\"", "factor is (1, 2, 1)"],
+    ),
     (
         "stripes of no width",
         "[@, (name: \"a\", sphere: (), matte: (), stripes: (size: ^0))]",

@@ -42,8 +42,8 @@ impl MaterialNotes {
             ),
             (
                 self.blended,
-                "is see-through by its alpha (alphaMode BLEND)",
-                "are see-through by their alpha (alphaMode BLEND)",
+                "is see-through by its alpha (alphaMode BLEND, or d and Tr of a .mtl file)",
+                "are see-through by their alpha (alphaMode BLEND, or d and Tr of a .mtl file)",
                 OPAQUE,
             ),
             (

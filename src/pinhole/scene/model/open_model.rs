@@ -145,7 +145,8 @@ impl OpenModel {
             }
             ImageSource::Bytes(bytes) => {
                 let model = self.path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
-                check_bytes(bytes).map_err(|why| format!("{}, image {image}: {why}", printable(&model, 80)))?;
+                let name = format!("{}, image {image}", self.path.to_string_lossy());
+                check_bytes(&name, bytes).map_err(|why| format!("{}, image {image}: {why}", printable(&model, 80)))?;
                 let ending = ending_of(bytes);
                 Ok(scene.get_resource_or_init::<ModelFiles>().keep(bytes, |number| match number {
                     1 => format!("{model}, image {image}.{ending}"),
