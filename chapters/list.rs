@@ -2,88 +2,65 @@
 
 mod folders;
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 fn main() -> io::Result<()> {
-    let chapters = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default()).join("chapters");
+    let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
-    let asking = folders::with_file(&chapters, "question.rs")?;
-    folders::run_again_for(&chapters, &["question.rs", "mine.rs", "figures.rs"])?;
-    fs::write(out.join("questions.rs"), questions(&chapters, &asking))?;
-    fs::write(out.join("exercises.rs"), exercises(&chapters, &asking)?)?;
-    fs::write(out.join("solutions.rs"), solutions(&chapters, &asking))?;
-    fs::write(out.join("figures.rs"), figures(&chapters, &folders::with_file(&chapters, "figures.rs")?))
-}
-
-/// A module a chapter with what it asks, and how the answer shows in its picture.
-fn questions(chapters: &Path, stems: &[String]) -> String {
-    let mut text = String::new();
-    for stem in stems {
-        let question = file(chapters, stem, "question");
-        let mine = chapters.join(stem).join("mine.rs").exists().then(|| file(chapters, stem, "mine"));
-        let modules = format!("{question}\n    {}", mine.unwrap_or_default());
-        let _ = writeln!(text, "/// What chapter {stem} asks.\npub mod chapter_{stem} {{\n    {modules}\n}}\n");
+    let chapters = root.join("chapters");
+    folders::run_again_for(&chapters, &["check.rs", "figures.rs"])?;
+    let asking = folders::with_file(&chapters, "check.rs")?;
+    let drawing = folders::with_file(&chapters, "figures.rs")?;
+    let own = |stem: &str, module: &str| chapters.join(stem).join(format!("{module}.rs"));
+    let mut functions = Vec::new();
+    for stem in &asking {
+        functions.push(asked_for(&fs::read_to_string(own(stem, "check"))?).to_owned());
     }
-    text
-}
 
-/// A module a chapter with the reader's function, and the function `all`, which puts each to its question.
-///
-/// Nothing else is compiled with what readers write, so that the answer to an edit is there at once.
-fn exercises(chapters: &Path, stems: &[String]) -> io::Result<String> {
-    let (mut text, mut each) = (String::new(), Vec::new());
-    for stem in stems {
-        let question = format!("pub use pinhole_cli::questions::chapter_{stem}::question;");
-        let stub = file(chapters, stem, "exercise");
-        let _ = writeln!(text, "pub mod chapter_{stem} {{\n    {question}\n    {stub}\n}}\n");
-        let function = asked_for(&fs::read_to_string(chapters.join(stem).join("question.rs"))?).to_owned();
-        each.push(format!("({stem:?}, chapter_{stem}::question::exercise(chapter_{stem}::exercise::{function}))"));
-    }
-    let _ = writeln!(text, "/// Each chapter that asks something, with the function as the reader has it now.");
-    let _ = writeln!(text, "pub fn all() -> Vec<(&'static str, pinhole_lab::exercise::Exercise)> {{");
-    let _ = writeln!(text, "    vec![{}]\n}}", each.join(", "));
-    Ok(text)
-}
+    fs::write(out.join("checks.rs"), modules(&asking, "check", "", &own))?;
 
-/// The name of the function that a question asks for: the first text after it makes the exercise.
-fn asked_for(question: &str) -> &str {
-    let made = question.split("Exercise::").nth(1).unwrap_or_default();
-    made.split('"').nth(1).unwrap_or_default()
-}
+    let figures = each(&drawing, |stem| format!("chapter_{stem}::figures::figures({stem:?})"));
+    let figures = format!("pub fn all() -> Vec<pinhole_lab::figure::Figure> {{\n    [{figures}].concat()\n}}\n");
+    let about = "/// The figures of all chapters, in the order of the book.\n";
+    fs::write(out.join("figures.rs"), modules(&drawing, "figures", "", &own) + about + &figures)?;
 
-/// The same with the solution, typical mistakes and what learners answered, for tests.
-fn solutions(chapters: &Path, stems: &[String]) -> String {
-    let mut text = String::new();
-    for stem in stems {
-        let question = format!("pub use pinhole_cli::questions::chapter_{stem}::question;");
-        let [solution, mistakes, learners] = ["solution", "mistakes", "learners"].map(|own| file(chapters, stem, own));
-        let modules = [question, solution, mistakes, learners].join("\n    ");
-        let _ = writeln!(text, "pub mod chapter_{stem} {{\n    {modules}\n}}\n");
-    }
-    let each = stems.iter().map(|stem| {
-        let own = format!("chapter_{stem}");
-        format!("Solved {{ chapter: {stem:?}, solved: {own}::mistakes::solved, mistakes: {own}::mistakes::all, textbook: {own}::learners::textbook, learners: {own}::learners::all }}")
+    // Nothing else is compiled with what readers write, so that the answer to an edit is there at once.
+    let check = "pub use pinhole_cli::checks::chapter_CHAPTER::check;";
+    let mut function = functions.iter();
+    let exercises = each(&asking, |stem| {
+        let written = function.next().map_or("", String::as_str);
+        format!("({stem:?}, chapter_{stem}::check::exercise(chapter_{stem}::exercise::{written}))")
     });
-    let _ = writeln!(text, "pub const ALL: &[Solved] = &[{}];", each.collect::<Vec<_>>().join(", "));
-    text
+    let exercise = "Vec<(&'static str, pinhole_lab::exercise::Exercise)>";
+    let exercises = format!("pub fn all() -> {exercise} {{\n    vec![{exercises}]\n}}\n");
+    let about = "/// Each chapter that asks something, with the function as the reader has it now.\n";
+    fs::write(out.join("exercises.rs"), modules(&asking, "exercise", check, &own) + about + &exercises)?;
+
+    let answers = each(&asking, |stem| format!("({stem:?}, chapter_{stem}::answers::answers)"));
+    let answers = format!("pub const ALL: &[(&str, fn() -> Answers)] = &[{answers}];\n");
+    let in_tests = |stem: &str, folder: &str| root.join("tests").join(folder).join(format!("{stem}.rs"));
+    let beside = format!("{check}\n    pub use super::Answers;");
+    fs::write(out.join("answers.rs"), modules(&asking, "answers", &beside, &in_tests) + &answers)
 }
 
-/// A module a chapter that draws figures, and the function `all`.
-fn figures(chapters: &Path, stems: &[String]) -> String {
-    let mut text = String::new();
-    for stem in stems {
-        let figures = file(chapters, stem, "figures");
-        let _ = writeln!(text, "/// The figures of chapter {stem}.\npub mod chapter_{stem} {{\n    {figures}\n}}\n");
-    }
-    let each = stems.iter().map(|stem| format!("chapter_{stem}::figures::figures({stem:?})")).collect::<Vec<_>>();
-    let _ = writeln!(text, "/// The figures of all chapters, in the order of the book.");
-    let _ = writeln!(text, "pub fn all() -> Vec<pinhole_lab::figure::Figure> {{");
-    let _ = writeln!(text, "    [{}].concat()\n}}", each.join(", "));
-    text
+/// A module a chapter with one file, and with what stands beside it, where CHAPTER is the chapter.
+fn modules(stems: &[String], module: &str, beside: &str, file: &dyn Fn(&str, &str) -> PathBuf) -> String {
+    let of = |stem: &String| {
+        let (beside, file): (_, &Path) = (beside.replace("CHAPTER", stem), &file(stem, module));
+        let about = format!("/// Of chapter {stem}.\npub mod chapter_{stem}");
+        format!("{about} {{\n    {beside}\n    #[path = {file:?}]\n    pub mod {module};\n}}\n\n")
+    };
+    stems.iter().map(of).collect()
 }
 
-fn file(chapters: &Path, stem: &str, module: &str) -> String {
-    format!("#[path = {:?}]\n    pub mod {module};", chapters.join(stem).join(format!("{module}.rs")))
+/// What is made of each chapter, with commas.
+fn each(stems: &[String], of: impl FnMut(&String) -> String) -> String {
+    stems.iter().map(of).collect::<Vec<_>>().join(", ")
+}
+
+/// The name of the function that a chapter asks for: the first text after it makes the exercise.
+fn asked_for(check: &str) -> &str {
+    let made = check.split("Exercise::").nth(1).unwrap_or_default();
+    made.split('"').nth(1).unwrap_or_default()
 }

@@ -7,7 +7,8 @@ pub mod figures {
     include!(concat!(env!("OUT_DIR"), "/figures.rs"));
 }
 
-/// What chapters ask of their readers: each one's `question.rs`, and the `mine.rs` that puts the answer into its picture.
-pub mod questions {
-    include!(concat!(env!("OUT_DIR"), "/questions.rs"));
+/// What chapters ask of their readers, what is said of the answers, and how these stand in pictures: each one's `check.rs`.
+#[allow(clippy::disallowed_methods, reason = "a reader's function is compared within a tolerance")]
+pub mod checks {
+    include!(concat!(env!("OUT_DIR"), "/checks.rs"));
 }

@@ -35,20 +35,30 @@ fn every_anchor_is_in_the_book() {
     none(&check::listing::orphans(root(), &["src", "chapters", "tests"], &pages()));
 }
 
-/// Question, picture, worked example, the reader's function, exercises with levels and answers, sources; then what is
-/// folded.
+/// The parts of a chapter's page, in their order.
+const PARTS: [&str; 8] = [
+    "{{#figure ",
+    "## A worked example",
+    "## Your turn",
+    "## Exercises",
+    "<summary>Answers</summary>",
+    "## Further reading",
+    "<summary>Columns in and out</summary>",
+    "<summary>The whole chapter</summary>",
+];
+
 #[test]
 fn every_chapter_s_page_has_its_parts() {
-    let pages = pages();
-    none(&check::pattern::problems(&pages));
-    let chapters = pages.iter().filter(|page| page.name.starts_with(|first: char| first.is_ascii_digit())).count();
+    let mut chapters = 0;
+    for page in pages().iter().filter(|page| page.name.starts_with(|first: char| first.is_ascii_digit())) {
+        let places: Vec<usize> = PARTS.iter().map(|part| page.text.find(part).unwrap_or(usize::MAX)).collect();
+        let missing: Vec<&str> =
+            PARTS.iter().zip(&places).filter(|(_, at)| **at == usize::MAX).map(|(part, _)| *part).collect();
+        assert!(missing.is_empty(), "{} lacks {missing:?}", page.label);
+        assert!(places.is_sorted(), "{} has its parts in another order than {PARTS:?}", page.label);
+        chapters += 1;
+    }
     eprintln!("book: the pages of {chapters} chapters have their parts");
-}
-
-/// One letter, one meaning: what a formula's letters are is said in one of the glossary's two tables.
-#[test]
-fn every_letter_is_in_the_notation_tables() {
-    none(&check::notation::problems(&pages()));
 }
 
 /// Whoever looks for a method's source finds it, and nothing stands in the bibliography that no page speaks of.

@@ -49,6 +49,29 @@ fn the_rust_that_is_asked_for_is_the_rust_that_is_needed() {
     eprintln!("Rust {version}: {} of {} packages ask for one", needed.1, packages.len());
 }
 
+/// Whoever looks for a folder finds it on the README's map, and on that of the book's first page, with what it is for.
+#[test]
+fn every_folder_of_the_sources_is_on_both_maps() {
+    let read = |file: &str| fs::read_to_string(repository().join(file)).expect("kept");
+    let (readme, cover, mut folders) = (read("README.md"), read("book/src/cover.md"), 0);
+    for package in ["src/pinhole", "src/lab"] {
+        for entry in fs::read_dir(repository().join(package)).expect("a folder").flatten() {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            if !entry.path().is_dir() {
+                continue;
+            }
+            let at = [format!("]({package}/{name}/mod.rs)"), format!("]({package}/{name}.rs)")];
+            assert!(at.iter().any(|link| readme.contains(link)), "the README's map lacks {package}/{name}");
+            assert!(
+                cover.lines().any(|line| line.split(' ').next() == Some(&name)),
+                "the cover page's map lacks {name}"
+            );
+            folders += 1;
+        }
+    }
+    assert!(folders > 20, "{folders}");
+}
+
 /// Features of the packages that a build takes in, by name and version.
 fn features(edges: &str) -> BTreeMap<String, BTreeSet<String>> {
     let words = ["tree", "--offline", "--locked", "-e", edges, "--prefix", "none", "-f", "{p} [{f}]"];

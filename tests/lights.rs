@@ -258,3 +258,37 @@ fn a_coloured_point_light_fades_with_the_square_of_the_distance() {
     let off = DVec3::from(film.mean(0, 0).map(f64::from)) / reflected - 1.0;
     assert!(off.abs().max_element() < 1e-6, "{:?} for {reflected}", film.mean(0, 0));
 }
+
+/// A file's sun, spotlight and camera may point straight down, or up, though nobody wrote an `up`: a light has no roll, so
+/// that any other `up` gives the same, and the camera's is the default's.
+#[test]
+fn what_points_straight_down_needs_no_up() {
+    let beam = "intensity: (40, 40, 40), inner_angle: 40, outer_angle: 60";
+    let film = |camera: &str, light: &str, [camera_up, light_up]: [&str; 2]| {
+        let text = format!(
+            "[({camera}, resolution: (width: 24, height: 16), look_at: (eye: (0.5, 6, 1), target: (0.5, 0, 1){camera_up})),
+              (cuboid: (size: (1, 2, 1)), matte: (colour: (0.8, 0.4, 0.2))),
+              (plane: (normal: (0, 1, 0)), matte: (colour: (0.5, 0.5, 0.5))),
+              ({light}, look_at: (eye: (0, 5, 0), target: (0, 0, 0){light_up}))]"
+        );
+        let file = SceneFile::parse(std::path::Path::new("scene.ron"), text).expect("a scene");
+        let film = render(&file.world(), &crate::scenes::offer(), &Execution::default(), &()).expect("renders").film;
+        (0..16).flat_map(|y| (0..24).map(move |x| (x, y))).map(|(x, y)| film.mean(x, y)).collect::<Vec<_>>()
+    };
+    let mut tried = 0;
+    for camera in [
+        "perspective_camera: (fov: 60)",
+        "orthographic_camera: (view_height: 6)",
+        "fisheye_camera: ()",
+        "equirectangular_camera: ()",
+    ] {
+        for light in ["directional_light: (irradiance: (3, 3, 3))".to_owned(), format!("spot_light: ({beam})")] {
+            let [default, written, other] =
+                [["", ""], [", up: (0, 0, -1)", ""], ["", ", up: (1, 0, 0)"]].map(|ups| film(camera, &light, ups));
+            assert!(default.iter().any(|light| light[0] > 0.1), "{camera}, {light}: nothing is lit");
+            assert!(default == written && default == other, "{camera}, {light}");
+            tried += 1;
+        }
+    }
+    eprintln!("straight down: {tried} cameras and lights");
+}

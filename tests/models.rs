@@ -2,6 +2,8 @@
 //!
 //! These tests count the memory of the whole process, so they run one after another.
 
+#![allow(clippy::disallowed_methods, reason = "what a test expects may come from the platform's functions")]
+
 #[path = "models/fuzz.rs"]
 mod fuzz;
 #[path = "models/odd_files.rs"]

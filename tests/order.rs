@@ -60,7 +60,7 @@ const ORDER: &[(&str, &[&str])] = &[
     ),
     ("lab", &["png_url", "repository", "naive", "measure", "figure", "review", "report", "exercise"]),
     ("live", &["answer", "guard", "peer", "http", "view"]),
-    ("", &["exercises", "questions", "figures", "command"]),
+    ("", &["exercises", "checks", "figures", "command"]),
 ];
 
 /// What every folder may name at the crate's root.
@@ -259,80 +259,6 @@ fn each_library_lists_its_modules_in_that_order() {
 /// The code of a file without its comments: what is said there is not done.
 fn code(text: &str) -> String {
     text.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n")
-}
-
-#[test]
-fn nothing_that_differs_between_machines() {
-    // Those of the standard library are the platform's; libm's are the same everywhere. mul_add rounds once where a
-    // machine has it and twice where not; algebraic functions may be put in any order.
-    let methods = [
-        "sin",
-        "cos",
-        "tan",
-        "sin_cos",
-        "asin",
-        "acos",
-        "atan",
-        "atan2",
-        "sinh",
-        "cosh",
-        "tanh",
-        "asinh",
-        "acosh",
-        "atanh",
-        "powf",
-        "powi",
-        "exp",
-        "exp2",
-        "exp_m1",
-        "ln",
-        "ln_1p",
-        "log",
-        "log2",
-        "log10",
-        "hypot",
-        "cbrt",
-        "mul_add",
-        "algebraic_add",
-        "algebraic_mul",
-        "slerp",
-        "from_axis_angle",
-        "from_rotation_x",
-        "from_rotation_y",
-        "from_rotation_z",
-        "from_euler",
-        "to_axis_angle",
-        "angle_between",
-    ];
-    // The oracles of `measure` take powi of 2 for their bounds, where no picture depends on it.
-    let exempt = |source: &Source, method: &str| source.folder == "measure" && method == "powi";
-    // These differ between glam's builds with and without SIMD.
-    let types = ["Vec3A", "Vec4", "Quat", "Mat3A", "Mat4", "Mat2", "Affine3A"];
-    let (mut wrong, mut files) = (Vec::new(), 0);
-    for source in sources() {
-        let code = code(&source.text);
-        files += 1;
-        for method in methods {
-            for call in [format!(".{method}("), format!("::{method}(")] {
-                for (at, _) in code.match_indices(&call) {
-                    if !code[..at].ends_with("libm") && !exempt(&source, method) {
-                        wrong.push(format!("{} calls {call}", source.path.display()));
-                    }
-                }
-            }
-        }
-        for name in types {
-            let whole = |at: usize| {
-                let edge = |letter: Option<char>| !letter.is_some_and(|l| l.is_alphanumeric() || l == '_');
-                edge(code[..at].chars().next_back()) && edge(code[at + name.len()..].chars().next())
-            };
-            if code.match_indices(name).any(|(at, _)| whole(at)) {
-                wrong.push(format!("{} uses glam's {name}", source.path.display()));
-            }
-        }
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    eprintln!("machines: {files} files without {} functions and {} types", methods.len(), types.len());
 }
 
 /// A name may lead to a pipe, a device or a bomb, so there is one door that looks first; what is there for tests, what the

@@ -389,7 +389,9 @@ fn an_emissive_surface_is_seen_and_lights_nothing() {
     let plan = plan_of(&scene);
     let emission = row(&plan, "Add emission");
     assert_eq!(emission.reason, "1 emissive surface: \"glow\", seen, but not lighting other surfaces");
-    assert!(emission.kept && !row(&plan, "Show unlit surfaces").kept && !row(&plan, "Evaluate direct light: matte").kept);
+    assert!(
+        emission.kept && !row(&plan, "Show unlit surfaces").kept && !row(&plan, "Evaluate direct light: matte").kept
+    );
     let alone = plan_of(&toggled(&[Toggle::Emissive, Toggle::Light]));
     let columns: Vec<&str> = alone.columns.iter().map(|column| column.name).collect();
     assert!(!columns.contains(&"surface") && !columns.contains(&"material rows"), "{columns:?}");

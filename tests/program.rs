@@ -1,5 +1,7 @@
 //! What the program must hold: its command lines, its files, its long renders.
 
+#![allow(clippy::disallowed_methods, reason = "what a test expects may come from the platform's functions")]
+
 mod bad_input;
 mod command_line;
 mod compare;

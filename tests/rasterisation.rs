@@ -173,7 +173,7 @@ fn the_plan_says_which_stages_rasterisation_replaces() {
     assert!(rasterise.0 && boxes.0, "{rasterise:?} {boxes:?}");
     assert_eq!([meshes, spheres], [(); 2].map(|()| (false, camera.to_string())));
     assert_eq!(boxes.1, format!("{camera}; 1 sphere: \"ball\""));
-    assert_eq!(tori, (false, "0 toruses".into()));
+    assert_eq!(tori, (false, "0 tori".into()));
     let [_, meshes, _, spheres, _] = rows(Integrator::PATH);
     assert_eq!(meshes, (true, format!("1 mesh: \"knot\"; from the second bounce on: {camera}")));
     assert_eq!(spheres, (true, format!("1 sphere: \"ball\"; from the second bounce on: {camera}")));

@@ -13,7 +13,6 @@ use pinhole::shapes::{
     PlacedCone, PlacedCylinder, Planar, RayHit, SceneShape, UvSlope, double_double_disk_t, double_double_rectangle_t,
     with_shapes,
 };
-use pinhole_lab::measure::extremes::{Group, try_group};
 use pinhole_lab::measure::oracle::Oracle;
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::measure::specimen::Specimen;
@@ -35,25 +34,6 @@ fn scene<C: SceneShape>(component: C, placement: Placement) -> World {
     world.spawn((PerspectiveCamera::default(), Resolution { width: 16, height: 16 }));
     world.spawn((component, placement, Matte::default()));
     world
-}
-
-/// The cases that `cargo run --profile bench -- extremes shapes --rays 1000000` tries in full.
-#[test]
-fn no_ray_at_a_silhouette_is_misjudged_and_none_hits_the_surface_that_it_leaves() {
-    const RAYS: u64 = 1024;
-    let cases = try_group(Group::Shapes, "", RAYS, &());
-    for case in &cases {
-        eprint!("{case}");
-        assert!(case.held(), "{case}");
-        assert_eq!((case.rays, case.hits), (RAYS, RAYS), "{}: rays without anything to check", case.name);
-    }
-    let names = |plural: &str| cases.iter().filter(|case| case.name.starts_with(plural)).count();
-    macro_rules! count {
-        ($($kind:ident($shape:ty) $field:ident $plural:literal,)+) => {
-            $(assert!(names($plural) >= if $plural == "planes" { 1 } else { 4 }, "{}", $plural);)+
-        };
-    }
-    with_shapes!(count);
 }
 
 /// Rays towards a shape of ordinary size from around it, and what they hit.

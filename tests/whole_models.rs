@@ -255,3 +255,66 @@ fn files_of_one_name_keep_their_own_images() {
         .collect();
     assert_eq!(found, colours);
 }
+
+/// An image that is damaged anywhere behind its head is replaced as one that is not there, whichever texture it is of, in
+/// the file and beside it.
+#[test]
+fn images_that_cannot_be_decoded_are_replaced() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let whole = image(image::ImageFormat::Png, colourful);
+    let mut flipped = whole.clone();
+    let middle = whole.len() / 2;
+    flipped[middle] ^= 0xff;
+    let bmp = image(image::ImageFormat::Bmp, colourful);
+    let broken = [&whole[..whole.len() * 2 / 3], &flipped, &bmp[..bmp.len() - 9]];
+    let textures = [
+        "pbrMetallicRoughness/baseColorTexture",
+        "pbrMetallicRoughness/metallicRoughnessTexture",
+        "normalTexture",
+        "emissiveTexture",
+    ];
+    for texture in textures {
+        let texture = (format!("/materials/0/{texture}"), json!({ "index": 0 }));
+        let replaced = |uri: Value| {
+            let file = with(&[(texture.0.as_str(), texture.1.clone()), ("/images/0/uri", uri)]);
+            let world = world(&write(folder.path(), "m.gltf", &file)).expect("not refused");
+            let film = render(&world, &offer(), &one_world(), &()).expect("renders").film;
+            (film, world.resource::<ModelNotes>().0.join(" "))
+        };
+        let (missing, _) = replaced("none.png".into());
+        for (number, bytes) in broken.into_iter().enumerate() {
+            let name = format!("{number}.png");
+            fs::write(folder.path().join(&name), bytes).expect("written");
+            for uri in [uri(bytes), name.into()] {
+                let (film, said) = replaced(uri);
+                assert!(same_picture(&film, &missing), "{number}, {}: another picture than without it", texture.0);
+                assert!(said.contains("replaced") && said.contains("damaged"), "{number}, {}: {said}", texture.0);
+            }
+        }
+        let (film, said) = replaced(uri(&whole));
+        assert!(!said.contains("replaced") && !same_picture(&film, &missing), "{}: {said}", texture.0);
+    }
+}
+
+/// A film that is continued must be of the same picture: colours of vertices, factors and images within the file count.
+#[test]
+fn other_colours_are_another_film() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let print =
+        |changes: &[(&str, Value)]| fingerprint(&world(&write(folder.path(), "m.gltf", &with(changes))).expect("read"));
+    let texture = ("/materials/0/pbrMetallicRoughness/baseColorTexture", json!({ "index": 0 }));
+    let of_image = |blue| ("/images/0/uri", uri(&image(image::ImageFormat::Png, |_, _| [9, 9, blue])));
+    let factor = ("/materials/0/pbrMetallicRoughness/baseColorFactor", json!([0.5, 0.5, 0.5, 1.0]));
+    let colours = |accessor: u32| ("/meshes/0/primitives/0/attributes/COLOR_0", json!(accessor));
+    let prints = [
+        print(&[texture.clone(), of_image(10)]),
+        print(&[texture.clone(), of_image(11)]),
+        print(&[texture.clone(), of_image(10), factor]),
+        print(&[texture.clone(), of_image(10), colours(0)]),
+        print(&[texture.clone(), of_image(10), colours(1)]),
+    ];
+    assert_eq!(prints[0], print(&[texture, of_image(10)]));
+    for (number, one) in prints.iter().enumerate() {
+        assert!(prints[number + 1..].iter().all(|other| other != one), "{number}");
+    }
+}

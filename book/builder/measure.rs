@@ -2,7 +2,8 @@
 
 use crate::build::Book;
 use crate::check::pattern::Measure;
-use crate::check::{self, Page, fit};
+use crate::check::{self, Page};
+use crate::page;
 use crate::program::Program;
 use std::cell::RefCell;
 use std::fmt::Write as _;
@@ -41,5 +42,5 @@ pub fn measure(book: &Book, program: &Rc<RefCell<Program>>, out: &mut dyn Write)
 }
 
 fn of_page(page: &Page, program: &mut Program) -> Measure {
-    Measure::of(page, |command| program.text(command).map_or(0, |text| fit::printed(&text).lines().count()))
+    Measure::of(page, |command| program.text(command).map_or(0, |text| page::fitted(command, &text).0.lines().count()))
 }

@@ -87,7 +87,7 @@ pub fn expand(
     for line in &scan.lines {
         let made = match (parse(line.text), line.fence) {
             (Some(Ok(Directive::Pinhole { command })), None) => {
-                program.text(command).map(|text| printed(command, &fit::printed(&text)))
+                program.text(command).map(|text| printed(command, &text))
             }
             (Some(Ok(Directive::Figure { command, caption, moves })), None) => {
                 figure::block(program, pictures, command, caption, moves)
@@ -99,7 +99,7 @@ pub fn expand(
             (Some(Ok(Directive::Course { part })), None) => teaching::part(part, all),
             (Some(Ok(Directive::Syllabus { text })), None) => teaching::syllabus(text, all),
             (Some(Ok(Directive::Index)), None) => index::made(all),
-            (None, Some(_)) if fit::is_wide(line.text) => Ok(fit::printed(line.text)),
+            (None, Some(fence)) if fit::is_wide(line.text) && is_output(&scan, fence) => Ok(fit::printed(line.text)),
             _ => continue,
         };
         match made {
@@ -112,6 +112,11 @@ pub fn expand(
     if problems.is_empty() { Ok(print::with_answers_named(&apply(&page.text, edits))) } else { Err(problems) }
 }
 
+/// Whether a fence is what a program says, and not what one copies: commands, and what stands in files.
+fn is_output(scan: &Scan<'_>, fence: usize) -> bool {
+    scan.fences.get(fence).is_some_and(|fence| ["", "text"].contains(&fence.info))
+}
+
 /// The text with its directive lines blanked byte for byte: a `$` in a command is no formula.
 fn without_directives(text: &str, scan: &Scan<'_>) -> String {
     let directives = scan.prose().filter(|line| parse(line.text).is_some());
@@ -122,13 +127,24 @@ fn without_directives(text: &str, scan: &Scan<'_>) -> String {
     apply(text, directives.map(blank).collect())
 }
 
+/// The commands whose output one copies into a file: a line of it stays a line, and the window wraps it.
+const COPIED: [&str; 1] = ["export"];
+
+/// What a command prints as the page holds it, and whether it is there to be copied.
+pub fn fitted(command: &str, text: &str) -> (String, bool) {
+    let is_copied = command.split_whitespace().next().is_some_and(|word| COPIED.contains(&word));
+    (if is_copied { text.to_owned() } else { fit::printed(text) }, is_copied)
+}
+
 /// What a command prints, under the command as a reader types it.
 fn printed(command: &str, text: &str) -> String {
+    let (text, is_copied) = fitted(command, text);
+    let copied = if is_copied { " copied" } else { "" };
     let longest = text.split(|letter| letter != '`').map(str::len).max().unwrap_or(0);
     let fence = "`".repeat(3.max(longest + 1));
     let command = escape(command);
     format!(
-        "\n<div class=\"printed\">\n<div class=\"typed\"><code>{TYPED} {command}</code></div>\n\n\
+        "\n<div class=\"printed{copied}\">\n<div class=\"typed\"><code>{TYPED} {command}</code></div>\n\n\
          {fence}text\n{text}\n{fence}\n\n</div>\n"
     )
 }
@@ -172,6 +188,26 @@ mod tests {
                         ````text\n```\nkept <b> & $x$\n```\n````\n\n</div>";
         assert!(text.contains(expected), "{text}");
         assert!(text.starts_with("a\n\n") && text.ends_with("\n\nb"), "{text}");
+    }
+
+    /// Comments and strings of a scene, commands, and what stands in files are copied from the page: each of their lines is
+    /// one there, too, while what a program only says is broken.
+    #[test]
+    fn what_is_copied_has_the_lines_of_the_file() {
+        let comment = format!("// A scene{}", " of words".repeat(20));
+        let scene = format!("{comment}\n[\n    (name: \"a{}\"),\n]", " word".repeat(30));
+        let kept = scene.clone();
+        let program = Program::with(move |_, out| writeln!(out, "{kept}").map_err(|error| error.to_string()));
+        let page = |text: &str| {
+            let (page, mut pictures) = (made_up("a.md", text), Pictures::default());
+            expand(&page, &[], &mut program.borrow_mut(), &mut pictures).expect("expands")
+        };
+        assert!(page("{{#pinhole export 05 --all}}\n").contains(&format!("```text\n{scene}\n```")));
+        assert!(!page("{{#pinhole plan 05}}\n").contains(&comment));
+        for (language, is_broken) in [("sh", false), ("ron", false), ("toml", false), ("text", true)] {
+            let text = format!("```{language}\n{comment}\n```\n");
+            assert_eq!(page(&text) != text, is_broken, "{language}");
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The exercise of chapter 12; `cargo run --release -- check 12` compares it with pinhole's.
 
-use super::question::StageWords;
+use super::check::StageWords;
 
 // ANCHOR: kept
 /// The names of the stages that a plan keeps, in their order, for someone who asks for a column.

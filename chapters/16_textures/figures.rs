@@ -1,6 +1,6 @@
 //! The figures of chapter 16, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, aliasing, relief};
+use pinhole_lab::figure::{Figure, aliasing, compared};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -15,7 +15,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             name: "16_relief",
             chapter,
             about: "a ball, a panel and a block with a normal map of round studs, level, shallow and steep",
-            draw: relief::draw,
+            draw: compared::draw_relief,
         },
     ]
 }

@@ -1,6 +1,6 @@
 //! The figures of chapter 19, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, materials, path_mistakes};
+use pinhole_lab::figure::{Figure, compared};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -9,13 +9,13 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             name: "19_broken",
             chapter,
             about: "rough metal, and rough metal by the pdf of something else",
-            draw: path_mistakes::draw_metal,
+            draw: compared::draw_metal,
         },
         Figure {
             name: "19_principled",
             chapter,
             about: "three balls of the principled material as dielectric, as a mixture, and as metal",
-            draw: materials::draw_principled,
+            draw: compared::draw_principled,
         },
     ]
 }

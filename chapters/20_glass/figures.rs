@@ -1,6 +1,6 @@
 //! The figures of chapter 20, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, fresnel, materials, path_mistakes, refraction};
+use pinhole_lab::figure::{Figure, compared, fresnel, refraction};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -21,13 +21,13 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             name: "20_broken",
             chapter,
             about: "glass, glass that bends with the inverted index, and glass that keeps radiance as it is",
-            draw: path_mistakes::draw_glass,
+            draw: compared::draw_glass,
         },
         Figure {
             name: "20_frosted",
             chapter,
             about: "the glass ball nearly smooth, frosted and rough",
-            draw: materials::draw_rough_glass,
+            draw: compared::draw_rough_glass,
         },
     ]
 }

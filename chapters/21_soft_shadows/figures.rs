@@ -1,6 +1,6 @@
 //! The figures of chapter 21, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, jacobian, solid_angle};
+use pinhole_lab::figure::{Figure, compared, solid_angle};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -15,7 +15,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             name: "21_jacobian",
             chapter,
             about: "area lights by the right pdf, without its cosine, and without its distance too",
-            draw: jacobian::draw,
+            draw: compared::draw_jacobian,
         },
     ]
 }

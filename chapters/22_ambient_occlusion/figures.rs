@@ -1,6 +1,6 @@
 //! The figures of chapter 22, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, directions, integrators, path_mistakes};
+use pinhole_lab::figure::{Figure, compared, directions};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -15,13 +15,13 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             name: "22_distance",
             chapter,
             about: "how much of the sky points see, with near occluders alone, and with all",
-            draw: integrators::draw_distance,
+            draw: compared::draw_distance,
         },
         Figure {
             name: "22_broken",
             chapter,
             about: "how much of the sky points see, with the cosine and without",
-            draw: path_mistakes::draw_sky,
+            draw: compared::draw_sky,
         },
     ]
 }

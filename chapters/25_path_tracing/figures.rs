@@ -1,6 +1,6 @@
 //! The figures of chapter 25, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, broken_paths, integrators, vertices};
+use pinhole_lab::figure::{Figure, compared, vertices};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -9,7 +9,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             name: "25_path_lengths",
             chapter,
             about: "one scene by ray casting, and by paths of two, three and many segments",
-            draw: integrators::draw_segments,
+            draw: compared::draw_segments,
         },
         Figure {
             name: "25_vertices",
@@ -21,7 +21,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             name: "25_broken",
             chapter,
             about: "one scene by paths with a factor too few or too many, and encoded twice",
-            draw: broken_paths::draw,
+            draw: compared::draw_paths,
         },
     ]
 }

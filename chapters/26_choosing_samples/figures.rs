@@ -1,6 +1,6 @@
 //! The figures of chapter 26, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, integrators, path_mistakes, two_strategies};
+use pinhole_lab::figure::{Figure, compared, two_strategies};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -9,7 +9,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             name: "26_strategies",
             chapter,
             about: "area lights found by BSDF sampling, by light sampling, and by both with multiple importance sampling",
-            draw: integrators::draw_strategies,
+            draw: compared::draw_strategies,
         },
         Figure {
             name: "26_samples",
@@ -21,7 +21,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             name: "26_broken",
             chapter,
             about: "a light sampled by two techniques, with weights, and both counted in full",
-            draw: path_mistakes::draw_weights,
+            draw: compared::draw_weights,
         },
     ]
 }

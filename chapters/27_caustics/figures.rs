@@ -1,6 +1,6 @@
 //! The figures of chapter 27, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, caustics, connection};
+use pinhole_lab::figure::{Figure, compared, connection};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -9,7 +9,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             name: "27_sides",
             chapter,
             about: "caustics by rays from the camera alone, and from the light too, once with a mistake",
-            draw: caustics::draw_sides,
+            draw: compared::draw_sides,
         },
         Figure {
             name: "27_connection",

@@ -30,7 +30,7 @@ pub fn after_help() -> String {
         "render cover --view surface",
         "plan 04_orthographic",
         "trace cover --pixel 480,300",
-        "extremes sphere",
+        "extremes shapes",
         "sweep 05_pinhole",
         "report 18 --quick",
         "export 05_pinhole",
@@ -183,10 +183,10 @@ pub struct TryClosedForms {
 
 #[derive(Args)]
 pub struct TryExtremes {
-    /// One of the groups, such as sphere, film or material (default: all); another word lists them
+    /// One of the groups, such as shapes, film or material (default: all); another word lists them
     #[arg(value_parser = |word: &str| word.parse::<Group>())]
     pub group: Option<Group>,
-    /// Only the cases whose name holds this text
+    /// Only the cases whose name holds this text; with a + in it, each part, as in cones:+leave
     #[arg(long, value_name = "TEXT", default_value = "")]
     pub case: String,
     /// How many rays each case tries

@@ -6,9 +6,12 @@ use super::export_meshes::{name_models, write_meshes};
 use super::export_model::take_models_apart;
 use super::find::is_scene_file;
 use super::format::{Format, print_json, shown};
+use super::streams::Streams;
 use super::subject::{Subject, own_view};
 use super::visible::visible;
+use super::warnings::notes;
 use pinhole::film::{Replaces, check_place, write_whole};
+use pinhole::plan::Census;
 use pinhole::scene::{meshes_in_memory, printable, printable_path, scene_text};
 use pinhole::{Chapter, Overrides};
 use serde_json::json;
@@ -26,9 +29,14 @@ use std::path::Path;
 ///
 /// Errors: a file of that name is there already, for it may have been edited; its name cannot stand in a comment; an image
 /// cannot be copied, or a mesh not be written.
-pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &mut dyn Write) -> Result {
+pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, streams: &mut Streams<'_>) -> Result {
     let subject = Subject::find(chapters, &asked.chapter)?;
     let mut world = subject.world(&Overrides { sampling: asked.sampling.asked(), ..Overrides::default() });
+    if !format.is_json() {
+        // What cannot be rendered can be exported, and edited.
+        notes(&Census::of(&world)).unwrap_or_default().iter().try_for_each(|note| streams.note(note))?;
+    }
+    let out = &mut *streams.out;
     let note = own_view(&mut world).map_or(String::new(), |column| {
         format!(
             "// {} shows `{column}`, a column of its own, which no scene file has: here is its picture.\n",

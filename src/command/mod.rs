@@ -143,7 +143,7 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
             let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.set)?;
             plan::print_plan(&subject, &asked.options, format, out)
         }
-        Some(Command::Preflight(asked)) => preflight::print_preflight(chapters, &asked, format, out),
+        Some(Command::Preflight(asked)) => preflight::print_preflight(chapters, &asked, format, streams),
         Some(Command::Angles(asked)) => {
             let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.set)?;
             angles::print_angles(&subject, &asked.options, format, out)
@@ -153,7 +153,7 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
             trace::print_trace(&subject, asked.pixel, asked.sample, asked.all, &asked.options, format, out)
         }
         Some(Command::View(asked)) => view::view(chapters, &asked, format, streams),
-        Some(Command::Export(asked)) => export::export(chapters, &asked, format, out),
+        Some(Command::Export(asked)) => export::export(chapters, &asked, format, streams),
         Some(Command::ClosedForms(asked)) => closed_forms::print_closed_forms(&asked, format, out),
         Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, format, out),
         Some(Command::Sweep(asked)) => sweep::print_sweep(&Subject::find(chapters, &asked.chapter)?, format, out),

@@ -42,12 +42,34 @@ pub fn parsed<P: Parser>(command: Command, chapters: &[Chapter], words: &[OsStri
     }
     let all = std::iter::once(OsStr::new("pinhole")).chain(words.iter().map(OsString::as_os_str));
     let matches = command.try_get_matches_from_mut(all).map_err(|mut answer| {
-        if answer.kind() == ErrorKind::InvalidSubcommand {
-            name_chapters(chapters, &mut answer);
+        match answer.kind() {
+            ErrorKind::InvalidSubcommand => name_chapters(chapters, &mut answer),
+            ErrorKind::UnknownArgument => name_begun_option(&mut command, words, &mut answer),
+            _ => {}
         }
         Error::Clap(Box::new(answer))
     })?;
     P::from_arg_matches(&matches).map_err(|answer| Error::Clap(Box::new(answer.format(&mut command))))
+}
+
+/// The fewest letters that begin an option for it to be meant.
+const BEGUN: usize = 3;
+
+/// Names the option that a word begins, which is nearer to it than one of about the same letters: `--sample` is
+/// `--samples`.
+fn name_begun_option(command: &mut Command, words: &[OsString], answer: &mut clap::Error) {
+    let Some(ContextValue::String(word)) = answer.get(ContextKind::InvalidArg) else { return };
+    let Some(begun) = word.strip_prefix("--").filter(|begun| begun.len() >= BEGUN).map(str::to_owned) else { return };
+    let Some(named) = words.iter().find_map(|word| Some(command.find_subcommand(word)?.get_name().to_owned())) else {
+        return;
+    };
+    let Some(own) = command.find_subcommand_mut(named) else { return };
+    let options = own.get_arguments().filter_map(|option| option.get_long());
+    if let Some(option) = options.filter(|option| option.starts_with(&begun)).min_by_key(|option| option.len()) {
+        let option = format!("--{option}");
+        answer.insert(ContextKind::SuggestedArg, ContextValue::String(option));
+        answer.insert(ContextKind::Usage, ContextValue::StyledStr(own.render_usage()));
+    }
 }
 
 /// Adds the chapters that a word comes near to, which is no command.

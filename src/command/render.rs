@@ -15,16 +15,14 @@ use super::status;
 use super::streams::Streams;
 use super::subject::Subject;
 use super::summary::Summary;
-use super::warnings::{too_dark, warnings};
+use super::warnings::{notes, too_dark, warnings};
 use pinhole::Chapter;
-use pinhole::extract::{
-    ChosenIntegrator, LayerTable, adaptive_of, camera_entity, image_remarks, integrator_of, validate,
-};
+use pinhole::extract::{ChosenIntegrator, LayerTable, adaptive_of, camera_entity, integrator_of, validate};
 use pinhole::film::png_bytes;
 use pinhole::look::{Foretold, RenderStats};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
-use pinhole::scene::{FileKind, Integrator, ModelNotes, Resolution, Sampling, read_file};
+use pinhole::scene::{FileKind, Integrator, Resolution, Sampling, read_file};
 use pinhole_lab::exercise::{Mine, Outcome, PATIENCE, end_at_panics};
 use pinhole_lab::review::{PictureDifference, compare_pictures, picture_contrast};
 use std::borrow::Cow;
@@ -222,11 +220,10 @@ fn render_with(
         Progress::announce(what, render.film.width, render.film.height);
     }
     if !(json || options.quiet) {
-        let notes = scene.get_resource().map_or(&[][..], |ModelNotes(notes)| &notes[..]);
-        let said = notes.iter().chain(&*image_remarks(census)?).map(|note| format!("note: {note}")).collect::<Vec<_>>();
-        said.iter().try_for_each(|note| streams.note(note))?;
+        notes(census)?.iter().try_for_each(|note| streams.note(note))?;
     }
-    let Foretold { warnings: said, lit_pixel } = before_rendering(census, options, (&render, began), json, streams)?;
+    let Foretold { warnings: said, lit_pixel } =
+        before_rendering(subject, census, options, (&render, began), json, streams)?;
 
     let files = Files::new(targets, census, &render.plan, mine);
     let waiting = waiting(watched.as_deref(), options, &render, streams);

@@ -139,6 +139,11 @@ impl<'c> Subject<'c> {
         }
     }
 
+    /// What is said of the scene in the words that its author uses: those of files, unless it is a chapter.
+    pub fn in_its_words(&self, sentence: String) -> String {
+        if let Self::Chapter(_) = self { sentence } else { in_words_of_files(&sentence) }
+    }
+
     /// The same error with file, line and column, where it is the file that is at fault.
     pub fn placed(&self, error: pinhole::Error, asked: &Overrides) -> Error {
         let Self::File { file, .. } = self else { return error.into() };

@@ -3,11 +3,19 @@
 use super::error::Result;
 use super::options::RenderOptions;
 use super::subject::Subject;
-use pinhole::extract::{ImageFrame, PerspectiveProjection, SMALLEST_PIXEL, camera_entity};
+use pinhole::extract::{ImageFrame, PerspectiveProjection, SMALLEST_PIXEL, camera_entity, image_remarks};
 use pinhole::film::{Film, column_of_layer};
 use pinhole::look::looks_black;
 use pinhole::plan::{Census, Plan, Table};
-use pinhole::scene::PerspectiveCamera;
+use pinhole::scene::{ModelNotes, PerspectiveCamera};
+
+/// What was dropped, replaced or added where a scene's models and images were read, a line each.
+///
+/// Errors: an image that cannot be used.
+pub fn notes(scene: &Census<'_>) -> Result<Vec<String>> {
+    let of_models = scene.get_resource().map_or(&[][..], |ModelNotes(notes)| &notes[..]);
+    Ok(of_models.iter().chain(&*image_remarks(scene)?).map(|note| format!("note: {note}")).collect())
+}
 
 /// All of it, each in one sentence.
 pub fn warnings(subject: &Subject<'_>, options: &RenderOptions, film: &Film, plan: &Plan) -> Result<Vec<String>> {

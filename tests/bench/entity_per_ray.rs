@@ -3,6 +3,8 @@
 //! `cargo bench --bench entity_per_ray` prints time as a ratio with its 95 % interval, then memory, each measured in a
 //! process of its own; `-- --write` keeps the answer beside chapter 12.
 //! `-- --pairs 5 --size 480x270` takes fewer and smaller runs.
+
+#![allow(clippy::disallowed_methods, reason = "what is measured here may come from the platform's functions")]
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 mod interval;

@@ -14,13 +14,13 @@ use pinhole::extract::{
 use pinhole::film::{Film, FilmTile};
 use pinhole::intersect::{NO_SHAPE, Surface};
 use pinhole::lights::irradiance_from_point;
+use pinhole::material::lambertian;
 use pinhole::plan::{Census, Table};
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, sampling_evidence, screen_from_ndc};
 use pinhole::sample::{
     Draw, PixelKey, Purpose, SampleIndex, box_offset, table_offset, tent_offset, unit, with_sampler,
 };
 use pinhole::scene::{Filter, SceneError};
-use pinhole::material::lambertian;
 use pinhole::shade::shadow_t_max;
 use pinhole::shapes::{PlacedSphere, RayHit, ShapeKind, l1_norm, nearness, offset_origin, plane_t, sphere_t};
 use std::sync::{Mutex, PoisonError};

@@ -116,7 +116,12 @@ fn lit_with(raster: Stage) -> Vec<Stage> {
         shade::point_light_stage(),
         shade::start_shadow_stage(),
     ]);
-    stages.extend([shade::sphere_shadow_stage(), shade::plane_shadow_stage(), follow::direct_light_stage::<MatteTable>(), film_stage()]);
+    stages.extend([
+        shade::sphere_shadow_stage(),
+        shade::plane_shadow_stage(),
+        follow::direct_light_stage::<MatteTable>(),
+        film_stage(),
+    ]);
     stages
 }
 
@@ -162,7 +167,11 @@ fn followed() -> Vec<Stage> {
     stages.extend([follow::classify_bsdf_stage::<MirrorTable>(), follow::max_depth_stage()]);
     stages.extend([intersect::sphere_surface_stage(), intersect::plane_surface_stage(), shade::background_stage()]);
     stages.extend([shade::area_light_stage(), shade::start_shadow_stage(), shade::sphere_shadow_stage()]);
-    stages.extend([shade::plane_shadow_stage(), follow::mis_stage::<MatteTable>(), follow::direct_light_stage::<MatteTable>()]);
+    stages.extend([
+        shade::plane_shadow_stage(),
+        follow::mis_stage::<MatteTable>(),
+        follow::direct_light_stage::<MatteTable>(),
+    ]);
     stages.extend([
         follow::mis_emission_stage(),
         follow::specular_stage::<MirrorTable>(),
@@ -209,7 +218,8 @@ fn against(other: &Path) {
                 tool.current_dir(checkout)
                     .arg("target/release/pinhole")
                     .args(["render", chapter, "--quiet", "-j", "1"]);
-                tool.args(["--no-preflight", "--write-every", "10000s", "--size", "96x64", "-n", samples, "-o"]).arg(&exr);
+                tool.args(["--no-preflight", "--write-every", "10000s", "--size", "96x64", "-n", samples, "-o"])
+                    .arg(&exr);
                 count(tool, "Collected :")
             });
             (many - few, fs::read(exr).expect("a picture"))

@@ -1,5 +1,7 @@
 //! How a benchmark measures: CPU time, and ratios of pairs with their interval.
 
+#![allow(clippy::disallowed_methods, reason = "what is measured here may come from the platform's functions")]
+
 use cpu_time::ProcessTime;
 use std::time::Duration;
 

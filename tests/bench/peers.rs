@@ -14,6 +14,8 @@
 //! It fails where they are apart.
 //!
 //! relMSE is the mean of (x − r)² / (r² + 0.01); the reference's own is subtracted from both sides.
+
+#![allow(clippy::disallowed_methods, reason = "what is measured here may come from the platform's functions")]
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 #[path = "peers/agree.rs"]

@@ -3,6 +3,8 @@
 //! `cargo bench --bench staged` prints the ratio of CPU times with its 95 % interval, on one and two threads, with one
 //! ray a pixel and with 4 samples; then each stage's nanoseconds a row; then memory at two sizes.
 //! `-- --pairs 5 --size 480x270` takes fewer and smaller runs; `-- --only samples` only those with samples.
+
+#![allow(clippy::disallowed_methods, reason = "what is measured here may come from the platform's functions")]
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 mod fused;

@@ -3,7 +3,7 @@
 use crate::snapshots::folder;
 use pinhole_lab::review::{
     ChangedRow, DEVELOP, PictureDifference, Place, SNAPSHOT_FILES as FILES, SNAPSHOT_SIZE as SIZE, Snapshots,
-    changed_rows, compare_pictures,
+    averages_out, changed_rows, compare_pictures,
 };
 use std::fmt::{self, Write};
 
@@ -24,6 +24,9 @@ pub fn mismatch(chapter: &str, before: &Snapshots, now: &Snapshots, refused: &[&
     let mut text = format!("{chapter}: {}\n", headline(before, now, &missing, refused));
     if let Some(picture) = &picture {
         let _ = writeln!(text, "{picture}");
+        if !picture.is_none() {
+            let _ = writeln!(text, "{}", noise_or_bug(&before.picture, &now.picture));
+        }
     }
     if missing.is_empty() {
         text.push_str(&probes(&before.probes, &now.probes));
@@ -51,6 +54,19 @@ fn headline(before: &Snapshots, now: &Snapshots, missing: &[&str], refused: &[&s
         None => {
             format!("all numbers and pixels are the same; what differs is the wording of {}", refused.join(" and "))
         }
+    }
+}
+
+/// Whether the film differs as two renders with other random numbers do.
+fn noise_or_bug(before: &[u8], now: &[u8]) -> &'static str {
+    match averages_out(before, now) {
+        Some(true) => {
+            "over blocks of 8 × 8 pixels the differences average out, as noise does: other random numbers, the same mean"
+        }
+        Some(false) => {
+            "over blocks of 8 × 8 pixels the differences do not average out: not noise but another mean, so bias or a bug"
+        }
+        None => "too few pixels differ for their mean to tell noise from a bug",
     }
 }
 
@@ -139,7 +155,7 @@ mod tests {
         Snapshots { digests: digests.into(), plan: plan.into(), ..Snapshots::default() }
     }
 
-    const DIGESTS: &str = "8 × 8 pixels\n\n\"Add light\" writes radiance\naaaa\n";
+    const DIGESTS: &str = "8 × 8 pixels\n\naaaa \"Add light\" writes radiance\n";
 
     #[test]
     fn the_first_line_says_what_differs_first() {

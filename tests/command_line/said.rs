@@ -35,6 +35,49 @@ fn no_render_ends_in_more_than_six_lines_or_wider_ones_than_120_columns() {
     eprintln!("summaries: {tried} renders, at most {most} lines, the widest of {widest} columns");
 }
 
+/// A message about a model names each file once, the material whose image is missing, and the line of a wrong index.
+#[test]
+fn a_model_is_refused_and_remarked_on_with_each_name_once() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let square = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n";
+    let buffer = r#"{"asset": {"version": "2.0"}, "buffers": [{"uri": "gone.bin", "byteLength": 36}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}]}"#;
+    for (name, content) in [
+        ("x.glb", "hello"),
+        ("e.gltf", buffer),
+        ("b.obj", &format!("mtllib b.mtl\n{square}usemtl wood\nf 1/1 2/2 3/3\nusemtl oak\nf 2/2 1/1 3/3\n")),
+        ("b.mtl", "newmtl wood\nmap_Kd gone.png\nnewmtl oak\nmap_Kd gone.png\nnewmtl ash\nmap_Kd folder.png\n"),
+        ("d.obj", &format!("{square}f 1 2 3\n# a line\nf 1 2 9\nf 8 1 2\n")),
+        ("one.obj", &format!("{square}f 1/9 2 3\n")),
+        ("scene.ron", "[(name: \"eye\", perspective_camera: ()), (name: \"m\", mesh: (file: \"x.glb\"), matte: ())]"),
+    ] {
+        fs::write(folder.path().join(name), content).expect("written");
+    }
+    let mut tried = 0;
+    for (name, status, words, names) in [
+        ("x.glb", 1, &["the start of the file is \"hello\""][..], &[("x.glb", 1)][..]),
+        ("e.gltf", 1, &["buffers[0].uri is \"gone.bin\""], &[("e.gltf", 1)]),
+        // As the value, and where it is said what is wrong with it.
+        ("scene.ron", 1, &["mesh \"m\"", "cannot be read: the start of the file"], &[("x.glb", 2)]),
+        ("b.obj", 0, &["An image of the material \"wood\" and another is replaced"], &[("gone.png", 1)]),
+        ("d.obj", 0, &["2 faces with a vertex that the file does not have were dropped (the first on line 9)."], &[]),
+        ("one.obj", 0, &["and goes without (on line 7)."], &[]),
+    ] {
+        let told = run(folder.path(), &["render", name, "--size", "8x8", "--samples", "1"]);
+        let said = text(&told.stderr);
+        assert_eq!(told.status.code(), Some(status), "{said}");
+        assert!(words.iter().all(|words| said.contains(words)), "{name}: {said}");
+        for (file, times) in names {
+            let line = said.lines().find(|line| line.contains(file) && !line.starts_with("rendering")).unwrap_or("");
+            assert_eq!(line.matches(file).count(), *times, "{name}: {said}");
+        }
+        tried += 1;
+    }
+    eprintln!("models: {tried} messages, each file named once");
+}
+
 #[test]
 fn who_waits_without_a_terminal_is_told_how_far_it_is() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -160,4 +203,25 @@ fn without_preflight_nothing_is_foretold_and_the_picture_is_the_same() {
     });
     assert_eq!((told.0, untold.0), (true, false));
     assert_eq!(told.1, untold.1);
+}
+
+/// What a model lost is said by every command that reads it, not by `render` alone.
+#[test]
+fn every_command_that_reads_a_model_says_what_was_left_out() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path();
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+    fs::write(path.join("m.obj"), format!("mtllib m.mtl\n{square}usemtl a\nf 1/1 2/2 3/3 4/4\n")).expect("written");
+    fs::write(path.join("m.mtl"), "newmtl a\nKd 1 1 1\nmap_Kd none.png\nd 0.5\nTr 0.5\n").expect("written");
+    for words in [&["render", "m.obj", "--size", "8x5"][..], &["preflight", "m.obj"], &["export", "m.obj"]] {
+        let told = run(path, words);
+        let notes = text(&told.stderr);
+        assert!(told.status.success(), "{words:?}: {notes}");
+        for once in ["m.obj: 1 mesh has no vertex normals", "none.png", "see-through"] {
+            let lines = notes.lines().filter(|line| line.starts_with("note: ") && line.contains(once)).count();
+            assert_eq!(lines, 1, "{words:?}, {once}: {notes}");
+        }
+        let false_words = ["doubleSided", "no direction", "opacity below"];
+        assert!(!false_words.iter().any(|word| notes.contains(word)), "{words:?}: {notes}");
+    }
 }

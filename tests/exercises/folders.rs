@@ -52,7 +52,7 @@ fn what_a_folder_holds_is_on_the_lists_that_were_compiled() {
         let stem = folder.file_name().expect("a name").to_string_lossy().into_owned();
         let listed = listed::all().iter().any(|(chapter, _)| *chapter == stem);
         let again = "touch chapters/Cargo.toml, and build again";
-        assert_eq!(listed, folder.join("question.rs").exists(), "{stem}/question.rs: {again}");
+        assert_eq!(listed, folder.join("check.rs").exists(), "{stem}/check.rs: {again}");
         let draws = folder.join("figures.rs").exists();
         assert_eq!(figures.contains(&format!("chapter_{stem}::figures")), draws, "{stem}/figures.rs: {again}");
         asking += usize::from(listed);

@@ -1,6 +1,6 @@
 //! `render NN --mine`: a solution makes pinhole's picture, a mistake another one, and what fails says so in a sentence.
 
-use super::solutions::{ALL, Solved, chapter_05_pinhole};
+use super::answers::{ALL, Answers, chapter_05_pinhole};
 use super::{listed, pinhole as perspective, right, run, untouched};
 use ::pinhole::film::{Film, GUIDES, denoise};
 use ::pinhole::render::{Execution, render};
@@ -98,9 +98,9 @@ fn alike(kept: &Film, made: &Film, allowed: &Differ) -> (bool, String) {
 #[test]
 fn a_solution_makes_pinhole_s_picture_and_a_mistake_another_one() {
     let (chapters, mut seen, mut wrong) = (all(), 0, Vec::new());
-    for Solved { chapter: name, solved, mistakes, .. } in ALL {
+    for (name, answers) in ALL {
         let chapter = chapters.iter().find(|chapter| chapter.name == *name).expect("the chapter");
-        let solved = solved();
+        let Answers { solution: solved, wrong: mistakes, .. } = answers();
         if !solved.renders() {
             let why = mine(chapter, &solved).map(|_| ()).expect_err("refused").to_string();
             assert!(why.contains(solved.function) && !why.contains('\n'), "{name}: {why}");
@@ -116,7 +116,6 @@ fn a_solution_makes_pinhole_s_picture_and_a_mistake_another_one() {
             Ok(made) => !alike(&kept, &made, &allowed(name)).0,
             Err(_) => true,
         };
-        let mistakes = mistakes();
         let shown = mistakes.iter().filter(|(mistake, _)| differs(mistake)).count();
         eprintln!("{name}: {shown} of {} mistakes show", mistakes.len());
         if shown == 0 {
@@ -136,7 +135,7 @@ fn what_no_picture_can_hold_is_told_with_pixel_input_and_answer() {
     let told = |exercise: Exercise| mine(chapter, &exercise).map(|_| ()).expect_err("refused").to_string();
     let panics = told(perspective(|screen, tan| {
         assert!(screen[0] < 0.5, "too far\nto the right");
-        chapter_05_pinhole::solution::perspective_direction(screen, tan)
+        chapter_05_pinhole::answers::solution(screen, tan)
     }));
     assert!(panics.starts_with("perspective_direction panicked at pixel ("), "{panics}");
     assert!(panics.contains("asked screen (") && panics.ends_with(": too far to the right"), "{panics}");

@@ -5,7 +5,10 @@ mod principled;
 
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole::material::{Bsdf, BsdfClass, ErasedBsdf, MaterialTable, MetalTable, Parameters, PrincipledTable, Registration, RoughGlassTable, Site, Transport, REGISTERED};
+use pinhole::material::{
+    Bsdf, BsdfClass, ErasedBsdf, MaterialTable, MetalTable, Parameters, PrincipledTable, REGISTERED, Registration,
+    RoughGlassTable, Site, Transport,
+};
 use pinhole::plan::Census;
 use pinhole::scene::{Metal, MetallicRoughnessMap, Principled, Rgb, RoughGlass};
 use pinhole_lab::measure::chi_squared::{Bins, p_value};

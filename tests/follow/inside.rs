@@ -617,14 +617,16 @@ fn a_light_beside_a_face_of_glass_is_on_one_side_of_it() {
     let floor_of = |height: f64, from: f64, ior: f64| {
         let make = move || {
             let mut world = World::new();
-            let look = LookAt { eye: DVec3::new(4.0, from, 0.0), target: DVec3::new(0.0, from - 3.0, 0.0), up: DVec3::Y };
+            let look =
+                LookAt { eye: DVec3::new(4.0, from, 0.0), target: DVec3::new(0.0, from - 3.0, 0.0), up: DVec3::Y };
             let fov = PerspectiveCamera { fov: Degrees(24.0), ..PerspectiveCamera::default() };
             let camera = (Name::new("camera"), fov, look);
-            world.spawn((camera, Resolution { width: 8, height: 8 }, Integrator::Path {
-                max_depth: 60,
-                lights: LightStrategy::Mis,
-                roulette: 20,
-            }, LightTracing::default()));
+            world.spawn((
+                camera,
+                Resolution { width: 8, height: 8 },
+                Integrator::Path { max_depth: 60, lights: LightStrategy::Mis, roulette: 20 },
+                LightTracing::default(),
+            ));
             let glass = Glass { ior, absorption: Rgb::grey(1.0), ..Glass::default() };
             let block = Placement::at(0.0, from + 0.7, 0.0);
             world.spawn((Cuboid { size: DVec3::new(2.0, 1.2, 2.0) }, block, glass));
@@ -659,11 +661,8 @@ fn a_light_beside_a_face_of_glass_is_on_one_side_of_it() {
 fn an_eye_on_the_surface_of_glass_sees_each_side_through_what_is_there() {
     let seen = |height: f64, down: f64, joint: bool| {
         let mut world = World::new();
-        let look = LookAt {
-            eye: DVec3::new(0.0, height, 0.0),
-            target: DVec3::new(0.0, height - down, -1.0),
-            up: DVec3::Y,
-        };
+        let look =
+            LookAt { eye: DVec3::new(0.0, height, 0.0), target: DVec3::new(0.0, height - down, -1.0), up: DVec3::Y };
         let fov = PerspectiveCamera { fov: Degrees(20.0), ..PerspectiveCamera::default() };
         let size = Resolution { width: 8, height: 8 };
         world.spawn((fov, look, size, Integrator::Path { max_depth: 9, lights: LightStrategy::Mis, roulette: 8 }));

@@ -122,6 +122,37 @@ fn cases() -> Vec<Odd> {
             &[],
         ),
         obj(
+            "colours of vertices that are no colours",
+            &format!("v 0 0 0 nan 0 0\nv 1 0 0 1.5 -1 inf\nv 1 1 0 0.5 0.5 0.5\nv 0 1 0\n{PLAIN}"),
+            &[],
+            |model| {
+                is_square(model)
+                    && model.meshes[0]
+                        .colours
+                        .as_ref()
+                        .is_some_and(|own| own[..2] == [[0.0; 3], [1.0, 0.0, 1.0]] && own[3] == [1.0; 3])
+            },
+            &["1 vertex has a colour with a part that is not a number", "1 vertex has a colour with a part below 0"],
+        ),
+        obj(
+            "colours of vertices as bytes",
+            &format!("{}{PLAIN}", SQUARE.replace(" 0\n", " 0 200 100 0\n")),
+            &[],
+            |model| is_square(model) && model.meshes[0].colours.as_ref().is_some_and(|own| own[0] == [1.0, 1.0, 0.0]),
+            &["4 vertices have a colour with a part below 0 or above 1", "go up to 200, as if they were bytes"],
+        ),
+        obj(
+            "faces with normals and faces with texture coordinates",
+            &format!("mtllib b.mtl\nusemtl m\n{SQUARE}vt 0 0\nvn 0 0 1\nvn 0 0 0\nf 1/1 2/1 3/1\nf 1//1 3//1 4//2"),
+            &[("b.mtl", "newmtl m\nmap_Kd a.png\n")],
+            is_square,
+            &[
+                "1 vertex normal has no direction",
+                "3 vertices have no normal, as others of their mesh have",
+                "3 vertices have no texture coordinate, as others of their mesh have",
+            ],
+        ),
+        obj(
             "a missing library",
             &format!("mtllib b.mtl\n{SQUARE}{PLAIN}"),
             &[],
@@ -140,7 +171,8 @@ fn cases() -> Vec<Odd> {
             &format!("mtllib b.mtl\nusemtl m\n{SQUARE}{PLAIN}"),
             &[("b.mtl", "newmtl m\nTr 0.75\n")],
             |model| model.materials[0].alpha == 0.25 && model.materials[0].alpha_mode == AlphaMode::Blend,
-            &["opacity below 1"],
+            // What the renderer makes of it is said where it makes it.
+            &[],
         ),
         obj(
             "scaled and shifted",
@@ -182,6 +214,17 @@ fn cases() -> Vec<Odd> {
             ply("", "", PLY_SQUARE, "").replace("element face 0\nproperty list uchar int vertex_indices\n", ""),
             |model| model.instances.is_empty(),
             &["points without faces (4)"],
+        ),
+        of_ply(
+            "colours of vertices as bytes in floats",
+            ply(
+                "",
+                "property float red\nproperty float green\nproperty float blue\n",
+                &PLY_SQUARE.replace(" 0\n", " 0 250 100 nan\n"),
+                "4 0 1 2 3\n",
+            ),
+            |model| is_square(model) && model.meshes[0].colours.as_ref().is_some_and(|own| own[0] == [1.0, 1.0, 0.0]),
+            &["4 vertices have a colour with a part that is not a number", "go up to 250, as if they were bytes"],
         ),
         of_ply(
             "colours of vertices",

@@ -66,7 +66,11 @@ pub const WORDS: &[Case] = &[
     ("three parts of a quaternion", "[(placement: (orientation: (0, 0, 1^)))]", &["orientation", "four numbers"]),
     ("a colour by its name", "[(matte: (colour: ^\"red\"))]", &["colour is \"red\"", "three numbers"]),
     ("a colour of two parts", "[(matte: (colour: (1, 0^)))]", &["colour is (1, 0)", "three numbers"]),
-    ("half a pixel", "[(resolution: (width: ^5.5))]", &["resolution", "width is 5.5", "a whole number"]),
+    (
+        "half a pixel",
+        "[(resolution: (width: ^5.5))]",
+        &["resolution", "width is 5.5", "a whole number from 0 to 4294967295"],
+    ),
     ("fewer than no pixels", "[(resolution: (width: ^-5))]", &["width is -5", "from 0 to 4294967295"]),
     ("pixels beyond u32", "[(resolution: (width: ^5000000000))]", &["5000000000", "4294967295"]),
     ("an unknown axis", "[(perspective_camera: (axis: ^Diagnal))]", &["axis is Diagnal", "Diagonal"]),
@@ -221,7 +225,7 @@ pub const MEANING: &[Case] = &[
     (
         "samples that are no whole number",
         "[(name: \"eye\", perspective_camera: (), sampling: (samples: ^1.5))]",
-        &["sampling \"eye\"", "samples", "1.5"],
+        &["sampling \"eye\"", "samples", "1.5", "from 0 to 4294967295"],
     ),
     (
         "a sampler in small letters",
@@ -249,6 +253,13 @@ pub const MEANING: &[Case] = &[
         &["filter c is 7"],
     ),
     ("a checker without a material", "[@, ^(name: \"a\", checker: ())]", &["checker \"a\"", "a matte"]),
+    ("a tint without a material", "[@, ^(name: \"a\", tint: ())]", &["tint \"a\"", "a matte"]),
+    ("a tint on glass", "[@, ^(name: \"a\", sphere: (), glass: (), tint: ())]", &["tint \"a\"", "glass", "a matte"]),
+    (
+        "a tint that gives back more than it gets",
+        "[@, (name: \"a\", sphere: (), matte: (), tint: (factor: ^(1, 2, 1)))]",
+        &["tint \"a\"", "factor is (1, 2, 1)"],
+    ),
     (
         "stripes of no width",
         "[@, (name: \"a\", sphere: (), matte: (), stripes: (size: ^0))]",

@@ -22,7 +22,7 @@ const LINES: &[(&[&str], Says)] = &[
     (&["angles", "5"], angles),
     (&["trace", "21", "--pixel", "31,20", "--size", "64x36"], trace),
     (&["extremes", "film", "--case", "no light", "--rays", "600"], extremes),
-    (&["extremes", "sphere", "--rays", "256", "--page", "@/page.html"], extremes),
+    (&["extremes", "shapes", "--case", "planes", "--rays", "256", "--page", "@/page.html"], extremes),
     (&["closed-forms", "--case", "drinks that overlap"], closed_forms),
     (&["sweep", "4"], sweep),
     (&["export", "16"], |it| vec![word(it, "scene_file").into()]),

@@ -5,12 +5,11 @@ use std::fs;
 use std::path::Path;
 
 /// Components that a file holds in another way than by a word for their type.
-const OTHERWISE: [(&str, &str); 6] = [
+const OTHERWISE: [(&str, &str); 5] = [
     ("UsesMaterial", "by `material` and a name"),
     ("UsedByShapes", "kept by bevy_ecs, the other end of UsesMaterial"),
     ("MeshInstance", "made of the file that a `mesh` names"),
     ("MeshPart", "made with it"),
-    ("Tint", "made with it, where its vertices have colours"),
     ("UnreadMesh", "said instead where that file cannot be read"),
 ];
 

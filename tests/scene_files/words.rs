@@ -1,8 +1,12 @@
 //! What a scene file's words are: names of components in messages, turns of placements, the fingerprint of a scene.
 
+use super::{parsed, typed};
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::scene::{Disabled, ImageTexture, Placement, SceneFolder, fingerprint, in_words_of_files, words};
+use pinhole::look::MISTAKES;
+use pinhole::scene::{
+    Disabled, ImageTexture, Placement, SceneFolder, fingerprint, in_words_of_files, scene_text, words,
+};
 
 #[test]
 fn every_component_is_named_by_its_word() {
@@ -15,6 +19,37 @@ fn every_component_is_named_by_its_word() {
     assert_eq!(in_words_of_files("a UsesMaterial or an Emissive"), "a material or an emissive");
     assert_eq!(in_words_of_files("„é“: PointLight(s)"), "„é“: point_light(s)");
     eprintln!("components: {} named as a file names them", words().count());
+}
+
+/// Whoever does in a file what is said of it before it is rendered has done it: no word of that is one of Rust.
+#[test]
+fn what_is_foretold_of_a_file_can_be_written_into_it() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (mut scenes, mut written) = (0, Vec::new());
+    for mistake in MISTAKES {
+        let mut world = World::new();
+        (mistake.scene)(&mut world);
+        let Ok(text) = scene_text(&world) else { continue };
+        let file = folder.path().join("scene.ron");
+        std::fs::write(&file, text).expect("a file");
+        // What the renderer refuses is not foretold.
+        let Ok(told) = typed(&["preflight", &file.display().to_string()]) else { continue };
+        assert!(!told.contains("::"), "{}: {told}", mistake.what);
+        for (field, whole) in [("integrator: ", "{}"), ("lights: ", "integrator: Path({})")] {
+            for (at, _) in told.match_indices(field) {
+                let value = told[at + field.len()..].split([';', ' ', '\n']).next().unwrap_or("");
+                let component = whole.replace("{}", &format!("{field}{value}"));
+                let scene = format!("[(perspective_camera: (), {component})]");
+                assert!(parsed(&scene).is_ok(), "{}: {scene}", mistake.what);
+                written.push(value.to_owned());
+            }
+        }
+        scenes += 1;
+    }
+    written.sort();
+    written.dedup();
+    assert_eq!(written, ["Mis", "Path()", "Whitted()"]);
+    eprintln!("foretold: {scenes} scenes as files, and what is advised for them is accepted");
 }
 
 fn written(text: &str) -> Result<Placement, String> {

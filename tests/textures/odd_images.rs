@@ -207,3 +207,27 @@ fn vertex_colours_are_a_factor_of_the_colour() {
         }
     }
 }
+
+/// A camera that was held upright says so beside the image, and other programs turn it.
+#[test]
+fn an_orientation_that_is_not_applied_is_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let plain = encoded(image::ImageFormat::Jpeg);
+    let with_orientation = |orientation: u8| {
+        let tiff =
+            [b"II*\0", &[8, 0, 0, 0, 1, 0, 0x12, 1, 3, 0, 1, 0, 0, 0, orientation, 0, 0, 0, 0, 0, 0, 0][..]].concat();
+        let chunk = [b"Exif\0\0", &tiff[..]].concat();
+        let length = (chunk.len() as u16 + 2).to_be_bytes();
+        [&plain[..2], &[0xff, 0xe1], &length, &chunk, &plain[2..]].concat()
+    };
+    let expected = read(&written(folder.path(), "plain.jpg", &plain), Use::Colour).expect("read").0;
+    for orientation in 1..=8 {
+        let file = written(folder.path(), &format!("{orientation}.jpg"), &with_orientation(orientation));
+        let (texels, said) = read(&file, Use::Colour).expect("read");
+        assert!(texels == expected, "{orientation}: its texels lie otherwise");
+        let sentence = format!(
+            "{orientation}.jpg: its EXIF orientation is {orientation}, and its texels are used as they lie in the file"
+        );
+        assert_eq!(said, if orientation == 1 { vec![] } else { vec![sentence] });
+    }
+}

@@ -5,6 +5,9 @@ use super::*;
 /// What a file may say beside the base, each in a change or two, and whether the picture must show it.
 pub fn properties() -> Vec<(&'static str, bool, Vec<(&'static str, Value)>)> {
     let texture = json!({ "index": 0 });
+    let png = image(image::ImageFormat::Png, colourful);
+    let mut flipped = png.clone();
+    flipped[png.len() / 2] ^= 0xff;
     let base_texture = ("/materials/0/pbrMetallicRoughness/baseColorTexture", texture.clone());
     let textured = |place: &'static str, value: Value| vec![base_texture.clone(), (place, value)];
     let moved = |field: &str, value: Value| {
@@ -73,6 +76,8 @@ pub fn properties() -> Vec<(&'static str, bool, Vec<(&'static str, Value)>)> {
         ("image that is not there", false, textured("/images/0", json!({ "uri": "none.png" }))),
         ("image without data", false, textured("/images/0", json!({}))),
         ("image that is damaged", false, textured("/images/0/uri", uri(b"\x89PNG\r\n\x1a\nno"))),
+        ("image that breaks off", false, textured("/images/0/uri", uri(&png[..png.len() - 20]))),
+        ("image with a wrong checksum", false, textured("/images/0/uri", uri(&flipped))),
         ("image of another kind", false, textured("/images/0/uri", uri(b"GIF89a\0\0\0\0\0\0"))),
         ("texture without an image", false, textured("/textures/0", json!({}))),
         ("tangents", false, vec![("/meshes/0/primitives/0/attributes/TANGENT", json!(4))]),

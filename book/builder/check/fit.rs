@@ -63,31 +63,39 @@ fn filled(lines: &[&str], head: &str) -> Vec<String> {
 }
 
 /// A line in parts that fit, all but the first indented by so much more; within a string only where nothing else is left,
-/// and then with the mark by which Rust reads on as if it were not broken.
+/// and then with the mark by which Rust reads on as if it were not broken. What a comment behind code says remains one.
 fn broken(line: &str, further: usize, has_strings: bool) -> Vec<String> {
     let indent = line.len() - line.trim_start().len() + further;
     let (mut out, mut rest, mut begins_inside) = (Vec::new(), line.to_owned(), false);
     while is_wide(&rest) {
         let least = rest.len() - rest.trim_start().len();
         let quotes = |at: usize| usize::from(begins_inside) + rest[..at].matches('"').count();
-        let is_outside = |at: usize| !has_strings || quotes(at) % 2 == 0;
+        let comment = rest.match_indices("//").map(|(at, _)| at).find(|&at| has_strings && quotes(at) % 2 == 0);
+        let is_comment = |at: usize| comment.is_some_and(|start| at > start);
+        let is_outside = |at: usize| !has_strings || is_comment(at) || quotes(at) % 2 == 0;
+        // A comment is not broken between its mark and its first word.
+        let least = if is_comment(least + 1) { least + COMMENT.len() } else { least };
         let fits = |at: usize, mark: usize| at > least && width(&rest[..at]) + mark <= COLUMNS;
         let place = |of: &dyn Fn(usize) -> bool| rest.match_indices(' ').map(|(at, _)| at).rfind(|&at| of(at));
         let outside = place(&|at| fits(at, 0) && is_outside(at));
         let Some(at) = outside.or_else(|| place(&|at| fits(at, MARK.len()))) else { break };
         let mark = if outside.is_some() { "" } else { MARK };
-        let next = format!("{}{}", " ".repeat(indent), rest[at..].trim_start());
+        let again = if is_comment(at) { COMMENT } else { "" };
+        let next = format!("{}{again}{}", " ".repeat(indent), rest[at..].trim_start());
         // A part that is no shorter would be broken for ever.
         if next.len() >= rest.len() {
             break;
         }
-        begins_inside = has_strings && quotes(at) % 2 == 1;
+        begins_inside = has_strings && !is_comment(at) && quotes(at) % 2 == 1;
         out.push(format!("{}{mark}", rest[..at].trim_end()));
         rest = next;
     }
     out.push(rest);
     out
 }
+
+/// What stands before the words of a comment that goes on below.
+const COMMENT: &str = "// ";
 
 /// What stands at the end of a line within a string that goes on below: the space, and a mark.
 const MARK: &str = " \\";
@@ -133,6 +141,19 @@ mod tests {
         assert_eq!(comment.len(), 3, "{filled}");
         assert!(comment.iter().all(|line| line.starts_with("    /// ") && width(line) <= COLUMNS), "{filled}");
         assert!(comment[2].ends_with("last."));
+    }
+
+    /// A comment behind code goes on below as one, whatever quotation marks it has; two strokes in a string are none.
+    #[test]
+    fn a_comment_behind_code_stays_a_comment() {
+        let words = "one \"two three".to_owned() + &" word".repeat(30);
+        let text = source(&format!("    let a = call(\"x // y\"); // {words}"));
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(lines.len() > 2 && lines[0].starts_with("    let a = call(\"x // y\"); // one"), "{text}");
+        assert!(lines[1..].iter().all(|line| line.trim_start().starts_with("// ") && !is_wide(line)), "{text}");
+        let said: Vec<&str> = lines.iter().filter_map(|line| line.rsplit("// ").next()).collect();
+        assert_eq!(said.join(" "), words);
+        assert!(!text.contains('\\'), "{text}");
     }
 
     /// What goes on below is a comment, too.

@@ -64,11 +64,15 @@ pub fn read(page: &Page, path: &str, anchor: Option<&str>) -> Result<String, Str
     listing(&source, &label(path), anchor)
 }
 
-/// The same as the page shows it: no wider than its column.
+/// The same as the page shows it: Rust and text no wider than its column, and line by line as it is what one copies from
+/// the page into a file in which a broken line would mean something else.
 pub fn shown(page: &Page, path: &str, anchor: Option<&str>) -> Result<String, String> {
-    let is_source = [".rs", ".ron"].iter().any(|extension| path.ends_with(extension));
-    let fit = if is_source { fit::source } else { fit::printed };
-    read(page, path, anchor).map(|listing| fit(&listing))
+    let listing = read(page, path, anchor)?;
+    Ok(match path.rsplit('.').next() {
+        Some("rs") => fit::source(&listing),
+        Some("txt") => fit::printed(&listing),
+        _ => listing,
+    })
 }
 
 /// The file an include means.

@@ -13,7 +13,6 @@ pub mod links;
 pub mod listing;
 pub mod lists;
 pub mod movement;
-pub mod notation;
 pub mod parts;
 pub mod pattern;
 pub mod scan;
@@ -102,7 +101,6 @@ pub fn pages(all: &[Page]) -> Vec<Problem> {
     let mut problems: Vec<Problem> = all.iter().flat_map(|one| page(one, all)).collect();
     problems.extend(lists::summary(all));
     problems.extend(syllabus::problems(all));
-    problems.extend(terms::problems(all));
     problems
 }
 

@@ -3,7 +3,7 @@
 use super::directive::{Directive, parse};
 use super::links::headings;
 use super::scan::Scan;
-use super::{Page, Problem, inline, lesson};
+use super::{Page, inline, lesson};
 
 /// The page that lists the terms.
 pub const GLOSSARY: &str = "glossary.md";
@@ -333,19 +333,6 @@ fn tokens(latex: &str) -> Vec<String> {
     tokens
 }
 
-/// Rows of the glossary of which the book uses no term, once it has an index.
-pub fn problems(all: &[Page]) -> Vec<Problem> {
-    let Some(glossary) = glossary(all).filter(|_| all.iter().any(|page| page.name == INDEX)) else {
-        return Vec::new();
-    };
-    let places = places(all);
-    let idle = rows(glossary).into_iter().map(|(terms, _)| terms).filter(|terms| used(terms, &places).is_none());
-    let what = |row: Vec<String>| {
-        format!("explains `{}`, which no page uses: use the term, or leave it out.", row.join("`, `"))
-    };
-    idle.map(|row| Problem::new(&glossary.label, 0, what(row))).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::made_up;
@@ -398,13 +385,5 @@ mod tests {
         let expected =
             [("$\\rho$", "1 The albedo#the-albedo"), ("$L$", "2 Two#"), ("$L_e$", "1 One#"), ("$u$", "2 Two#")];
         assert_eq!(told, expected.map(|(letter, place)| (letter.to_owned(), place.to_owned())));
-    }
-
-    #[test]
-    fn a_term_that_no_page_uses_is_told() {
-        let mut all = book();
-        assert_eq!(problems(&all), []);
-        all[3].text = all[3].text.replace("| *ray*, *beam* ", "| *beam* ");
-        assert_eq!(problems(&all)[0].what, "explains `beam`, which no page uses: use the term, or leave it out.");
     }
 }

@@ -10,7 +10,9 @@ use super::error::{Error, Result};
 use super::format::{Format, print_json};
 use super::streams::Streams;
 use super::subject::Subject;
-use pinhole::Chapter;
+use crate::command::warnings::notes;
+use pinhole::plan::Census;
+use pinhole::{Chapter, Overrides};
 use pinhole_live::View;
 use scene::ViewedScene;
 use serde_json::json;
@@ -31,8 +33,13 @@ pub fn view(chapters: &[Chapter], asked: &ViewScene, format: Format, streams: &m
     }
     let subject = Subject::find(chapters, name)?;
     let shown = subject.shown();
-    let scene = Rc::new(ViewedScene::of(subject));
     let listener = listen(asked.port)?;
+    if !format.is_json() {
+        // What cannot be rendered is said on the page.
+        let world = subject.world(&Overrides::default());
+        notes(&Census::of(&world)).unwrap_or_default().iter().try_for_each(|note| streams.note(note))?;
+    }
+    let scene = Rc::new(ViewedScene::of(subject));
     let view = View::open(scene, asked.size, listener).map_err(Error::usage)?;
     let address = &view.address;
     if format.is_json() {

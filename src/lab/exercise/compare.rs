@@ -66,8 +66,8 @@ pub struct Mismatch {
     pub wrong: usize,
     /// Whether every answer was the same, as a stub's is.
     pub always_the_same: bool,
-    /// The mistake that gives these very answers.
-    pub looks_like: Option<&'static str>,
+    /// What is said of the mistakes that give these very answers.
+    pub looks_like: Option<String>,
 }
 
 /// Asks the function every input and compares.
@@ -127,32 +127,37 @@ where
     }
 }
 
-/// What is said of the mistake that explains the first wrong answer and those about it best.
-fn looks_like<I, A: Shown>(question: &Question<I, A>, given: &[A], right: &[A], first: usize) -> Option<&'static str> {
-    let about = question.probes[first].about;
-    let near = first + question.probes[first..given.len()].iter().take_while(|probe| probe.about == about).count();
-    let checked = question.mistakes.iter().map(|mistake| {
-        let made: Vec<A> = question.probes[..given.len()].iter().map(|probe| (mistake.makes)(&probe.input)).collect();
-        let agrees = |at: usize| question.same(&given[at], &made[at]) || given[at].shown() == made[at].shown();
+/// What is said of the mistakes that explain the first wrong answer and those about it best; of those that explain it
+/// alike, the fewest.
+fn looks_like<I: 'static, A: Shown + 'static>(
+    question: &Question<I, A>,
+    given: &[A],
+    right: &[A],
+    first: usize,
+) -> Option<String> {
+    let inputs = &question.probes[..given.len()];
+    let near = first + inputs[first..].iter().take_while(|probe| probe.about == inputs[first].about).count();
+    let agrees = |at: usize, made: &A| question.same(&given[at], made) || given[at].shown() == made.shown();
+    let mut best: Option<(f64, &str)> = None;
+    for (told, makes) in question.mistakes.explanations() {
+        // One input rules out most of them.
+        if !agrees(first, &makes(&inputs[first].input)) {
+            continue;
+        }
+        let made: Vec<A> = inputs.iter().map(|probe| makes(&probe.input)).collect();
         // Where the mistake changes nothing and the answer is right, the two say nothing about each other.
         let speaks = |at: &usize| !question.same(&made[*at], &right[*at]) || !question.same(&given[*at], &right[*at]);
         let fraction = |end: usize| {
-            let (mut agreed, mut spoken) = (0, 0);
-            for at in (0..end).filter(speaks) {
-                agreed += usize::from(agrees(at));
-                spoken += 1;
-            }
-            agreed as f64 / f64::from(spoken.max(1))
+            let spoken: Vec<usize> = (0..end).filter(speaks).collect();
+            let agreed = spoken.iter().filter(|&&at| agrees(at, &made[at])).count();
+            agreed as f64 / spoken.len().max(1) as f64
         };
-        (agrees(first) && fraction(near) >= 0.9, fraction(given.len()), mistake.told)
-    });
-    let mut best: Option<(f64, &'static str)> = None;
-    for (explains, fraction, told) in checked {
-        if explains && best.is_none_or(|(most, _)| fraction > most) {
-            best = Some((fraction, told));
+        let of_all = fraction(given.len());
+        if fraction(near) >= 0.9 && best.is_none_or(|(most, _)| of_all > most) {
+            best = Some((of_all, told));
         }
     }
-    best.map(|(_, told)| told)
+    best.map(|(_, told)| told.to_owned())
 }
 
 /// Enough answers to say so, and no two that differ.

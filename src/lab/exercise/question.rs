@@ -1,3 +1,4 @@
+use super::mistake::Mistakes;
 use super::shown::Shown;
 
 /// What one exercise asks, what counts as the same answer, and what is said when it is not.
@@ -16,8 +17,8 @@ pub struct Question<I, A> {
     pub allowed: f64,
     /// What `apart` measures, in words, after the number: "of each part".
     pub measured: &'static str,
-    /// Mistakes that can be recognised, the special before the general.
-    pub mistakes: Vec<Mistake<I, A>>,
+    /// Mistakes that can be recognised.
+    pub mistakes: Mistakes<I, A>,
     /// What is said to whoever is stuck, each telling more than the one before.
     pub hints: &'static [&'static str],
 }
@@ -31,21 +32,6 @@ pub struct Probe<I> {
     pub is_extreme: bool,
     /// The arguments.
     pub input: I,
-}
-
-/// A mistake, known by what it would answer.
-pub struct Mistake<I, A> {
-    /// What is said of it.
-    pub told: &'static str,
-    /// What comes out if it is made.
-    pub makes: fn(&I) -> A,
-}
-
-impl<I, A> Mistake<I, A> {
-    /// A mistake and what is said of it.
-    pub fn new(told: &'static str, makes: fn(&I) -> A) -> Self {
-        Self { told, makes }
-    }
 }
 
 /// Ordinary probes with the same remark.

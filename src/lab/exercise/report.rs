@@ -13,7 +13,7 @@ impl Report {
                 writeln!(out, "★ {} is right for all {} ordinary inputs", self.function, self.inputs - extremes)?;
                 writeln!(out, "☆ for a second star, {wrong} of {extremes} extreme inputs are left; the first:")?;
                 self.print_mismatch(mismatch, out)?;
-                mismatch.looks_like.map_or(Ok(()), |told| writeln!(out, "it looks as if {told}"))
+                mismatch.looks_like.as_ref().map_or(Ok(()), |told| writeln!(out, "it looks as if {told}"))
             }
             Outcome::Wrong(mismatch) => {
                 let (wrong, inputs) = (mismatch.wrong, self.inputs);
@@ -23,7 +23,7 @@ impl Report {
                     return writeln!(out, "it gives this answer whatever it is asked, as the stub does");
                 }
                 // Whoever is told the mistake needs no hint for those who are stuck.
-                match mismatch.looks_like {
+                match &mismatch.looks_like {
                     Some(told) => writeln!(out, "it looks as if {told}"),
                     None => self.print_hints(hints, out),
                 }

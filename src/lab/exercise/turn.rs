@@ -72,6 +72,7 @@ pub fn take_turn(name: &str, exercise: &Exercise, file: &Path, out: &mut dyn Wri
 pub fn list_exercises(exercises: &[(&str, Exercise)], file: &Path, out: &mut dyn Write) -> Result {
     let (progress, remark) = Progress::read(file);
     writeln!(out, "functions for you to write, each checked against pinhole's:")?;
+    let widest = exercises.iter().map(|(_, exercise)| exercise.function.len()).max().unwrap_or(0);
     for (chapter, exercise) in exercises {
         let tries = progress.of(chapter);
         let state = match (tries.done, tries.tried) {
@@ -81,7 +82,7 @@ pub fn list_exercises(exercises: &[(&str, Exercise)], file: &Path, out: &mut dyn
             (false, 1) => "tried once".into(),
             (false, times) => format!("tried {times} times"),
         };
-        writeln!(out, "  {:<22} {:<24} {state}", chapter, exercise.function)?;
+        writeln!(out, "  {:<22} {:<widest$}  {state}", chapter, exercise.function)?;
     }
     writeln!(out, "each lies in chapters/<chapter>/exercise.rs; `check 5` tries that of chapter 05")?;
     if let Some(remark) = remark {

@@ -2,7 +2,6 @@
 
 use super::Figure;
 use super::label::Label;
-use super::occluders::Occluders;
 use super::pen::WIDTH;
 use super::picture::Picture;
 use super::svg::{Drawing, Svg};
@@ -10,15 +9,31 @@ use crate::naive::shadow::{ShadowStart, start_after_constant, start_at_hit, star
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3, Vec3};
 use pinhole::Result;
-use pinhole::extract::MaterialTable;
+use pinhole::extract::{MaterialTable, shape_bodies};
 use pinhole::film::FilmTile;
 use pinhole::intersect::{NO_SHAPE, Surfaces};
+use pinhole::material::lambertian;
 use pinhole::plan::{Census, Table};
 use pinhole::render::inspect;
 use pinhole::scene::{LookAt, Placement, PointLight, Resolution, Rgb, Sphere};
-use pinhole::material::lambertian;
 use pinhole::shade::{LightRays, ShadowHits};
+use pinhole::shapes::Body;
 use pinhole::{Chapter, Overrides};
+
+/// A scene's shapes, for figures that send rays of their own; the intersection is pinhole's.
+pub struct Occluders(Vec<Body>);
+
+impl Occluders {
+    /// The shapes of a scene, in render space.
+    pub fn of(scene: &World) -> Result<Self> {
+        Ok(Self(shape_bodies(&Census::of(scene))?))
+    }
+
+    /// Whether anything is hit before `t_max`.
+    pub fn block(&self, origin: DVec3, direction: DVec3, t_max: f64) -> bool {
+        self.0.iter().any(|shape| shape.t(origin, direction) < t_max)
+    }
+}
 
 /// Pixels of each small picture.
 const SIZE: [u32; 2] = [144, 81];

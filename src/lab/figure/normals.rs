@@ -1,8 +1,8 @@
 //! Spheres scaled unevenly, lit by wrong normals and by right ones.
 
 use super::Figure;
+use super::acne::Occluders;
 use super::label::Label;
-use super::occluders::Occluders;
 use super::pen::{Pen, RAY, WIDTH};
 use super::picture::Picture;
 use super::svg::{Drawing, Svg};
@@ -13,11 +13,11 @@ use pinhole::extract::{EllipsoidTable, MaterialTable, PointLightTable};
 use pinhole::film::FilmTile;
 use pinhole::intersect::{Hits, Surface, Surfaces};
 use pinhole::lights::irradiance_from_point;
+use pinhole::material::lambertian;
 use pinhole::plan::{Census, Table};
 use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::Resolution;
-use pinhole::material::lambertian;
 use pinhole::shade::shadow_t_max;
 use pinhole::shapes::{normal_world_from_object, offset_origin};
 use pinhole::{Chapter, Overrides};

@@ -1,8 +1,9 @@
 //! Vectors of exact numbers, and of enclosed ones.
 
 use super::enclosure::Enclosure;
-use super::exact::Dyadic;
+use super::exact::{Dyadic, UNIT_ROUNDOFF_F32 as U};
 use super::number::Number;
+use glam::Vec3;
 
 /// A point or a vector of three numbers, in whatever space its source was.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -80,4 +81,29 @@ impl ExactVector {
     pub fn length(&self) -> Dyadic {
         self.dot(self).square_root()
     }
+}
+
+/// The angle between a normal and the exact one, in u; infinite where it points the other way.
+///
+/// Nothing where these numbers cannot tell, which exact ones always can.
+fn angle<N: Number>(normal: Vec3, exact: &Vector<N>) -> Option<f64> {
+    let normal = Vector::of(normal);
+    if normal.dot(exact).sign()? <= 0 {
+        return Some(f64::INFINITY);
+    }
+    let lengths = normal.dot(&normal).by(&exact.dot(exact)).about()?.sqrt();
+    Some(normal.cross(exact).length_about()? / lengths / U)
+}
+
+/// The angles of two normals, by enclosures where these can tell and exactly where not.
+pub fn angles(
+    [first, second]: [Vec3; 2],
+    enclosed: Option<EnclosedVector>,
+    exact: impl FnOnce() -> Option<ExactVector>,
+) -> Option<[f64; 2]> {
+    let told = enclosed.and_then(|truth| Some([angle(first, &truth)?, angle(second, &truth)?]));
+    told.or_else(|| {
+        let truth = exact()?;
+        Some([angle(first, &truth)?, angle(second, &truth)?])
+    })
 }

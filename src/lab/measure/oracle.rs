@@ -1,12 +1,17 @@
 //! The exact oracle of every registered shape: the distance with more precision than any method has, and the side on
 //! which a point lies.
 
+use super::enclosure::Enclosure;
+use super::exact::Dyadic;
+use super::exact_vector::{ExactVector, angles};
+use super::naive_hits::{self, NaiveHit, NaiveNormal};
+use super::number::Number;
 use super::ray_aim::{AimedRay, Draws};
 use super::{
     oracle_cuboid, oracle_disk, oracle_ellipsoid, oracle_frustum, oracle_plane, oracle_rectangle, oracle_sphere,
     oracle_torus, oracle_triangle,
 };
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use pinhole::shapes::{
     Ellipsoid, Frustum, FrustumShape, Listed, PlacedDisk, PlacedFrustum, PlacedMesh, PlacedPlane, PlacedRectangle,
     PlacedSphere, PlacedTorus, Slabs, TriangleRow,
@@ -19,6 +24,10 @@ pub trait Oracle: Listed {
     const IS_CONVEX: bool = true;
     /// Whether a ray that leaves it on either side never hits it again.
     const IS_PLANAR: bool = false;
+    /// How far t may be off where a ray comes from anywhere, relative to itself, in u.
+    const FROM_ANYWHERE: f64 = 2.0;
+    /// Whether it is asked to tell a ray that touches it exactly from one that misses it.
+    const TELLS_TOUCHING: bool = true;
 
     /// The smallest t > 0 at which a ray intersects it, if any, rounded to f64 once.
     fn exact_t(&self, ray: AimedRay) -> Option<f64>;
@@ -26,6 +35,22 @@ pub trait Oracle: Listed {
     /// 1 for a point outside it or on the side of its normal, −1 for one on the other side, 0 for one on its surface,
     /// exactly.
     fn exact_side(&self, point: DVec3) -> i32;
+
+    /// The textbooks' methods for t.
+    fn naive_hits() -> Vec<NaiveHit<Self>> {
+        Vec::new()
+    }
+
+    /// The textbooks' method for the normal, where the exact one is known.
+    fn naive_normal() -> Option<NaiveNormal<Self>> {
+        None
+    }
+
+    /// The angles between two normals and the exact one on the ray's side, in u; nothing where that is unknown or the ray
+    /// hits nothing.
+    fn normal_angles(&self, _ray: AimedRay, _normals: [Vec3; 2]) -> Option<[f64; 2]> {
+        None
+    }
 
     /// Whether a ray first hits it on the side that its origin lies on; not so where it has open ends.
     fn parts_space(&self) -> bool {
@@ -48,6 +73,10 @@ impl Oracle for PlacedSphere {
         let &Self { centre, radius } = self;
         oracle_sphere::side_of_sphere(point, oracle_sphere::Sphere { centre, radius }) as i32
     }
+
+    fn naive_hits() -> Vec<NaiveHit<Self>> {
+        naive_hits::of_spheres()
+    }
 }
 
 impl Oracle for Ellipsoid {
@@ -58,10 +87,28 @@ impl Oracle for Ellipsoid {
     fn exact_side(&self, point: DVec3) -> i32 {
         oracle_ellipsoid::side_of_ellipsoid(point, self)
     }
+
+    fn naive_hits() -> Vec<NaiveHit<Self>> {
+        naive_hits::of_ellipsoids()
+    }
+
+    fn naive_normal() -> Option<NaiveNormal<Self>> {
+        Some(naive_hits::ELLIPSOID_NORMAL)
+    }
+
+    fn normal_angles(&self, ray: AimedRay, normals: [Vec3; 2]) -> Option<[f64; 2]> {
+        let AimedRay { origin, direction } = ray;
+        let side = f64::from(self.exact_side(origin.as_dvec3()));
+        let enclosed = oracle_ellipsoid::enclosed_outward(origin, direction, self);
+        let exact = || Some(oracle_ellipsoid::outward(origin, direction, self)?.times(&Dyadic::of(side)));
+        angles(normals, enclosed.map(|outward| outward.times(&Enclosure::of(side))), exact)
+    }
 }
 
 impl Oracle for PlacedPlane {
     const IS_PLANAR: bool = true;
+    /// From elsewhere than the eye, t is a difference of two numbers of any size, and as good as they allow.
+    const FROM_ANYWHERE: f64 = f64::INFINITY;
 
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         let &Self { normal, offset } = self;
@@ -71,6 +118,10 @@ impl Oracle for PlacedPlane {
     fn exact_side(&self, point: DVec3) -> i32 {
         let &Self { normal, offset } = self;
         oracle_plane::side_of_plane(point, oracle_plane::Plane { normal, offset }) as i32
+    }
+
+    fn naive_hits() -> Vec<NaiveHit<Self>> {
+        naive_hits::of_planes()
     }
 }
 
@@ -84,6 +135,10 @@ impl Oracle for PlacedDisk {
     fn exact_side(&self, point: DVec3) -> i32 {
         oracle_disk::side_of_planar(point, &self.planar) as i32
     }
+
+    fn naive_hits() -> Vec<NaiveHit<Self>> {
+        naive_hits::of_disks()
+    }
 }
 
 impl Oracle for PlacedRectangle {
@@ -96,6 +151,10 @@ impl Oracle for PlacedRectangle {
     fn exact_side(&self, point: DVec3) -> i32 {
         oracle_disk::side_of_planar(point, &self.planar) as i32
     }
+
+    fn naive_hits() -> Vec<NaiveHit<Self>> {
+        naive_hits::of_rectangles()
+    }
 }
 
 impl Oracle for Slabs {
@@ -105,6 +164,21 @@ impl Oracle for Slabs {
 
     fn exact_side(&self, point: DVec3) -> i32 {
         oracle_cuboid::side_of_cuboid(point, self)
+    }
+
+    fn naive_hits() -> Vec<NaiveHit<Self>> {
+        naive_hits::of_cuboids()
+    }
+
+    fn naive_normal() -> Option<NaiveNormal<Self>> {
+        Some(naive_hits::CUBOID_NORMAL)
+    }
+
+    fn normal_angles(&self, ray: AimedRay, normals: [Vec3; 2]) -> Option<[f64; 2]> {
+        let (_, axis) = oracle_cuboid::cuboid_t(ray.origin, ray.direction, self)?;
+        let outward = self.normal[axis];
+        let faces = if outward.dot(ray.direction.as_dvec3()) > 0.0 { -outward } else { outward };
+        angles(normals, None, || Some(ExactVector::of(faces)))
     }
 }
 
@@ -118,12 +192,28 @@ impl Oracle for TriangleRow {
     fn exact_side(&self, point: DVec3) -> i32 {
         oracle_triangle::side_of_triangle(point, self.corners) as i32
     }
+
+    fn naive_hits() -> Vec<NaiveHit<Self>> {
+        naive_hits::of_triangles()
+    }
+
+    fn naive_normal() -> Option<NaiveNormal<Self>> {
+        Some(naive_hits::TRIANGLE_NORMAL)
+    }
+
+    fn normal_angles(&self, ray: AimedRay, normals: [Vec3; 2]) -> Option<[f64; 2]> {
+        oracle_triangle::triangle_t(ray.origin, ray.direction, self.corners)?;
+        let exact = oracle_triangle::exact_normal(self.corners) * f64::from(self.exact_side(ray.origin.as_dvec3()));
+        angles(normals, None, || Some(ExactVector::of(exact / exact.abs().max_element())))
+    }
 }
 
 impl<C: FrustumShape> Oracle for PlacedFrustum<C>
 where
     Self: Listed,
 {
+    const TELLS_TOUCHING: bool = false;
+
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         oracle_frustum::frustum_t(origin, direction, &self.frustum)
     }
@@ -143,6 +233,7 @@ where
 
 impl Oracle for PlacedTorus {
     const IS_CONVEX: bool = false;
+    const TELLS_TOUCHING: bool = false;
 
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         oracle_torus::torus_t(origin, direction, self)
@@ -165,6 +256,9 @@ impl Oracle for PlacedTorus {
 
 /// A convex mesh: the examples of the component are.
 impl Oracle for PlacedMesh {
+    /// The ray is rounded once more in the mesh's own space.
+    const FROM_ANYWHERE: f64 = 16.0;
+
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         let t = self.placed_triangles().filter_map(|at| oracle_triangle::triangle_t(origin, direction, at));
         t.reduce(f64::min)

@@ -65,11 +65,18 @@ impl<S: Listed> Specimen<S> {
             Some(false) => DVec3::splat(draws.between(0.5, 2.0)),
             _ => DVec3::new(draws.between(0.5, 2.0), draws.between(0.2, 1.0), draws.between(0.5, 3.0)),
         };
-        let position = draws.unit_vector() * (size * away);
-        let along = position.abs().max_element();
-        let beside_axis = position.map(|part| if part.abs() == along { part } else { 2.0 * part / away.max(2.0) });
-        let position = if draws.unit() < 0.5 { position } else { beside_axis };
-        Self::of(component, Placement { position, orientation, scale })
+        Self::of(component, Placement { position: place(draws, size, away), orientation, scale })
+    }
+
+    /// The same, an unevenly scaled sphere up to 10⁷ times as long as it is thick.
+    pub fn drawn_stretched(draws: &mut Draws, sizes: [f64; 2], away: f64) -> Option<Self> {
+        if S::UNEVEN != Some(true) {
+            return Self::drawn(draws, sizes, away);
+        }
+        let (size, ratio) = (draws.power_of_ten(sizes[0], sizes[1]), draws.power_of_ten(0.1, 6.9));
+        let (orientation, scale) = (turn(draws), scales(draws, ratio) * size);
+        let position = place(draws, scale.abs().max_element(), away);
+        Self::of(S::Component::default(), Placement { position, orientation, scale })
     }
 
     /// The centre and radius of a sphere around it; of one that is infinite, its origin and as far as it is away.
@@ -87,13 +94,57 @@ impl<S: Listed> Specimen<S> {
 
     /// The distance that its intersection kernel finds, if it finds one.
     pub fn kernel_t(&self, ray: AimedRay) -> Option<f64> {
-        let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
-        let rays = RaySlices { origin: origin.each_ref().map(from_ref), direction: direction.each_ref().map(from_ref) };
-        let (mut t, mut shape) = ([f64::INFINITY], [NO_SHAPE]);
-        let hits = ClosestHits { t: &mut t, shape: &mut shape, primitive: None, any: false };
-        S::keep_closest(from_ref(&self.shape), &[0], rays, hits);
-        (shape[0] != NO_SHAPE).then_some(t[0])
+        kernel_ts(from_ref(&self.shape), &[ray], f64::INFINITY)[0]
     }
+}
+
+/// The distances to the closest of these shapes before `t_max` that the intersection kernel finds, one a ray.
+pub fn kernel_ts<S: Shape>(shapes: &[S], rays: &[AimedRay], t_max: f64) -> Vec<Option<f64>> {
+    let part = |vector: fn(&AimedRay) -> glam::Vec3, axis: usize| rays.iter().map(|ray| vector(ray)[axis]).collect();
+    let origin: [Vec<f32>; 3] = [0, 1, 2].map(|axis| part(|ray| ray.origin, axis));
+    let direction: [Vec<f32>; 3] = [0, 1, 2].map(|axis| part(|ray| ray.direction, axis));
+    let numbers: Vec<u32> = (0..shapes.len() as u32).collect();
+    let (mut t, mut shape) = (vec![t_max; rays.len()], vec![NO_SHAPE; rays.len()]);
+    let hits = ClosestHits { t: &mut t, shape: &mut shape, primitive: None, any: false };
+    let slices = RaySlices {
+        origin: origin.each_ref().map(|part| &part[..]),
+        direction: direction.each_ref().map(|part| &part[..]),
+    };
+    S::keep_closest(shapes, &numbers, slices, hits);
+    t.iter().zip(shape).map(|(&t, shape)| (shape != NO_SHAPE).then_some(t)).collect()
+}
+
+/// A turn, uniform over all turns.
+pub fn turn(draws: &mut Draws) -> DQuat {
+    // Two halves of the four numbers, each uniform on a circle (Shoemake, Graphics Gems III).
+    let [a, b] = [(); 2].map(|()| draws.between(0.0, std::f64::consts::TAU));
+    let fraction = draws.unit();
+    let (r, s) = (libm::sqrt(1.0 - fraction), libm::sqrt(fraction));
+    DQuat::from_xyzw(r * libm::sin(a), r * libm::cos(a), s * libm::sin(b), s * libm::cos(b))
+}
+
+/// Scales of which the largest is `ratio` times the smallest: needles, pancakes and all between, mirrored or not.
+pub fn scales(draws: &mut Draws, ratio: f64) -> DVec3 {
+    let kind = draws.unit();
+    let middle = if kind < 0.35 {
+        1.0
+    } else if kind < 0.7 {
+        ratio
+    } else {
+        libm::pow(ratio, draws.unit())
+    };
+    let mut sign = || if draws.unit() < 0.5 { -1.0 } else { 1.0 };
+    let mut scales = [1.0 * sign(), middle * sign(), ratio * sign()];
+    scales.rotate_left((draws.unit() * 3.0) as usize);
+    DVec3::from(scales)
+}
+
+/// A place so many sizes from the eye; half of all are close to an axis.
+fn place(draws: &mut Draws, size: f64, away: f64) -> DVec3 {
+    let position = draws.unit_vector() * (size * away);
+    let along = position.abs().max_element();
+    let beside_axis = position.map(|part| if part.abs() == along { part } else { 2.0 * part / away.max(2.0) });
+    if draws.unit() < 0.5 { position } else { beside_axis }
 }
 
 impl<S: Oracle> Specimen<S> {

@@ -2,7 +2,6 @@
 //! that must notice.
 
 use super::emitter::{pdf_without_cosine, pdf_without_jacobian};
-use super::motion::time_of_frame;
 use super::path::uniform_direction;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3, Vec3};
@@ -203,3 +202,13 @@ pub fn moments_in_turn(frames: u32) -> Stage {
     };
     Stage::new("Take moments in turn", TileSystems::Lens, fill).kind(StageKind::Alternative)
 }
+
+// ANCHOR: time_of_frame
+/// The time of a sample where all pixels take the same few moments, in turn.
+///
+/// What moves farther than its own width between two of them shows as so many ghosts, at any number of samples.
+#[must_use]
+pub fn time_of_frame(sample: u32, frames: u32, length: f64) -> f64 {
+    (f64::from(sample % frames) + 0.5) / f64::from(frames) * length
+}
+// ANCHOR_END: time_of_frame

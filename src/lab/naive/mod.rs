@@ -24,7 +24,6 @@ pub mod material;
 pub mod mesh;
 pub mod methods;
 pub mod mistake;
-pub mod motion;
 pub mod ndc;
 mod one_page;
 pub mod path;

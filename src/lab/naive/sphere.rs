@@ -67,37 +67,6 @@ pub fn hit_haines_f32(origin: Vec3, direction: Vec3, centre: Vec3, radius: f32) 
     [first.min(second), first.max(second)].into_iter().find(|t| *t > 0.0)
 }
 
-/// The point o + t d in f32, in the world.
-///
-/// Its error is as large as the spacing of f32 at the world's coordinates, however near the eye the point lies.
-#[must_use]
-pub fn point_f32(origin: Vec3, direction: Vec3, t: f32) -> Vec3 {
-    origin + direction * t
-}
-
-/// The nearest of several spheres: a root is kept unless it is farther than what was kept before.
-///
-/// A ray that is no ray gives roots that are no numbers; none of these is farther than anything, and once kept nothing
-/// is farther than it.
-#[must_use]
-pub fn nearest_unless_farther(origin: Vec3, direction: Vec3, spheres: &[(Vec3, f32)]) -> f32 {
-    let mut nearest = f32::INFINITY;
-    for &(centre, radius) in spheres {
-        let from_centre = origin - centre;
-        let (a, half_b) = (direction.dot(direction), from_centre.dot(direction));
-        let discriminant = half_b * half_b - a * (from_centre.dot(from_centre) - radius * radius);
-        if discriminant < 0.0 {
-            continue;
-        }
-        let t = (-half_b - discriminant.sqrt()) / a;
-        if t < 0.0 || t > nearest {
-            continue;
-        }
-        nearest = t;
-    }
-    nearest
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,14 +82,6 @@ mod tests {
             let in_f64 = hit_f64_plain(Vec3::ZERO, direction, centre.as_dvec3(), f64::from(radius));
             assert_eq!(in_f64, t.map(f64::from));
         }
-    }
-
-    #[test]
-    fn one_root_that_is_nan_stays() {
-        let spheres = [(Vec3::new(0.0, 0.0, -3.0), 1.0), (Vec3::new(0.0, 0.0, -9.0), 1.0)];
-        assert_eq!(nearest_unless_farther(Vec3::ZERO, Vec3::NEG_Z, &spheres), 2.0);
-        assert!(nearest_unless_farther(Vec3::ZERO, Vec3::ZERO, &spheres).is_nan());
-        assert_eq!(point_f32(Vec3::X, Vec3::NEG_Z, 2.0), Vec3::new(1.0, 0.0, -2.0));
     }
 
     /// How many silhouette rays a method classifies otherwise than the oracle, both on an f32 sphere.

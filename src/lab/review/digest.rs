@@ -2,8 +2,9 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::world::EntityRef;
 use pinhole::Result;
 use pinhole::extract::ImageFrame;
+use pinhole::film::FilmTile;
 use pinhole::look::paths;
-use pinhole::plan::{Census, ColumnKind, Plan, Stage, Table};
+use pinhole::plan::{Census, Column, ColumnKind, Plan, Stage, Table};
 use pinhole::rays::{Depth, Tile};
 use pinhole::render::{Execution, Hook, inspect_stages};
 use std::fmt::Write;
@@ -20,7 +21,7 @@ const FNV_PRIME: u64 = 0x0000_0100_0000_01b3;
 #[derive(Resource, Default)]
 struct Digests(Vec<DigestTable>);
 
-/// What one stage wrote into one column: a digest a block of pixels.
+/// What one stage wrote into one column: a digest a block of pixels, of which only the film's are told one by one.
 struct DigestTable {
     stage: &'static str,
     column: &'static str,
@@ -30,8 +31,8 @@ struct DigestTable {
     blocks: Vec<Option<u64>>,
 }
 
-/// A digest of everything that every stage writes, as text: a table for each column of each stage, a line a row of
-/// blocks.
+/// A digest of everything that every stage writes, as text: a word for each column of each stage, and of the film a table
+/// of words, a line a row of blocks.
 ///
 /// The digests are taken after the stage and not at the end, so that a column that several stages write still tells
 /// which of them was the first to write something else.
@@ -47,10 +48,15 @@ pub(super) fn digests_in_tiles(scene: &World, offer: &[Stage], tile_side: u32) -
     let image = ImageFrame::extract(&Census::of(scene))?;
     let mut frame = inspect_stages(scene, offer, tile_side, &[digest_hook(image)])?;
     let Digests(tables) = frame.world.remove_resource().unwrap_or_default();
-    let mut text =
-        format!("{} × {} pixels, a digest for each {BLOCK_SIDE} × {BLOCK_SIDE}\n", image.width, image.height);
+    let mut text = format!(
+        "{} × {} pixels, of the film a digest for each {BLOCK_SIDE} × {BLOCK_SIDE}\n\n",
+        image.width, image.height
+    );
     for table in &tables {
-        let _ = write!(text, "\n\"{}\" writes {}\n{table}", table.stage, table.column);
+        let _ = match table.column == FilmTile::NAME {
+            true => write!(text, "\n\"{}\" writes {}\n{table}", table.stage, table.column),
+            false => writeln!(text, "{} \"{}\" writes {}", table.whole(), table.stage, table.column),
+        };
     }
     Ok(text)
 }
@@ -105,6 +111,15 @@ impl DigestTable {
     }
 }
 
+impl DigestTable {
+    /// One word for all blocks.
+    fn whole(&self) -> String {
+        let missing = 1 << 32;
+        let blocks = self.blocks.iter().map(|block| block.map_or(missing, |block| u64::from(folded(block))));
+        word(blocks.fold(FNV_START, fnv))
+    }
+}
+
 impl std::fmt::Display for DigestTable {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         for line in self.blocks.chunks(self.across) {
@@ -120,9 +135,14 @@ fn fnv(state: u64, bits: u64) -> u64 {
     bits.to_le_bytes().iter().fold(state, |state, &byte| (state ^ u64::from(byte)).wrapping_mul(FNV_PRIME))
 }
 
-/// Both halves of a digest folded into one, in eight hexadecimal digits.
+/// Both halves of a digest folded into one.
+fn folded(digest: u64) -> u32 {
+    (digest >> 32) as u32 ^ digest as u32
+}
+
+/// The same in eight hexadecimal digits.
 fn word(digest: u64) -> String {
-    format!("{:08x}", (digest >> 32) as u32 ^ digest as u32)
+    format!("{:08x}", folded(digest))
 }
 
 #[cfg(test)]
@@ -164,6 +184,11 @@ mod tests {
     fn a_block_without_rows_has_no_digest() {
         let table = DigestTable::new("a stage", "light", ImageFrame { width: 17, height: 9 });
         assert_eq!(table.to_string(), "-------- -------- --------\n".repeat(2));
+        let mut one = DigestTable::new("a stage", "light", ImageFrame { width: 17, height: 9 });
+        one.blocks[4] = Some(7);
+        let mut other = DigestTable::new("a stage", "light", ImageFrame { width: 17, height: 9 });
+        other.blocks[5] = Some(7);
+        assert!(table.whole() != one.whole() && one.whole() != other.whole(), "the word tells which block it is");
     }
 
     fn scene(world: &mut World) {
@@ -180,7 +205,7 @@ mod tests {
         let chapter = Chapter::new("digest", "for this test", scene).offer(stages::all());
         let (world, stages) = (chapter.world(&pinhole::Overrides::default()), chapter.stages());
         let text = digests_in_tiles(&world, &stages, 32)?;
-        assert!(text.contains("\n\"Sample point lights\" writes light\n"), "{text}");
+        assert!(text.contains(" \"Sample point lights\" writes light\n"), "{text}");
         for side in [8, 16, 64] {
             assert!(digests_in_tiles(&world, &stages, side)? == text, "tiles of {side} pixels");
         }

@@ -5,7 +5,7 @@
 //! what waits, the files that insta would.
 //!
 //! Three witnesses, from the one that says *what* to the one that says *that*: [`probes`] are a few pixels' rays in
-//! numbers, [`digests`] a short word for every stage and block of pixels, [`picture`] the image itself.
+//! numbers, [`digests`] a short word for every stage and column, [`picture`] the image itself.
 
 mod contrast;
 mod difference;
@@ -22,6 +22,6 @@ pub use difference::{Difference, Place, StageBlocks, first_difference, stage_blo
 pub use digest::{BLOCK_SIDE, digests};
 pub use page::{Compared, escape, page};
 pub use pending::{Pending, pending};
-pub use picture::{PictureDifference, compare_pictures, picture, picture_contrast};
+pub use picture::{PictureDifference, averages_out, compare_pictures, picture, picture_contrast};
 pub use probes::{ChangedRow, Probe, changed_rows, probe_pixels, probes};
 pub use snapshots::{DEVELOP, Develop, SNAPSHOT_FILES, SNAPSHOT_SIZE, Snapshots, plan_text, snapshot_folder};

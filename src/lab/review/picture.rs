@@ -1,4 +1,4 @@
-use super::{difference_png, full_white};
+use super::{BLOCK_SIDE, difference_png, full_white};
 use bevy_ecs::prelude::*;
 use image::{ImageFormat, ImageResult};
 use pinhole::Result;
@@ -57,6 +57,39 @@ pub fn compare_pictures(old: &[u8], new: &[u8]) -> ImageResult<PictureDifference
     Ok(difference)
 }
 
+/// Whether what differs between two pictures averages out over blocks of pixels, as it does where only the noise is
+/// another; none where too few pixels differ to tell, or the pictures cannot be compared.
+///
+/// A block's mean difference is divided by its standard error; over all blocks the mean of the squares is close to 1 for
+/// noise, and far above it where the mean of the picture has moved.
+pub fn averages_out(old: &[u8], new: &[u8]) -> Option<bool> {
+    let decode = |bytes| image::load_from_memory_with_format(bytes, ImageFormat::Png).map(|image| image.to_rgb8());
+    let (old, new) = (decode(old).ok()?, decode(new).ok()?);
+    let (width, height) = old.dimensions();
+    if new.dimensions() != (width, height) {
+        return None;
+    }
+    let (mut squares, mut count) = (0.0, 0.0);
+    let blocks = (0..height / BLOCK_SIDE).flat_map(|y| (0..width / BLOCK_SIDE).map(move |x| [x, y]));
+    for ([x, y], part) in blocks.flat_map(|block| [0, 1, 2].map(|part| (block, part))) {
+        let pixels =
+            (0..BLOCK_SIDE * BLOCK_SIDE).map(|at| (x * BLOCK_SIDE + at % BLOCK_SIDE, y * BLOCK_SIDE + at / BLOCK_SIDE));
+        let off: Vec<f64> = pixels
+            .map(|(x, y)| f64::from(new.get_pixel(x, y).0[part]) - f64::from(old.get_pixel(x, y).0[part]))
+            .collect();
+        let size = off.len() as f64;
+        // Where few pixels differ, they are their own standard error.
+        if off.iter().filter(|off| **off != 0.0).count() * 4 < off.len() {
+            continue;
+        }
+        let mean = off.iter().sum::<f64>() / size;
+        let variance = off.iter().map(|off| (off - mean) * (off - mean)).sum::<f64>() / (size - 1.0);
+        squares += (mean * mean / (variance / size).max(1e-9)).min(100.0);
+        count += 1.0;
+    }
+    (count > 0.0).then(|| squares / count < 1.0 + 4.0 * (2.0 / count).sqrt())
+}
+
 /// The difference of two pictures of one size as a PNG, with its scale in words; none where they cannot be compared.
 ///
 /// Errors: an encoder that refuses.
@@ -110,6 +143,7 @@ impl fmt::Display for PictureDifference {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::ray_aim::Draws;
     use image::{Rgb, RgbImage};
     use std::io::Cursor;
 
@@ -129,6 +163,23 @@ mod tests {
         let difference = compare_pictures(&png(&old)?, &png(&new)?)?;
         assert_eq!((difference.differing, difference.largest, difference.worst), (2, 7, [3, 2]));
         assert_eq!(difference.colours, [[10, 20, 30], [10, 13, 30]]);
+        Ok(())
+    }
+
+    #[test]
+    fn noise_averages_out_and_another_mean_does_not() -> ImageResult<()> {
+        let mut draws = Draws::new(31, 0);
+        let mut noisy = |mean: f64| {
+            RgbImage::from_fn(48, 32, |_, _| Rgb([(); 3].map(|()| (mean + draws.between(-9.0, 9.0)) as u8)))
+        };
+        let (old, other_noise, brighter) = (png(&noisy(90.0))?, png(&noisy(90.0))?, png(&noisy(96.0))?);
+        assert_eq!(averages_out(&old, &other_noise), Some(true));
+        assert_eq!(averages_out(&old, &brighter), Some(false));
+        assert_eq!(averages_out(&old, &old), None);
+        assert_eq!(
+            averages_out(&png(&RgbImage::new(8, 8))?, &png(&RgbImage::from_pixel(8, 8, Rgb([1; 3])))?),
+            Some(false)
+        );
         Ok(())
     }
 

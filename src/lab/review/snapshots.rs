@@ -28,7 +28,7 @@ pub const DEVELOP: &str = "Develop";
 pub struct Snapshots {
     /// A few pixels' rays in numbers: [`probes`].
     pub probes: String,
-    /// A short word for every stage and block of pixels: [`digests`].
+    /// A short word for every stage and column, and for every block of the film: [`digests`].
     pub digests: String,
     /// Which stages ran, and why.
     pub plan: String,
@@ -161,8 +161,8 @@ mod tests {
         };
         assert_eq!(png(None).first_difference(&png(None)), None);
         let told = png(None).first_difference(&png(Some((17, 9)))).map(|difference| difference.to_string());
-        let expected = "the first stage whose numbers differ is \"Develop\" (column picture), \
-            first in the block of pixels 16..19, 8..9 (1 of 6 blocks differ)";
+        let expected = "the first stage whose numbers differ is \"Develop\" (column picture); \
+            in the picture 1 of 6 blocks differ, the first at pixels 16..19, 8..9";
         assert_eq!(told.as_deref(), Some(expected));
     }
 }

@@ -35,6 +35,12 @@ pub struct Reflection {
     pub metallic_roughness_texture: Option<ModelTexture>,
 }
 
+/// The material of what has none: every value is its default (glTF 2.0, 3.7.2.1 and 3.9.2), so white, all metal, rough and
+/// seen from one side.
+pub fn default_material() -> ModelMaterial {
+    ModelMaterial { name: "default material".into(), metallic: 1.0, thin: true, ..ModelMaterial::default() }
+}
+
 /// Reads the materials.
 ///
 /// Errors: a field of another kind, or images that take too much memory.
@@ -186,6 +192,18 @@ mod tests {
     #[test]
     fn what_a_material_does_not_say_is_gltf_s_default() {
         assert_eq!(material(""), ModelMaterial { metallic: 1.0, thin: true, ..ModelMaterial::default() });
+    }
+
+    /// As if the file gave an empty one, whether it gives others or none.
+    #[test]
+    fn what_has_no_material_has_gltf_s_default() {
+        for others in ["", ",'materials':[{'pbrMetallicRoughness':{'roughnessFactor':0.5}}]"] {
+            let model = read(&format!("{}{others}", mesh("{'attributes':{'POSITION':0}}"))).expect("read");
+            let own = &model.materials[model.instances[0].material.expect("the default")];
+            assert_eq!(*own, ModelMaterial { name: "default material".into(), ..material("") }, "{others}");
+            assert_eq!((own.base_colour, own.metallic, own.roughness, own.double_sided), ([1.0; 3], 1.0, 1.0, false));
+        }
+        assert_eq!(model("").materials.len(), 2, "one of the file's that is not used");
     }
 
     #[test]

@@ -151,7 +151,7 @@ impl PrimitiveParts {
         for other in [&normals, &uvs].into_iter().flatten() {
             other.check_count(vertices)?;
         }
-        let colours = match self.colours {
+        let colours: Option<Vec<[f32; 3]>> = match self.colours {
             None => None,
             Some(index) if document.row(Table::Accessors, index)?.text("type")? == Some("VEC4") => {
                 let colours = accessor(index, Meant::Fours)?;
@@ -167,6 +167,9 @@ impl PrimitiveParts {
                 Some(colours.floats(wanted, memory)?)
             }
         };
+        // The specification has readers clamp them.
+        let mut within = |colour: [f32; 3]| remarks.vertex_colour(colour.map(f64::from)).map(|part| part as f32);
+        let colours = colours.map(|colours| colours.into_iter().map(&mut within).collect());
         let mut mesh = TriangleMesh {
             positions: positions.floats(wanted, memory)?,
             triangles,

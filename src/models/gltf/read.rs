@@ -5,7 +5,7 @@ use super::document::{Document, Table};
 use super::images::Images;
 use super::instancing::places_of;
 use super::json::Json;
-use super::materials::{ReadMaterial, read_materials};
+use super::materials::{ReadMaterial, default_material, read_materials};
 use super::morph::rest_weights;
 use super::nodes::SceneNodes;
 use super::object::Object;
@@ -53,12 +53,17 @@ pub fn read_gltf(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Mode
     };
     scene.place_nodes()?;
     let mut model = scene.model;
+    let by_default = materials.len();
     model.materials = materials.into_iter().map(|read| read.material).collect();
+    if model.instances.iter().any(|instance| instance.material == Some(by_default)) {
+        model.materials.push(default_material());
+    }
     Ok(model)
 }
 
-/// A mesh of the model, its material, and whether a skin has placed it in the world.
-type Part = (usize, Option<usize>, bool);
+/// A mesh of the model, its material, and whether a skin has placed it in the world; the material behind the last of the
+/// file's is the default one.
+type Part = (usize, usize, bool);
 
 /// A mesh of the file as a node uses it: its index, its skin, and the weights of its morph targets as bits.
 type Use = (usize, Option<usize>, Vec<u64>);
@@ -144,7 +149,7 @@ impl<'a> Scene<'a> {
             self.model.instances.extend(parts.iter().map(|(mesh, material, is_placed)| Instance {
                 name: name.clone(),
                 mesh: *mesh,
-                material: *material,
+                material: Some(*material),
                 // The transform of a node with a skin must be ignored: its joints place the mesh.
                 world_from_object: if *is_placed { DAffine3::IDENTITY } else { *world },
             }));
@@ -158,6 +163,7 @@ impl<'a> Scene<'a> {
             let primitive = mesh.item("primitives", number, json)?;
             let material = primitive.index("material", self.materials.len())?;
             let found = self.mesh_of(&primitive, material, skin, weights)?;
+            let material = material.unwrap_or(self.materials.len());
             parts.extend(found.map(|(mesh, is_placed)| (mesh, material, is_placed)));
         }
         Ok(parts)

@@ -1,7 +1,7 @@
 use crate::triangle_mesh::TriangleMesh;
 use serde_json::{Value, json};
 
-/// A mesh as a binary glTF file without materials, of which `read_model` makes the same mesh.
+/// A mesh as a binary glTF file without materials of its own, of which `read_model` makes the same mesh.
 ///
 /// Its one node places it where it is.
 /// The layout is that of the glTF 2.0 specification, "GLB File Format".
@@ -20,6 +20,10 @@ pub fn glb_of(mesh: &TriangleMesh) -> Option<Vec<u8>> {
     if let Some(uvs) = &mesh.uvs {
         let parts = uvs.iter().flatten().map(|part| part.to_le_bytes());
         attributes["TEXCOORD_0"] = json!(buffer.add(parts, ("VEC2", 2), FLOAT));
+    }
+    if let Some(colours) = &mesh.colours {
+        let parts = colours.iter().flatten().map(|part| part.to_le_bytes());
+        attributes["COLOR_0"] = json!(buffer.add(parts, ("VEC3", 3), FLOAT));
     }
     let corners = mesh.triangles.iter().flatten().map(|corner| corner.to_le_bytes());
     let indices = buffer.add(corners, ("SCALAR", 1), UNSIGNED_INT);
@@ -102,20 +106,21 @@ mod tests {
         let normals: Vec<[f32; 3]> =
             (0..4).map(|i| glam::DVec3::new(0.3, f64::from(i), -1.7).normalize().as_vec3().to_array()).collect();
         let uvs = vec![[0.1, 0.9], [1e-9, 1.0 - 1e-7], [0.0, 1.0], [third, -2.5]];
+        let colours = vec![[0.0, 1.0, third], [1e-9, 1.0 - 1e-7, 0.5], [0.25; 3], [1.0; 3]];
         let triangles = vec![[0, 1, 2], [2, 1, 3]];
-        for columns in 0..4 {
+        for columns in 0..8 {
             let mesh = TriangleMesh {
                 positions: positions.clone(),
                 triangles: triangles.clone(),
                 normals: (columns & 1 != 0).then(|| normals.clone()),
                 uvs: (columns & 2 != 0).then(|| uvs.clone()),
-                ..TriangleMesh::default()
+                colours: (columns & 4 != 0).then(|| colours.clone()),
             };
             let file = glb_of(&mesh).expect("a small file");
             assert_eq!(file.len() % 4, 0);
             let none = |_: &str| Err("there is none".to_owned());
             let model = read_model("own.glb", &file, &none).expect("can be read");
-            assert_eq!((model.meshes.len(), model.instances.len(), model.materials.len()), (1, 1, 0));
+            assert_eq!((model.meshes.len(), model.instances.len(), model.materials.len()), (1, 1, 1));
             assert_eq!(*model.meshes[0], mesh);
             assert_eq!(model.instances[0].world_from_object, glam::DAffine3::IDENTITY);
             assert_eq!(glb_of(&model.meshes[0]), Some(file), "written again");

@@ -179,6 +179,14 @@ impl Faces {
         self.polygons.add(vertices, remarks);
     }
 
+    /// How many of its vertices have no texture coordinate, and no normal, where others have one.
+    pub fn missing(&self) -> [u64; 2] {
+        let count = |has_some: bool, is_missing: fn(&&Corner) -> bool| {
+            if has_some { self.corners.iter().filter(is_missing).count() as u64 } else { 0 }
+        };
+        [count(self.has_uvs, |corner| corner.uv == NONE), count(self.has_normals, |corner| corner.normal == NONE)]
+    }
+
     /// The positions of its vertices.
     pub fn positions(&self, columns: &Columns) -> impl Iterator<Item = [f64; 3]> {
         self.corners.iter().map(|corner| columns.positions[corner.position as usize])

@@ -62,9 +62,6 @@ impl MtlMaterial {
         if self.has_ambient_map && self.diffuse_map.is_none() {
             remarks.add_unread("`map_Ka` without `map_Kd`", 1);
         }
-        if alpha < 1.0 {
-            remarks.add_unread("opacity below 1 of `d` or `Tr`, so that what is transparent is opaque", 1);
-        }
         // A map for `norm` is one of normals; in `map_Bump`, Blender and others write one, too, and grey ones are heights.
         let normal_map = self.normal_map.or(self.bump_map);
         // A factor makes a black base white under a texture, as older exporters mean it.

@@ -65,7 +65,7 @@ pub fn read_obj(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Model
                 if let Some(colour) = colour(words) {
                     // Those before it that have none are white.
                     columns.colours.resize(columns.positions.len() - 1, [1.0; 3]);
-                    columns.colours.push(colour);
+                    columns.colours.push(model.remarks.vertex_colour(colour).map(linear_from_srgb));
                 }
             }
             b"vn" => columns.normals.push(numbers(name, number, "vn", &mut words)?.map(|part| part as f32)),
@@ -75,8 +75,12 @@ pub fn read_obj(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Model
                 let (rows, mut is_there) = (columns.rows(), true);
                 let (group, faces) = groups.current();
                 for word in words {
+                    let absent = model.remarks.absent_attributes;
                     let corner = Corner::read(word, rows, all, &mut model.remarks)
                         .map_err(|accepted| ModelError::new(name, place(number, "f"), shown_bytes(word), accepted))?;
+                    if model.remarks.absent_attributes > absent {
+                        model.remarks.absent_attribute_line.get_or_insert(number);
+                    }
                     match corner {
                         Some(corner) if is_there => polygon.push(vertices.find(corner, group, faces)),
                         _ => is_there = false,
@@ -87,6 +91,7 @@ pub fn read_obj(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Model
                     faces.add_polygon(&polygon, &mut model.remarks);
                 } else {
                     model.remarks.absent_vertices += 1;
+                    model.remarks.absent_vertex_line.get_or_insert(number);
                 }
             }
             b"usemtl" => groups.use_material(&rest_of(&line)),
@@ -129,15 +134,15 @@ fn numbers<'w, const N: usize>(
     Ok(numbers)
 }
 
-/// The colour behind a position, in linear light: three numbers, or four of which the first is the position's weight.
-fn colour<'w>(words: impl Iterator<Item = &'w [u8]>) -> Option<[f32; 3]> {
+/// The colour behind a position, as the file has it: three numbers, or four of which the first is the position's weight.
+fn colour<'w>(words: impl Iterator<Item = &'w [u8]>) -> Option<[f64; 3]> {
     let (mut numbers, mut count) = ([0.0; 4], 0);
     for (number, word) in numbers.iter_mut().zip(words) {
         *number = double(word)?;
         count += 1;
     }
     match (numbers, count) {
-        ([r, g, b, _], 3) | ([_, r, g, b], 4) => Some([r, g, b].map(linear_from_srgb)),
+        ([r, g, b, _], 3) | ([_, r, g, b], 4) => Some([r, g, b]),
         _ => None,
     }
 }
@@ -160,7 +165,11 @@ fn place_meshes(model: &mut Model, groups: Groups, columns: &Columns, libraries:
     let centre = centre_of(groups.faces.iter().flat_map(|(_, faces)| faces.positions(columns)));
     let mut plain = None;
     for (material, faces) in groups.faces {
+        let [without_uvs, without_normals] = faces.missing();
         let mesh = faces.into_mesh(columns, centre, &mut model.remarks).cleaned(&mut model.remarks);
+        // A normal that is not there is not one without a direction.
+        model.remarks.zero_normals -= without_normals;
+        model.remarks.missing_normals += without_normals;
         if mesh.triangles.is_empty() {
             model.remarks.empty_meshes += 1;
             continue;
@@ -172,16 +181,17 @@ fn place_meshes(model: &mut Model, groups: Groups, columns: &Columns, libraries:
             model.remarks.add_unread("materials that no library describes", 1);
         }
         if mesh.colours.is_some() && index.is_none() {
-            // White, so that the colours of the vertices are seen as they are.
+            // White, so that the colours of the vertices are seen as they are, and from both sides as all of an OBJ file.
             index = Some(*plain.get_or_insert_with(|| {
-                model.materials.push(ModelMaterial { name: "vertex colours".into(), ..ModelMaterial::default() });
+                let (name, double_sided) = ("vertex colours".into(), true);
+                model.materials.push(ModelMaterial { name, double_sided, ..ModelMaterial::default() });
                 model.materials.len() - 1
             }));
         }
         model.remarks.without_normals += u64::from(mesh.normals.is_none());
-        model.remarks.without_uvs += u64::from(
-            mesh.uvs.is_none() && index.is_some_and(|index| model.materials[index].base_colour_texture.is_some()),
-        );
+        let is_textured = index.is_some_and(|index| model.materials[index].base_colour_texture.is_some());
+        model.remarks.without_uvs += u64::from(is_textured && mesh.uvs.is_none());
+        model.remarks.missing_uvs += if is_textured { without_uvs } else { 0 };
         model.instances.push(Instance {
             name: material.unwrap_or_default(),
             mesh: model.meshes.len(),

@@ -57,8 +57,8 @@ fn columns<'b, const BIG: bool>(
                 let size = element.least_size(false) as usize;
                 let rows = if element.is_fixed() { values.rows(element.rows, size) } else { None };
                 columns = match rows {
-                    Some(rows) => parts.read_rows::<BIG>(element, rows, size),
-                    None => parts.read_values(name, element, values, &mut remarks.extra_values)?,
+                    Some(rows) => parts.read_rows::<BIG>(element, rows, size, remarks),
+                    None => parts.read_values(name, element, values, remarks)?,
                 };
             }
             "face" => {

@@ -2,6 +2,7 @@ use super::element::{Element, Number};
 use super::values::{Values, double_at, float_at};
 use crate::colour::linear_from_srgb;
 use crate::model_error::ModelError;
+use crate::remarks::Remarks;
 use crate::triangle_mesh::TriangleMesh;
 
 /// The names of a vertex's properties: x, y, z; the normal; u and v; red, green and blue.
@@ -88,12 +89,19 @@ impl VertexParts {
     }
 
     /// A colour in linear light.
-    fn colour(&self, parts: [f32; 3]) -> [f32; 3] {
-        parts.map(|part| linear_from_srgb(f64::from(part) / self.whole_colour))
+    fn colour(&self, parts: [f32; 3], remarks: &mut Remarks) -> [f32; 3] {
+        let own = parts.map(|part| f64::from(part) / self.whole_colour);
+        remarks.vertex_colour(own).map(linear_from_srgb)
     }
 
     /// Reads the vertices of a binary file whose rows all have one size.
-    pub fn read_rows<const BIG: bool>(&self, element: &Element, bytes: &[u8], size: usize) -> Vertices {
+    pub fn read_rows<const BIG: bool>(
+        &self,
+        element: &Element,
+        bytes: &[u8],
+        size: usize,
+        remarks: &mut Remarks,
+    ) -> Vertices {
         let offset = |place: usize| element.properties[..place].iter().map(|own| own.number.size()).sum::<usize>();
         let columns = self.places.map(|place| {
             let place = place.unwrap_or(0);
@@ -117,12 +125,12 @@ impl VertexParts {
             uvs.extend(rows().map(|row| [read(row, 6), 1.0 - read(row, 7)]));
         }
         if let Some(colours) = &mut mesh.colours {
-            colours.extend(rows().map(|row| self.colour([read(row, 8), read(row, 9), read(row, 10)])));
+            colours.extend(rows().map(|row| self.colour([read(row, 8), read(row, 9), read(row, 10)], remarks)));
         }
         Vertices { mesh, precise }
     }
 
-    /// Reads the vertices one number after another, and counts the rows that have more of them than there should be.
+    /// Reads the vertices one number after another; the rows that have more of them than there should be are counted.
     ///
     /// Errors: the number that is missing or none.
     pub fn read_values<'b>(
@@ -130,7 +138,7 @@ impl VertexParts {
         file: &str,
         element: &Element,
         values: &mut impl Values<'b>,
-        extra: &mut u64,
+        remarks: &mut Remarks,
     ) -> Result<Vertices, ModelError> {
         let mut part_of = vec![None; element.properties.len()];
         for (part, place) in self.places.iter().enumerate() {
@@ -154,12 +162,12 @@ impl VertexParts {
                 };
                 read.map_err(|why| super::read::absent(file, element, row, &property.name, why))?;
             }
-            *extra += u64::from(values.end_row());
+            remarks.extra_values += u64::from(values.end_row());
             let [nx, ny, nz, u, v, r, g, b] = parts;
             precise.push(position);
             mesh.normals.iter_mut().for_each(|normals| normals.push([nx, ny, nz]));
             mesh.uvs.iter_mut().for_each(|uvs| uvs.push([u, 1.0 - v]));
-            mesh.colours.iter_mut().for_each(|colours| colours.push(self.colour([r, g, b])));
+            mesh.colours.iter_mut().for_each(|colours| colours.push(self.colour([r, g, b], remarks)));
         }
         Ok(Vertices { mesh, precise: Some(precise) })
     }

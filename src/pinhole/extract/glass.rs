@@ -43,6 +43,9 @@ impl Table for GlassTable {
     }
 }
 
+/// What a sheet of glass without an interior can be made of.
+const SHEETS: &str = "; a pane that is a single sheet is made of thin_glass";
+
 /// Checks that no shape without an interior is made of glass.
 fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
     for &shape in shape_entities(scene).iter() {
@@ -56,7 +59,7 @@ fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
             continue;
         }
         let value = format!("the glass {}", called(scene, material));
-        let accepted = format!("glass needs a shape with an interior: {}", shapes_with_inside());
+        let accepted = format!("glass needs a shape with an interior: {}{SHEETS}", shapes_with_inside());
         return Err(SceneError::new(kind_and_name(scene, listed.word, shape), "material", value, accepted));
     }
     check_meshes(scene)
@@ -91,9 +94,9 @@ fn check_meshes(scene: &Census<'_>) -> Result<(), SceneError> {
     let open = meshes.iter().filter_map(|(material, rows)| Some((open_mesh(triangles, rows)?, *material)));
     let Some((OpenMesh { row, turned }, material)) = open.min_by_key(|(open, _)| open.row) else { return Ok(()) };
     let why = if turned {
-        "this triangle shows another side than its neighbour: swap two of its vertices"
+        "this triangle shows another side than its neighbour: swap two of its vertices".to_owned()
     } else {
-        "this triangle has an edge that no other triangle of the same glass has"
+        format!("this triangle has an edge that no other triangle of the same glass has{SHEETS}")
     };
     let value = format!("the glass {}", called(scene, material));
     let accepted = format!("glass needs a shape with an interior, and {why}");

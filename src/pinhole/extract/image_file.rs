@@ -9,7 +9,8 @@ use crate::scene::{
     Undecoded, check_memory, image_kind, open_file, printable, printable_path,
 };
 use bevy_ecs::prelude::*;
-use image::{DynamicImage, ImageFormat, ImageReader, Limits};
+use image::metadata::Orientation;
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Cursor};
@@ -176,7 +177,13 @@ fn texels(path: &Path, bytes: &[u8], numbers: Numbers) -> Result<(Texels, Vec<St
         let mut limits = Limits::default();
         limits.max_alloc = Some(MOST_TEXELS * 16);
         reader.limits(limits);
-        let image = reader.decode().map_err(|error| one_line(&error))?;
+        let mut decoder = reader.into_decoder().map_err(|error| one_line(&error))?;
+        let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
+        if orientation != Orientation::NoTransforms {
+            let number = orientation.to_exif();
+            remarks.push(format!("its EXIF orientation is {number}, and its texels are used as they lie in the file"));
+        }
+        let image = DynamicImage::from_decoder(decoder).map_err(|error| one_line(&error))?;
         Texels { width: image.width() as usize, height: image.height() as usize, rgb: linear(image, numbers) }
     };
     if format == ImageFormat::Hdr {

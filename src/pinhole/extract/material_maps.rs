@@ -6,9 +6,7 @@ use super::emissive::emissive_entities;
 use super::image_file::{emission_image, factor_image};
 use super::texture::{NO_TEXTURE, rows_of_kind, texture_of_kind};
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{
-    EmissionMap, Emissive, MetallicRoughnessMap, SceneError, Texture, UvTransform, Wrap, WrapMode,
-};
+use crate::scene::{EmissionMap, Emissive, MetallicRoughnessMap, SceneError, Texture, UvTransform, Wrap, WrapMode};
 use bevy_ecs::prelude::*;
 use glam::{DMat2, DVec2};
 use std::collections::BTreeMap;

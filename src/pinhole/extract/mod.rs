@@ -137,7 +137,7 @@ pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_ev
 pub use moving::{MovingTable, shape_bodies};
 pub use normal_map::{NormalMapTable, normal_map_evidence};
 pub use pixel_steps::PixelSteps;
-pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, world_from_entity};
+pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, upward, world_from_entity};
 pub use pyramid::{Pyramid, halved};
 pub use rasterisation::{box_evidence, no_plane_to_rasterise, rasterisation_evidence, rasterising_camera};
 pub use ray_origins::{RayOrigins, ray_origins_evidence};
@@ -153,9 +153,7 @@ pub use shapes_of::{
 };
 pub use sky::sky_evidence;
 pub use srgb::linear_from_srgb;
-pub use starts_on_glass::{
-    GlassStart, GlassStartTable, end_close_to_glass_evidence, start_on_glass_evidence,
-};
+pub use starts_on_glass::{GlassStart, GlassStartTable, end_close_to_glass_evidence, start_on_glass_evidence};
 pub use texels::Texels;
 pub use texture::{
     NO_TEXTURE, ShapeSpaces, TextureMap, TextureMapping, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,

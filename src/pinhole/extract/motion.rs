@@ -5,9 +5,7 @@ use super::shape_kind::moving_shapes;
 use super::texture::TEXTURES;
 use super::velocity::{moves_while_open, shutter_has_duration, shutter_of, velocity_of};
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{
-    Motion, SceneError, Shutter, UsesMaterial, called,
-};
+use crate::scene::{Motion, SceneError, Shutter, UsesMaterial, called};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::collections::HashSet;

@@ -137,21 +137,34 @@ fn quadruple(q: DQuat) -> String {
 // ANCHOR: look_at_axes
 /// The axes of a camera or object at `eye` that looks at `target`: x to its right, y up, −z ahead.
 ///
-/// Errors: a coordinate that is not finite, `eye` equal to `target`, `up` of length 0 or along the view.
+/// Errors: a coordinate that is not finite, `eye` equal to `target`, `up` of length 0 or, other than the default, along the
+/// view.
 pub fn look_at_axes(who: &str, look: &LookAt) -> Result<DMat3, SceneError> {
     finite_point(who, "eye", look.eye)?;
     finite_point(who, "target", look.target)?;
     let Some(back) = direction(look.eye - look.target) else {
         return Err(SceneError::new(who, "target", triple(look.target), "it must be a point other than eye"));
     };
-    let Some(up) = direction(look.up) else {
+    let Some(up) = direction(upward(look)) else {
         return Err(SceneError::new(who, "up", triple(look.up), "it must be a finite direction other than 0"));
     };
     let right = up.cross(back);
     match direction(right) {
         Some(x) if right.length() >= LEAST_SINE => Ok(DMat3::from_cols(x, back.cross(x), back)),
-        _ => Err(SceneError::new(who, "up", triple(look.up), "it must not point along the view from eye to target")),
+        _ => {
+            let across = if back.y.abs() < 0.9 { "(0, 1, 0)" } else { "(0, 0, -1)" };
+            let accepted = format!("it must not point along the view from eye to target; {across} does not");
+            Err(SceneError::new(who, "up", triple(look.up), accepted))
+        }
     }
+}
+
+/// The direction that is upward in the image: `up` as it is given, or, where it is the default and the view is vertical,
+/// that of a camera which looked along −z and was tilted until it looks down (−z) or up (z).
+pub fn upward(look: &LookAt) -> DVec3 {
+    let back = direction(look.eye - look.target).unwrap_or_default();
+    let is_vertical = DVec3::Y.cross(back).length() < LEAST_SINE;
+    if look.up == DVec3::Y && is_vertical { DVec3::new(0.0, 0.0, -back.y.signum()) } else { look.up }
 }
 // ANCHOR_END: look_at_axes
 
@@ -167,6 +180,31 @@ fn direction(v: DVec3) -> Option<DVec3> {
 mod tests {
     use super::*;
     use crate::shapes::{direction_object_from_world, normal_world_from_object, point_object_from_world};
+
+    /// Straight down and straight up, exactly or nearly, x stays where it was as the camera was tilted; an up that was
+    /// written along the view is refused, and the one that the refusal names is taken.
+    #[test]
+    fn a_vertical_view_needs_no_up() {
+        let looking = |ahead: DVec3, up: DVec3| {
+            let eye = DVec3::new(3.0, -2.0, 5.0);
+            look_at_axes("camera", &LookAt { eye, target: eye + ahead, up })
+        };
+        for (ahead, top) in [(DVec3::NEG_Y, DVec3::NEG_Z), (DVec3::Y, DVec3::Z)] {
+            for tilt in [0.0, 1e-9, 9e-7, 1.1e-6, 1e-3] {
+                let nearly = ahead * libm::cos(tilt) + DVec3::NEG_Z * libm::sin(tilt);
+                let axes = looking(7.0 * nearly, DVec3::Y).expect("axes");
+                assert!(axes.x_axis.distance(DVec3::X) < 1e-9, "{ahead} {tilt}: {axes}");
+                assert!(axes.y_axis.distance(top) <= 1.01 * tilt + 1e-9, "{ahead} {tilt}: {axes}");
+            }
+            for up in [2.0 * DVec3::Y, DVec3::NEG_Y] {
+                let refused = looking(ahead, up).expect_err("an up along the view").to_string();
+                assert!(refused.ends_with("from eye to target; (0, 0, -1) does not"), "{refused}");
+                assert!(looking(ahead, DVec3::NEG_Z).is_ok());
+            }
+        }
+        let refused = looking(DVec3::Z, DVec3::Z).expect_err("an up along the view").to_string();
+        assert!(refused.ends_with("; (0, 1, 0) does not"), "{refused}");
+    }
 
     /// A mirrored, scaled object under a rotated and flattened parent.
     fn nested() -> Pose {

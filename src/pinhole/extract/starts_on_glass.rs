@@ -54,7 +54,8 @@ fn starts(scene: &Census<'_>) -> Result<Vec<(String, GlassStart)>, SceneError> {
     }
     let bodies = scene.table::<GlassBodyTable>()?;
     let extent = bodies.row.iter().flat_map(|body| [body.bounds.least, body.bounds.most]);
-    let extent = extent.filter(|corner| corner.is_finite()).fold(0.0, |most: f64, corner| most.max(corner.abs().max_element()));
+    let extent =
+        extent.filter(|corner| corner.is_finite()).fold(0.0, |most: f64, corner| most.max(corner.abs().max_element()));
     let place = |name: String, position: DVec3, from_origin: f64| {
         let position = position.as_vec3().as_dvec3();
         let far = position.abs().max_element();

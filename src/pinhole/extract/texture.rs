@@ -85,9 +85,7 @@ pub fn filtered_evidence(scene: &Census<'_>) -> Evidence {
 
 /// Evidence that a texture of colours is mapped by uv.
 pub fn by_uv_evidence(scene: &Census<'_>) -> Evidence {
-    scene.once(|scene| {
-        colours_evidence(scene, |own| format!("{} by uv", own.pattern), |by, _| by == TextureBy::Uv)
-    })
+    scene.once(|scene| colours_evidence(scene, |own| format!("{} by uv", own.pattern), |by, _| by == TextureBy::Uv))
 }
 
 /// Evidence that a texture of colours is mapped by uv and filtered.
@@ -196,8 +194,9 @@ fn size_of_texture<T: Texture>(scene: &Census<'_>, material: Entity, size: f64) 
 fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
     let materials: BTreeSet<Entity> = material_entities(scene).iter().copied().collect();
     let of_materials = TEXTURES.iter().filter(|own| own.feeds != Feeds::Emission);
-    let mut owned: Vec<(Entity, &Registered)> =
-        of_materials.flat_map(|own| (own.owners)(scene).iter().map(move |&owner| (owner, own)).collect::<Vec<_>>()).collect();
+    let mut owned: Vec<(Entity, &Registered)> = of_materials
+        .flat_map(|own| (own.owners)(scene).iter().map(move |&owner| (owner, own)).collect::<Vec<_>>())
+        .collect();
     owned.sort_by_key(|(owner, _)| owner.index());
     for (at, &(owner, own)) in owned.iter().enumerate() {
         let who = kind_and_name(scene, own.word, owner);
@@ -216,7 +215,8 @@ fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
             };
             return Err(SceneError::new(who, "material", material.word, format!("{given}, as of {takers}")));
         }
-        let is_second = |(other, of): &&(Entity, &Registered)| *other == owner && [own.feeds, of.feeds] == [Feeds::Colour; 2];
+        let is_second =
+            |(other, of): &&(Entity, &Registered)| *other == owner && [own.feeds, of.feeds] == [Feeds::Colour; 2];
         if let Some((_, other)) = owned[at + 1..].iter().take_while(|(other, _)| *other == owner).find(is_second) {
             let value = format!("given twice, as {} and as {}", own.word, other.word);
             return Err(SceneError::new(who, "texture", value, "a material may have one texture only"));

@@ -29,10 +29,7 @@ fn passed_at_start(surface: &Surface, origin: DVec3, direction: DVec3) -> f64 {
 }
 
 /// Multiplies the throughput of each scattered ray by the transmittance of the glass between the surface and its origin.
-pub fn absorb_at_start(
-    glass: Res<Shared<GlassTable>>,
-    mut tiles: Query<(&Surfaces, &Media, &mut Scattered)>,
-) {
+pub fn absorb_at_start(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Surfaces, &Media, &mut Scattered)>) {
     for (surfaces, media, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
             let there = media.get(ray).top();

@@ -2,8 +2,7 @@ use super::deeper_media::{Carrier, deeper_media_evidence};
 use super::{DeeperMedia, MediumStack, Scattered};
 use crate::extract::{
     GlassBody, GlassBodyTable, GlassTable, MaterialTable, NO_ROW, absorption_evidence, end_close_to_glass_evidence,
-    followed_evidence, glass_contact_evidence,
-    glass_evidence, glass_overlaps,
+    followed_evidence, glass_contact_evidence, glass_evidence, glass_overlaps,
 };
 use crate::intersect::{Contacts, GlassCrossing, SurfaceSides, Surfaces};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};

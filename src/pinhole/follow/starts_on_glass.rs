@@ -1,7 +1,7 @@
 //! Paths that start on the surface of glass, and shadow rays that end close to one.
 
-use super::interface::{Interface, InterfaceView};
 use super::MediumStack;
+use super::interface::{Interface, InterfaceView};
 use super::media::list_around;
 use crate::extract::{
     GlassBodyTable, GlassStart, GlassStartTable, GlassTable, MaterialTable, end_close_to_glass_evidence,
@@ -89,9 +89,10 @@ pub fn leave_glass_at_start_stage() -> Stage {
 
 /// The stage that runs [`block_across_surfaces`].
 pub fn block_across_surfaces_stage() -> Stage {
-    Stage::new("Block light across surfaces beside lights", TileSystems::AbsorbShadowRays, block_across_surfaces)
-        .when(|scene| {
+    Stage::new("Block light across surfaces beside lights", TileSystems::AbsorbShadowRays, block_across_surfaces).when(
+        |scene| {
             let close = end_close_to_glass_evidence(scene).and(|| followed_evidence(scene));
             close.and(|| shadow_evidence(scene))
-        })
+        },
+    )
 }

@@ -1,8 +1,9 @@
 use crate::Result;
-use crate::extract::{ShapeTable, TriangleTable, listed_kinds, shape_name};
+use crate::extract::{GlassBodyTable, GlassTable, ShapeTable, TriangleTable, glass_evidence, listed_kinds, shape_name};
 use crate::plan::Census;
 use crate::shapes::emitter::triangle_solid_angle;
 use glam::DVec3;
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -19,6 +20,16 @@ pub fn shape_around_camera(scene: &Census<'_>, shapes: &ShapeTable) -> Result<Op
     let mesh = triangles_around(&*scene.table::<TriangleTable>()?, shapes);
     let Some(shape) = around.or(mesh) else { return Ok(None) };
     Ok(Some(format!("the camera is inside the {} and sees it from within", shape_name(scene, shape as usize))))
+}
+
+/// The index of refraction of the glass that the camera is in; none where it is in none.
+pub fn ior_around_camera(scene: &Census<'_>) -> Result<Option<f64>> {
+    if !glass_evidence(scene).needed {
+        return Ok(None);
+    }
+    let (bodies, glass) = (scene.table::<GlassBodyTable>()?, scene.table::<GlassTable>()?);
+    let around = bodies.row.iter().filter(|body| body.windings(DVec3::ZERO, 0.0) > 0).map(|body| body.glass as usize);
+    Ok(around.min_by_key(|&row| (Reverse(glass.priority[row]), row)).map(|row| glass.ior[row]))
 }
 
 /// The first triangle of a mesh of one material that is closed around the camera: signed solid angles, negative where a

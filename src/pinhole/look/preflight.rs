@@ -1,6 +1,6 @@
 use super::black::black;
 use super::emitters::emitters;
-use super::inside::shape_around_camera;
+use super::inside::{ior_around_camera, shape_around_camera};
 use super::missing::missing_paths;
 use super::pilot::{Pilot, pilot};
 use super::radians::radians;
@@ -104,9 +104,16 @@ fn by_pilot(scene: &Census<'_>, pilot: &Pilot, shapes: &ShapeTable, samples: f64
     warnings.extend(dark);
     let beyond_white = pilot.beyond_white as f64 / pilot.rays.max(1) as f64;
     if beyond_white >= MANY && pilot.is_everywhere() {
+        // What arrives there is refracted into fewer directions: it is no mistake of the lights.
+        let why = match ior_around_camera(scene)?.filter(|ior| *ior > 1.0) {
+            Some(ior) => format!(
+                "the camera is in glass whose index of refraction is {ior}, where radiance is {:.3} times that outside",
+                ior * ior
+            ),
+            None => "dimmer lights avoid it".into(),
+        };
         warnings.push(format!(
-            "{:.0} % of the test rays return more than white, which a PNG clips: the EXR keeps it, and dimmer lights \
-             avoid it",
+            "{:.0} % of the test rays return more than white, which a PNG clips: the EXR keeps it, and {why}",
             100.0 * beyond_white
         ));
     }

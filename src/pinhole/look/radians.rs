@@ -6,8 +6,9 @@ use bevy_ecs::prelude::*;
 use glam::{DMat3, DQuat};
 use std::f64::consts::{PI, TAU};
 
-/// Angles of view between which a number may be one in radians: 10° to 120°.
-const ANGLES_OF_VIEW: [f64; 2] = [0.17, 2.1];
+/// Angles of view between which a number is likely to be one in radians, 29° to 92°; in degrees they are those of the
+/// longest lenses alone, most of which are rounded to a whole one.
+const ANGLES_OF_VIEW: [f64; 2] = [0.5, 1.6];
 /// How far a rounded number of radians is from a multiple of 15°, at most.
 const ROUNDED: f64 = 2e-3;
 
@@ -21,7 +22,6 @@ pub fn radians(scene: &Census<'_>) -> Vec<String> {
             angle.to_degrees()
         ));
     };
-    let is_angle_of_view = |angle: f64| (ANGLES_OF_VIEW[0]..=ANGLES_OF_VIEW[1]).contains(&angle);
     for &entity in scene.entities::<With<PerspectiveCamera>>().iter() {
         if let Some(camera) = scene.get::<PerspectiveCamera>(entity).filter(|camera| is_angle_of_view(camera.fov.0)) {
             ask(entity, "fov", camera.fov.0);
@@ -30,7 +30,7 @@ pub fn radians(scene: &Census<'_>) -> Vec<String> {
     for &entity in scene.entities::<With<FisheyeCamera>>().iter() {
         // Up to 360°.
         if let Some(camera) =
-            scene.get::<FisheyeCamera>(entity).filter(|own| (1.0..=TAU + ROUNDED).contains(&own.fov.0))
+            scene.get::<FisheyeCamera>(entity).filter(|own| is_fraction_within([1.0, TAU + ROUNDED], own.fov.0))
         {
             ask(entity, "fov", camera.fov.0);
         }
@@ -56,6 +56,15 @@ pub fn radians(scene: &Census<'_>) -> Vec<String> {
         }
     }
     asked
+}
+
+fn is_angle_of_view(angle: f64) -> bool {
+    is_fraction_within(ANGLES_OF_VIEW, angle)
+}
+
+/// Whether a number lies between two and is no whole one: nobody writes 1 or 2 for a round angle in radians.
+fn is_fraction_within([least, most]: [f64; 2], angle: f64) -> bool {
+    (least..=most).contains(&angle) && angle.fract() != 0.0
 }
 
 /// Whether a number is a multiple of 15° in radians, rounded to three to five places; 0 is not.
@@ -84,6 +93,25 @@ mod tests {
     use super::*;
     use crate::scene::{Degrees, axis_angle, euler_xyz};
     use glam::DVec3;
+
+    /// Long lenses have angles of a degree or two, and narrow beams, too: they are not asked about.
+    #[test]
+    fn angles_of_view_in_radians_are_told_from_those_of_long_lenses() {
+        let asked = |fov: f64| {
+            let mut world = World::new();
+            world.spawn(PerspectiveCamera { fov: Degrees(fov), ..PerspectiveCamera::default() });
+            world.spawn(SpotLight { inner_angle: Degrees(0.0), outer_angle: Degrees(fov), ..SpotLight::default() });
+            radians(&Census::of(&world)).len()
+        };
+        // 30°, 40°, 45°, 60° and 90°, as they are written in radians.
+        #[allow(clippy::approx_constant, reason = "as authors write them")]
+        for radian in [0.5236, 0.52, 0.7, 0.6981, 0.785, 0.7854, 1.0472, 1.05, 1.2, 1.5708, 1.57] {
+            assert_eq!(asked(radian), 2, "{radian}");
+        }
+        for degrees in [0.1, 0.25, 0.4, 1.0, 1.7, 2.0, 2.1, 2.5, 3.0, 5.0, 30.0, 90.0] {
+            assert_eq!(asked(degrees), 0, "{degrees}");
+        }
+    }
 
     #[test]
     fn turns_in_radians_are_told_from_turns_in_degrees() {

@@ -1,4 +1,6 @@
-use super::{Bsdf, BsdfClass, Example, Interior, Parameters, Site, SpecularSample, Transport, fresnel, mirror_direction, refract};
+use super::{
+    Bsdf, BsdfClass, Example, Interior, Parameters, Site, SpecularSample, Transport, fresnel, mirror_direction, refract,
+};
 use crate::check::{light_colour, number};
 use crate::plan::{Census, Table};
 use crate::scene::{Glass, SceneError};

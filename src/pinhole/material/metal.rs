@@ -1,5 +1,8 @@
 use super::registered::entities_of_kind;
-use super::{Bsdf, BsdfClass, BsdfSample, Example, MaterialKind, MultipleScattering, Named, Parameters, Site, cosine_direction, ggx_brdf, ggx_sample, visible_pdf};
+use super::{
+    Bsdf, BsdfClass, BsdfSample, Example, MaterialKind, MultipleScattering, Named, Parameters, Site, cosine_direction,
+    ggx_brdf, ggx_sample, visible_pdf,
+};
 use crate::check::{kind_and_name, number, reflectance};
 use crate::plan::{Census, Table};
 use crate::scene::{Metal, Rgb, SceneError};

@@ -60,7 +60,9 @@ macro_rules! for_each_bsdf {
 pub(crate) use for_each_bsdf;
 
 pub use blinn_phong::{BlinnPhongLobe, BlinnPhongTable, blinn_phong_peak, half_vector_cosine};
-pub use bsdf::{Bsdf, BsdfClass, BsdfSample, Example, Interior, Named, Parameters, Site, SpecularSample, StageNames, Transport};
+pub use bsdf::{
+    Bsdf, BsdfClass, BsdfSample, Example, Interior, Named, Parameters, Site, SpecularSample, StageNames, Transport,
+};
 pub use erased::ErasedBsdf;
 pub use frame::{cosine_direction, cosine_pdf, frame_of};
 pub use fresnel::{fresnel, fresnel_parts, mirror_direction, refract};

@@ -1,7 +1,8 @@
 use super::principled_energy::{Energy, EnergyTable, alpha_of, grazing};
 use super::registered::entities_of_kind;
 use super::{
-    Bsdf, BsdfClass, BsdfSample, Example, Named, Parameters, Site, cosine_direction, cosine_pdf, ggx_brdf, ggx_sample, visible_pdf,
+    Bsdf, BsdfClass, BsdfSample, Example, Named, Parameters, Site, cosine_direction, cosine_pdf, ggx_brdf, ggx_sample,
+    visible_pdf,
 };
 use crate::check::{kind_and_name, number, reflectance};
 use crate::plan::{Census, Table};

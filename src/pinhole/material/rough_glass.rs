@@ -1,6 +1,9 @@
 use super::glass::checked_interior;
 use super::registered::entities_of_kind;
-use super::{Bsdf, BsdfClass, BsdfSample, Example, Interior, MaterialKind, Named, Parameters, Site, Transport, SMOOTHEST_METAL, fresnel, ggx_brdf, ggx_d, ggx_g1, mirror_direction, refract, visible_normal, visible_pdf};
+use super::{
+    Bsdf, BsdfClass, BsdfSample, Example, Interior, MaterialKind, Named, Parameters, SMOOTHEST_METAL, Site, Transport,
+    fresnel, ggx_brdf, ggx_d, ggx_g1, mirror_direction, refract, visible_normal, visible_pdf,
+};
 use crate::check::{kind_and_name, number};
 use crate::plan::{Census, Table};
 use crate::scene::{Glass, RoughGlass, SceneError};

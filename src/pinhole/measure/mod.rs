@@ -3,8 +3,6 @@
 
 #[path = "../../lab/measure/chi_squared.rs"]
 pub mod chi_squared;
-#[path = "../../lab/measure/cuboid_aim.rs"]
-pub mod cuboid_aim;
 #[path = "../../lab/measure/enclosure.rs"]
 pub mod enclosure;
 #[path = "../../lab/measure/exact.rs"]
@@ -21,7 +19,5 @@ pub mod number;
 pub mod oracle_plane;
 #[path = "../../lab/measure/oracle_sphere.rs"]
 pub mod oracle_sphere;
-#[path = "../../lab/measure/planar_aim.rs"]
-pub mod planar_aim;
 #[path = "../../lab/measure/ray_aim.rs"]
 pub mod ray_aim;

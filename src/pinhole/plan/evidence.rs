@@ -140,6 +140,10 @@ impl ComponentKind {
 /// A number with its noun: `1 sphere`, `3 spheres`, `2 triangles with normals`, `2 lights without an area`.
 pub fn counted(count: usize, noun: &str) -> String {
     let (noun, what) = noun.split_at(noun.find(" with").unwrap_or(noun.len()));
+    // Written as the stages are that intersect them.
+    if let (true, Some(before)) = (count != 1, noun.strip_suffix("torus")) {
+        return format!("{count} {before}tori{what}");
+    }
     let ending = match count {
         1 => "",
         _ if noun.ends_with('s') || noun.ends_with("sh") => "es",

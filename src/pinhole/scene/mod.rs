@@ -168,9 +168,9 @@ pub use spot_light::SpotLight;
 pub use stripes::Stripes;
 #[doc(hidden)]
 pub use texture::{Feeds, Texture, TextureBy, UvTransform, Wrap, WrapMode};
+pub(crate) use textures::for_each_texture;
 #[doc(hidden)]
 pub use textures::{for_each_texture_file, texture_files};
-pub(crate) use textures::for_each_texture;
 #[doc(hidden)]
 pub use tint::Tint;
 pub use torus::Torus;

@@ -36,7 +36,9 @@ impl Placement {
 
 /// Stands at `eye` and looks at `target`; it overrides the position and orientation of the [`Placement`].
 ///
-/// `up` need not be perpendicular to the viewing direction, only not parallel to it.
+/// `up` need not be perpendicular to the viewing direction, only not parallel to it. Left at its default it may be: straight
+/// down the top of the image is then towards −z, and straight up towards z, as if a camera that looked along −z had been
+/// tilted.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[require(Placement)]

@@ -1,12 +1,20 @@
 use super::Rgb;
 use bevy_ecs::prelude::*;
+use serde::{Deserialize, Serialize};
 
-/// On a material that a model file gives: factors of its colour, beside which a texture has no colour of its own to
-/// multiply.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+/// Factors by which the colour of a material is multiplied, that of its texture included; model files give them.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Tint {
-    /// By which the colour of the material's texture is multiplied, each part from 0 to 1.
+    /// By which the colour of the material or of its texture is multiplied, each part from 0 to 1.
     pub factor: Rgb,
     /// Whether the colours of a mesh's vertices are a factor, too.
     pub by_vertex: bool,
+}
+
+impl Default for Tint {
+    /// Changes nothing.
+    fn default() -> Self {
+        Self { factor: Rgb::grey(1.0), by_vertex: false }
+    }
 }

@@ -1,6 +1,6 @@
 use crate::extract::{
-    area_light_evidence, delta_light_evidence, environment_light_evidence, light_sampling_evidence,
-    material_evidence, occlusion_evidence, traced_evidence, unless_occlusion,
+    area_light_evidence, delta_light_evidence, environment_light_evidence, light_sampling_evidence, material_evidence,
+    occlusion_evidence, traced_evidence, unless_occlusion,
 };
 use crate::intersect::{RayColumn, Surface, falling_cosine};
 use crate::plan::{Census, Evidence, Stage, TileSystems, column};

@@ -21,7 +21,7 @@ const NORMAL_INCIDENCE: f64 = 0.04;
 
 pub(super) const FORMS: &[ClosedForm] = &[
     ClosedForm {
-        name: "a Phong surface in an even sky, from above",
+        name: "Phong in an even sky, from above",
         formula: "colour + specular",
         truth: || 0.7,
         few: 1 << 13,
@@ -31,7 +31,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         },
     },
     ClosedForm {
-        name: "a Blinn–Phong surface in an even sky, from above",
+        name: "Blinn–Phong in an even sky, from above",
         formula: "colour + specular",
         truth: || 0.7,
         few: 1 << 13,

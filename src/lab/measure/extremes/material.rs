@@ -8,7 +8,10 @@ use crate::naive::material::{
     frame_by_division_f32, fresnel_by_sines_f32, ggx_brdf_unmasked, ggx_d_f32, refract_unchecked, schlick,
 };
 use glam::{DVec3, Vec3};
-use pinhole::material::{Bsdf, MetalTable, MultipleScattering, Parameters, Site, cosine_direction, frame_of, fresnel, ggx_brdf, ggx_d, ggx_sample, refract, visible_normal, visible_pdf};
+use pinhole::material::{
+    Bsdf, MetalTable, MultipleScattering, Parameters, Site, cosine_direction, frame_of, fresnel, ggx_brdf, ggx_d,
+    ggx_sample, refract, visible_normal, visible_pdf,
+};
 use std::f64::consts::{FRAC_PI_2, LN_2};
 use std::ops::Range;
 
@@ -235,8 +238,10 @@ fn check_several(range: Range<u64>) -> Tally {
         let mut several = MultipleScattering::default();
         several.push([1.0; 3], Some(alpha));
         for (score, several) in tally.scores.iter_mut().zip([Some(several), None]) {
-            let (rough, site) =
-                (MetalTable { colour: vec![[1.0; 3]], alpha: vec![alpha], several }, Site::opaque(0, Parameters::default()));
+            let (rough, site) = (
+                MetalTable { colour: vec![[1.0; 3]], alpha: vec![alpha], several },
+                Site::opaque(0, Parameters::default()),
+            );
             score.measure((rule.albedo(angle, 0.5 * alpha, |l, v| rough.eval(&site, l, v)[0]) - 1.0).abs());
         }
     }

@@ -11,38 +11,24 @@ mod camera_limits;
 mod camera_ndc;
 mod camera_table;
 mod case;
-mod cuboid;
 mod emitter;
 mod film;
 mod film_bytes;
-mod frame;
 mod hierarchy;
 mod lens;
 mod light;
 mod light_albedo;
 mod material;
-mod planar;
-mod plane;
 mod print;
 mod rasterisation;
 mod sampling;
 mod shadow;
 mod shadow_stages;
-mod shadow_t_max;
 mod shapes;
-mod sphere;
-mod sphere_limits;
 mod texture;
 mod transform;
-mod transform_aim;
-mod transform_placement;
-mod transform_surface;
 mod transport;
 mod triangle;
-mod triangle_aim;
-mod triangle_limits;
-mod triangle_mesh;
-mod triangle_surface;
 
 pub use case::{Case, Method, Outcome, Score, Tally, Trial, Worst};
 pub use print::Words;
@@ -56,30 +42,22 @@ use std::str::FromStr;
 /// What a case is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
-    /// Rays against spheres.
-    Sphere,
-    /// Rays against planes.
-    Plane,
-    /// Shadow rays: where they start, how far they look.
+    /// Rays against every registered shape, and its normals.
+    Shapes,
+    /// Shadow rays: where they start on every registered shape, how far they look.
     Shadow,
     /// Cameras: raster → NDC → screen → camera → world.
     Camera,
-    /// Scaled spheres, their normals, placements through parents.
+    /// Placements through parents, look-at.
     Transform,
     /// Textures and environments: what a pixel covers, its mean, edges of images.
     Texture,
-    /// Rays against triangles and meshes of them, and their surfaces.
+    /// Closed meshes of triangles, and where on a triangle a ray hits it.
     Triangle,
     /// Samples: their numbers, their places, what they count for.
     Sampling,
     /// Films: sums of samples, bytes of pictures.
     Film,
-    /// Rays against disks, and shadow rays off them.
-    Disk,
-    /// Rays against rectangles, and shadow rays off them.
-    Rectangle,
-    /// Rays against cuboids, and shadow rays off them.
-    Cuboid,
     /// Highlights, cones, suns: how much light there is.
     Light,
     /// Mirrors, glass and rough metal.
@@ -88,8 +66,6 @@ pub enum Group {
     Emitter,
     /// Lenses: where rays converge, where they start, how wide what is out of focus is.
     Lens,
-    /// Rays at the silhouette of every registered shape, and rays that leave it.
-    Shapes,
     /// Hierarchies of shapes and of the triangles of meshes, against testing everything.
     Hierarchy,
     /// Triangles projected onto the image, against rays.
@@ -101,18 +77,13 @@ pub enum Group {
 impl Group {
     /// All groups in order.
     pub const ALL: &[Self] = &[
-        Self::Sphere,
-        Self::Plane,
+        Self::Shapes,
         Self::Shadow,
         Self::Camera,
         Self::Transform,
         Self::Triangle,
         Self::Sampling,
         Self::Film,
-        Self::Disk,
-        Self::Rectangle,
-        Self::Cuboid,
-        Self::Shapes,
         Self::Hierarchy,
         Self::Rasterisation,
         Self::Texture,
@@ -126,9 +97,8 @@ impl Group {
     /// Its cases.
     fn trials(self) -> Vec<Trial> {
         match self {
-            Self::Sphere => [sphere::trials(), sphere_limits::trials()].into_iter().flatten().collect(),
-            Self::Plane => plane::trials(),
-            Self::Shadow => [shadow::trials(), shadow_t_max::trials()].into_iter().flatten().collect(),
+            Self::Shapes => shapes::trials(),
+            Self::Shadow => shadow::trials(),
             Self::Camera => [camera::trials(), camera_table::trials(), camera_limits::trials(), camera_ndc::trials()]
                 .into_iter()
                 .flatten()
@@ -138,10 +108,6 @@ impl Group {
             Self::Triangle => triangle::trials(),
             Self::Sampling => sampling::trials(),
             Self::Film => film::trials(),
-            Self::Disk => planar::trials(planar::Kind::Disk),
-            Self::Rectangle => planar::trials(planar::Kind::Rectangle),
-            Self::Cuboid => cuboid::trials(),
-            Self::Shapes => shapes::trials(),
             Self::Hierarchy => hierarchy::trials(),
             Self::Rasterisation => rasterisation::trials(),
             Self::Light => light::trials(),
@@ -156,8 +122,7 @@ impl Group {
 impl fmt::Display for Group {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Sphere => "sphere",
-            Self::Plane => "plane",
+            Self::Shapes => "shapes",
             Self::Shadow => "shadow",
             Self::Camera => "camera",
             Self::Transform => "transform",
@@ -165,10 +130,6 @@ impl fmt::Display for Group {
             Self::Triangle => "triangle",
             Self::Sampling => "sampling",
             Self::Film => "film",
-            Self::Disk => "disk",
-            Self::Rectangle => "rectangle",
-            Self::Cuboid => "cuboid",
-            Self::Shapes => "shapes",
             Self::Hierarchy => "hierarchy",
             Self::Rasterisation => "rasterisation",
             Self::Light => "light",
@@ -189,10 +150,11 @@ impl FromStr for Group {
     }
 }
 
-/// Tries every case of a group whose name holds `named` with so many rays, the same on any number of threads; fewer if the one who watches
-/// stops it.
+/// Tries every case of a group whose name holds each part of `named` between its `+` signs, with so many rays, the same on
+/// any number of threads; fewer if the one who watches stops it.
 pub fn try_group(group: Group, named: &str, rays: u64, watch: &dyn Watch) -> Vec<Case> {
-    let trials: Vec<Trial> = group.trials().into_iter().filter(|trial| trial.name.contains(named)).collect();
+    let trials: Vec<Trial> =
+        group.trials().into_iter().filter(|trial| named.split('+').all(|part| trial.name.contains(part))).collect();
     trials.par_iter().map(|trial| trial.run(rays, watch)).collect()
 }
 

@@ -7,24 +7,19 @@ impl Group {
     /// The words of its table: what is checked, what an input with something to check is, what being wrong is.
     fn words(self) -> [&'static str; 3] {
         match self {
-            Self::Sphere => ["rays against spheres", "hits", "misclassified"],
-            Self::Plane => ["rays against planes", "hits", "misclassified"],
-            Self::Shadow => ["shadow rays", "starts", "wrong"],
+            Self::Shapes => ["rays against every registered shape", "to check", "wrong"],
+            Self::Shadow => ["shadow rays", "to check", "wrong"],
             Self::Camera => ["rays of cameras", "taken", "wrong"],
-            Self::Transform => ["scaled spheres and placements", "to check", "wrong"],
+            Self::Transform => ["placements and look-at", "to check", "wrong"],
             Self::Texture => ["textures and environments", "checked", "wrong"],
             Self::Light => ["highlights and lights", "to check", "wrong"],
             Self::Material => ["mirrors, glass and rough metal", "to check", "wrong"],
             Self::Emitter => ["lights with an area", "to check", "wrong"],
             Self::Transport => ["light paths", "to check", "wrong"],
-            Self::Triangle => ["rays against triangles", "hit", "misclassified"],
+            Self::Triangle => ["closed meshes and barycentrics", "hit", "misclassified"],
             Self::Lens => ["rays through lenses", "checked", "wrong"],
             Self::Sampling => ["numbers and points of samples", "checked", "wrong"],
             Self::Film => ["samples and bytes of films", "checked", "wrong"],
-            Self::Disk => ["disks", "to check", "wrong"],
-            Self::Rectangle => ["rectangles", "to check", "wrong"],
-            Self::Cuboid => ["cuboids", "to check", "wrong"],
-            Self::Shapes => ["rays against every registered shape", "to check", "wrong"],
             Self::Rasterisation => ["triangles projected onto the image, against rays", "to check", "wrong"],
             Self::Hierarchy => ["rays through hierarchies, against testing everything", "to check", "wrong"],
         }
@@ -34,8 +29,8 @@ impl Group {
     pub fn heading(self) -> String {
         let [checked, _, wrong] = self.words();
         format!(
-            "{self}: {checked}, checked by exact arithmetic; u = 2^-24\n{:<42}{wrong:>12}{:>21}   {:<8}{:>12}",
-            "", "worst error", "", "asked"
+            "{self}: {checked}, checked by exact arithmetic\n  {:<27}{wrong:>13}{:>22}  {:<8} {:>9}",
+            "u = 2^-24", "worst error", "", "asked"
         )
     }
 }
@@ -90,9 +85,9 @@ impl Outcome {
     pub fn words(&self) -> Words {
         let Self { method, score } = self;
         let (worst, asked) = match method.unit {
-            "" => (String::new(), "none wrong".into()),
-            unit if method.bound.is_infinite() => (format!("{} {unit}", short(score.worst)), "none wrong".into()),
-            unit => (format!("{} {unit}", short(score.worst)), format!("<= {}", short(method.bound))),
+            "" => (String::new(), "0 wrong".into()),
+            unit if method.bound.is_infinite() => (format!("{} {unit}", short(score.worst)), "0 wrong".into()),
+            unit => (format!("{} {unit}", short(score.worst)), format!("≤ {}", short(method.bound))),
         };
         let result = match (method.of_pinhole, self.passes()) {
             (true, true) => "held",
@@ -107,9 +102,16 @@ impl Outcome {
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Words { worst, asked, result, .. } = self.words();
-        write!(f, "  {:<40}{:>12} {worst:>20}   {result:<8}{asked:>12}", self.method.name, self.score.wrong)
+        let (name, wrong) = (self.method.name, self.score.wrong);
+        // A long name takes room from the next number but one: a line of a page of the book has no more.
+        let beyond = name.chars().count().saturating_sub(NAME);
+        let room = 21_usize.saturating_sub(beyond);
+        write!(f, "  {name:<NAME$}{wrong:>7} {worst:>room$}  {result:<8} {asked:>9}")
     }
 }
+
+/// How wide the names of methods are, but for a few.
+const NAME: usize = 33;
 
 /// A distance or another number, or that there is none.
 fn said(value: Option<f64>) -> String {

@@ -1,4 +1,5 @@
-//! Shadow rays: does the start lie strictly on its side of the surface that it leaves?
+//! Shadow rays: does the start lie strictly on its side of the surface that it leaves, does what lies before the light
+//! count, and what lies behind it not?
 //!
 //! A hit stores its position p and its unit normal n as f32, and a bound B; the shadow ray starts at
 //! p' = fl(p + fl(n B)). Let o be the ray's origin, s the size of the shape's numbers (|c|₁ + r, or |k|), u = 2⁻²⁴,
@@ -15,160 +16,142 @@
 //! *Outside.* The tangent plane at the true point has the whole sphere behind it, so to be before it is to be outside.
 //! The computed n may lean by 2ε(|c| + r)/r, which is of consequence only when r < u|p|₁, and then B > 2r + 2u|p|₁ clears the
 //! sphere in every direction. *Inside* the same holds while r ≥ 2B: below that no room is left to start in.
+//!
+//! *How far it looks.* A direction in f32 is off by less than u = 2⁻²⁴ across and u in length, so the ray passes a light at distance d by
+//! less than ud. A wall that faces the ray at up to 78° is therefore hit no sooner than d(1 − 6u), and the t_max
+//! d(1 − 8u), rounded, stops before it, be the wall ever so close behind the light. A wall along the ray would need a
+//! finer direction: there the light has to stand off the wall by 4ud or more.
 
-use super::plane::{aim as aim_at_plane, by_function as plane_by_function};
 use super::shadow_stages::{Shadow, ShadowStages, leaving};
-use super::sphere::by_function as sphere_by_function;
-use super::{Group, Method, Score, Tally, Trial};
+use super::{Group, Method, Score, Tally, Trial, shapes};
 use crate::measure::oracle_plane::{Plane, plane_t, side_of_plane};
-use crate::measure::oracle_sphere::{Sphere, line_ts, side_of_sphere, sphere_t};
-use crate::measure::ray_aim::{self, AimedRay, Draws};
-use crate::naive::shadow::{ShadowStart, start_after_constant, start_at_hit, start_off_surface};
-use glam::Vec3;
+use crate::measure::oracle_sphere::{Sphere, line_ts};
+use crate::measure::ray_aim::{Draws, rounded_ray, seen_sphere_of_any_size};
+use crate::naive::shadow::{ShadowStart, start_after_constant, start_off_surface, t_max_to_light, t_max_without_end};
+use glam::{DVec3, Vec3};
 use pinhole::intersect::Surface;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-const METHODS: [Method; 4] = [
+const WALL: [Method; 3] = [
+    Method::pinhole("pinhole, t_max of the shadow ray", "", 0.0),
+    Method::naive("naive, reach without end", "", 0.0),
+    Method::naive("naive, reach to the light", "", 0.0),
+];
+const BALL: [Method; 3] = [
     Method::pinhole("pinhole, bound of the hit", "", 0.0),
-    Method::naive("naive, at the hit", "", 0.0),
     Method::naive("naive, t > 1e-3", "", 0.0),
     Method::naive("naive, hit + 1e-4 n", "", 0.0),
 ];
-/// Points farther away than this are beyond what f32 can carry on from.
-const FARTHEST: f32 = 1e30;
+/// u, half the spacing of f32 numbers from 1 on.
+const U: f64 = crate::measure::exact::UNIT_ROUNDOFF_F32;
 
-type AimAtSphere = fn(u64) -> (AimedRay, Sphere);
-
-/// The cases of starts.
+/// The cases of rays that leave every shape, of lights before walls and of small things before lights.
 pub fn trials() -> Vec<Trial> {
-    let [small, smallest] = [-100, -130].map(|power| libm::exp2(f64::from(power)));
-    let any: AimAtSphere = |index| ray_aim::sphere_of_any_size(41, index);
-    let spheres: [(&str, f64, AimAtSphere); 6] = [
-        ("spheres of any size and place 1e-8 to 1e8", 1.0, any),
-        ("the same, 2^-100 as large", small, any),
-        ("the same, 2^-130 as large: subnormal", smallest, any),
-        ("spheres of any size 1e-8 to 1e8, seen", 1.0, |index| ray_aim::seen_sphere_of_any_size(42, index)),
-        ("silhouettes at 1e5 radii", 1.0, |index| ray_aim::silhouette(43, index, 1e5)),
-        ("horizons of radius 1e6 from height 1", 1.0, |index| ray_aim::horizon(44, index, 1e6, 1.0)),
-    ];
-    let planes = [
-        ("planes of any offset and place 1e-8 to 1e8", 1.0, 0.0),
-        ("the same, seen at slopes from 1e-4", 1.0, 4.0),
-        ("the same, seen at slopes from 1e-12", 1.0, 12.0),
-        ("the same, slopes from 1e-8, 2^-100 as large", small, 8.0),
-        ("the same, slopes from 1e-8, 2^-130 as large: subnormal", smallest, 8.0),
-    ];
-    let sphere =
-        |(name, scale, aim)| Trial::new(Group::Shadow, name, &METHODS, move |range| check_spheres(scale, aim, range));
-    let plane = |(name, scale, flattest)| {
-        Trial::new(Group::Shadow, name, &METHODS, move |range| check_planes(scale, flattest, range))
-    };
-    spheres.map(sphere).into_iter().chain(planes.map(plane)).collect()
+    let facing = Standing { seed: 61, flattest: 0.7, least: 0.0, closest: -12.0 };
+    let along = Standing { seed: 62, flattest: 8.0, least: 4.0 * U, closest: -9.0 };
+    let wall = |name, standing| Trial::new(Group::Shadow, name, &WALL, move |range| check_walls(standing, range));
+    let mut trials = shapes::leaving_trials();
+    trials.extend([
+        wall("a light before a wall that faces it, as close as f64 has it", facing),
+        wall("a light before a wall at any angle, 4u of its distance off", along),
+        Trial::new(Group::Shadow, "a small ball between surface and light, any size", &BALL, check_balls),
+    ]);
+    trials
 }
 
-/// The ray from `scale` times its origin.
-fn scaled(ray: AimedRay, scale: f64) -> AimedRay {
-    AimedRay { origin: (ray.origin.as_dvec3() * scale).as_vec3(), ..ray }
+/// How a light may stand before its wall.
+#[derive(Clone, Copy)]
+struct Standing {
+    seed: u64,
+    /// The wall faces the light with a cosine from 10 to minus this.
+    flattest: f64,
+    /// Its distance from the wall is at least this times that from the surface.
+    least: f64,
+    /// And 10 to this more.
+    closest: f64,
 }
 
-/// The shadow ray to a light in a direction above the surface, often a grazing one.
-fn leave(stages: &mut ShadowStages, surface: Surface, size: f64, draws: &mut Draws) -> Option<Shadow> {
-    let away = leaving(draws, surface.normal, 6.0) * (size * draws.power_of_ten(-2.0, 3.0));
-    stages.shadow(surface, surface.position.as_dvec3() + away)
-}
-
-fn check_spheres(scale: f64, aim: AimAtSphere, range: Range<u64>) -> Tally {
-    let (mut tally, mut stages) = (Tally::new(METHODS.len()), ShadowStages::of_spheres());
+fn check_walls(standing: Standing, range: Range<u64>) -> Tally {
+    let (mut tally, mut stages) = (Tally::new(WALL.len()), ShadowStages::of_planes());
     for index in range {
-        let (ray, sphere) = aim(index);
-        let ray = scaled(ray, scale);
-        let sphere = Sphere { centre: sphere.centre * scale, radius: sphere.radius * scale };
-        stages.spheres(&[sphere]);
-        let started = start_on_sphere(&mut stages, ray, sphere, &mut Draws::new(45, index));
-        tally.count(started.is_some());
-        if let Some((side, surface, shadow)) = started {
-            tally.scores[0].check(sphere_is_left(side, shadow, sphere));
-            if side == Ordering::Greater {
-                check_naive(surface, shadow.direction, &mut tally.scores[1..], |start, direction| {
-                    let ts = line_ts(start.origin, direction, sphere);
-                    ts.is_some_and(|ts| ts.iter().any(|&t| t > f64::from(start.t_min)))
-                });
-            }
-        }
-    }
-    tally
-}
-
-/// On which side the viewer is, what it hits, and the shadow ray from there; none where there is nothing to start from,
-/// or inside a sphere so small that nothing representable lies between its walls.
-fn start_on_sphere(
-    stages: &mut ShadowStages,
-    ray: AimedRay,
-    sphere: Sphere,
-    draws: &mut Draws,
-) -> Option<(Ordering, Surface, Shadow)> {
-    let (_, surface) = stages.surface(ray)?;
-    let side = side_of_sphere(ray.origin.as_dvec3(), sphere);
-    let room = side == Ordering::Greater || sphere.radius >= 2.0 * f64::from(surface.bound);
-    if side == Ordering::Equal || !room {
-        return None;
-    }
-    let size = sphere.radius + surface.position.as_dvec3().length();
-    Some((side, surface, leave(stages, surface, size, draws)?))
-}
-
-/// Whether the start lies strictly on the viewer's side, and pinhole's kernels say of the ray what is exactly so:
-/// from outside a ray that leaves never comes back, from inside it hits the far side.
-fn sphere_is_left(side: Ordering, shadow: Shadow, sphere: Sphere) -> bool {
-    let Shadow { origin, direction, blocked, .. } = shadow;
-    let hits = sphere_by_function(AimedRay { origin, direction }, sphere).is_finite();
-    let exactly = sphere_t(origin, direction, sphere).is_some();
-    let outside = side == Ordering::Greater;
-    side_of_sphere(origin.as_dvec3(), sphere) == side && hits == exactly && !(outside && (hits || blocked.is_some()))
-}
-
-fn check_planes(scale: f64, flattest: f64, range: Range<u64>) -> Tally {
-    let (mut tally, mut stages) = (Tally::new(METHODS.len()), ShadowStages::of_planes());
-    for index in range {
-        let (ray, plane) = aim_at_plane(46, index, flattest);
-        let (ray, plane) = (scaled(ray, scale), Plane { offset: plane.offset * scale, ..plane });
-        stages.planes(&[plane]);
-        let side = side_of_plane(ray.origin.as_dvec3(), plane);
-        let surface = stages.surface(ray).map(|(_, surface)| surface);
-        let surface = surface.filter(|surface| surface.position.abs().max_element() < FARTHEST);
-        let shadow = surface.and_then(|surface| {
-            let size = surface.position.as_dvec3().length() + plane.offset.abs();
-            Some((surface, leave(&mut stages, surface, size, &mut Draws::new(47, index))?))
-        });
+        let shadow = shadow_before_wall(standing, index, &mut stages);
         tally.count(shadow.is_some());
-        if let Some((surface, shadow)) = shadow {
-            tally.scores[0].check(plane_is_left(side, shadow, plane));
-            check_naive(surface, shadow.direction, &mut tally.scores[1..], |start, direction| {
-                plane_t(start.origin, direction, plane).is_some_and(|t| t > f64::from(start.t_min))
-            });
+        let Some((shadow, wall, distance)) = shadow else { continue };
+        tally.scores[0].check(shadow.blocked.is_none());
+        let to_wall = plane_t(shadow.origin, shadow.direction, wall);
+        for (score, t_max) in tally.scores[1..].iter_mut().zip([t_max_without_end(distance), t_max_to_light(distance)])
+        {
+            score.check(to_wall.is_none_or(|t| t >= f64::from(t_max)));
         }
     }
     tally
 }
 
-/// Whether the start lies strictly on the viewer's side, and the plane is not hit again.
-fn plane_is_left(side: Ordering, shadow: Shadow, plane: Plane) -> bool {
-    let Shadow { origin, direction, blocked, .. } = shadow;
-    let hits = plane_by_function(AimedRay { origin, direction }, plane).is_finite();
-    side_of_plane(origin.as_dvec3(), plane) == side && !hits && blocked.is_none()
+/// The shadow ray from a floor to a light that stands exactly before a wall, as the surface does; the wall, and how far
+/// the light is.
+fn shadow_before_wall(standing: Standing, index: u64, stages: &mut ShadowStages) -> Option<(Shadow, Plane, f64)> {
+    let mut draws = Draws::new(standing.seed, index);
+    let normal = draws.unit_vector().as_vec3();
+    let up = normal.as_dvec3();
+    let foot = (draws.unit_vector() * draws.power_of_ten(-8.0, 8.0)).as_vec3();
+    let floor = Plane { normal: up, offset: up.dot(foot.as_dvec3()) };
+    let size = f64::from(foot.length());
+    let away = leaving(&mut draws, normal, 3.0).normalize() * (size * draws.power_of_ten(-2.0, 3.0));
+    let light = foot.as_dvec3() + away;
+
+    let cosine = draws.power_of_ten(-standing.flattest, 0.0);
+    let ahead = away.normalize();
+    let across = draws.unit_vector_across(ahead) * libm::sqrt(1.0 - cosine * cosine);
+    let facing = (across - ahead * cosine).as_vec3().as_dvec3();
+    let off = away.length() * (standing.least + draws.power_of_ten(standing.closest, 0.0));
+    let wall = Plane { normal: facing, offset: facing.dot(light) - off };
+
+    stages.planes(&[floor, wall]);
+    let eye = (foot.as_dvec3() + ahead * (size * 1e-3)).as_vec3();
+    let (shape, surface) = stages.surface(rounded_ray(eye, foot.as_dvec3() - eye.as_dvec3()))?;
+    let shadow = stages.shadow(surface, light).filter(|_| shape == 0)?;
+    let before = |point: DVec3| side_of_plane(point, wall) == Ordering::Greater;
+    let distance = (light - shadow.origin.as_dvec3()).length();
+    let clear = depth(light, wall) >= standing.least * distance;
+    (before(light) && before(shadow.origin.as_dvec3()) && clear).then_some((shadow, wall, distance))
 }
 
-/// Whether the naive starts shadow their own surface; their kernel is exact, so that only the start is checked.
-fn check_naive(
-    surface: Surface,
-    direction: Vec3,
-    scores: &mut [Score],
-    hits_itself: impl Fn(ShadowStart, Vec3) -> bool,
-) {
-    let Surface { position, normal, .. } = surface;
-    let starts = [start_at_hit(position), start_after_constant(position), start_off_surface(position, normal)];
-    for (score, start) in scores.iter_mut().zip(starts) {
-        score.check(!hits_itself(start, direction));
+/// How far a point stands before a plane, about.
+fn depth(point: DVec3, plane: Plane) -> f64 {
+    plane.normal.dot(point) - plane.offset
+}
+
+fn check_balls(range: Range<u64>) -> Tally {
+    let (mut tally, mut stages) = (Tally::new(BALL.len()), ShadowStages::of_spheres());
+    for index in range {
+        let mut draws = Draws::new(63, index);
+        let (ray, body) = seen_sphere_of_any_size(64, index);
+        stages.spheres(&[body]);
+        let Some((_, surface)) = stages.surface(ray) else {
+            tally.count(false);
+            continue;
+        };
+        let radius = body.radius * draws.power_of_ten(-3.0, 0.0);
+        let away = leaving(&mut draws, surface.normal, 0.5).normalize();
+        let ball = Sphere { centre: surface.position.as_dvec3() + away * (3.0 * radius), radius };
+        stages.spheres(&[body, ball]);
+        let light = surface.position.as_dvec3() + away * (6.0 * radius);
+        // A ball that is not well larger than the bound is smaller than what f32 can tell apart there.
+        let shadow = stages.shadow(surface, light).filter(|_| radius >= 64.0 * f64::from(surface.bound));
+        tally.count(shadow.is_some());
+        let Some(shadow) = shadow else { continue };
+        tally.scores[0].check(shadow.blocked == Some(1));
+        check_naive_balls(surface, shadow.direction, ball, &mut tally.scores[1..]);
     }
+    tally
+}
+
+/// Whether the ball still shadows the naive starts; their kernel is exact, so that only the start is checked.
+fn check_naive_balls(surface: Surface, direction: Vec3, ball: Sphere, scores: &mut [Score]) {
+    let shadowed = |start: ShadowStart| {
+        line_ts(start.origin, direction, ball).is_some_and(|[_, far]| far > f64::from(start.t_min))
+    };
+    scores[0].check(shadowed(start_after_constant(surface.position)));
+    scores[1].check(shadowed(start_off_surface(surface.position, surface.normal)));
 }

@@ -5,15 +5,12 @@ use crate::measure::oracle_plane::Plane;
 use crate::measure::oracle_sphere::Sphere;
 use crate::measure::ray_aim::{AimedRay, Draws};
 use glam::{DVec3, Vec3};
-use pinhole::extract::{
-    CuboidTable, DiskTable, EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, PointLightTable, RectangleTable,
-    ShapeTable, TriangleTable,
-};
+use pinhole::extract::{MaterialKind, MaterialTable, NO_ROW, PointLightTable, ShapeTable};
 use pinhole::intersect::{self, Hits, MaterialRows, NO_SHAPE, Surface, Surfaces};
 use pinhole::lights::PlacedPointLight;
 use pinhole::plan::{Column, Stage};
 use pinhole::shade::{self, LightRays, ShadowHits};
-use pinhole::shapes::{Ellipsoid, PlacedDisk, PlacedRectangle, ShapeKind, Slabs, TriangleRow};
+use pinhole::shapes::ShapeKind;
 
 /// A shadow ray as the stages made it, and what they found along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,36 +44,6 @@ impl ShadowStages {
         Self::of(&to_surface, shade::plane_shadow_stage())
     }
 
-    /// The stages for ellipsoids, a light still to be placed.
-    pub fn of_ellipsoids() -> Self {
-        let of_hits = [intersect::ellipsoid_stage(), intersect::classify_stage(), intersect::ellipsoid_surface_stage()];
-        Self::of(&of_hits, shade::shape_shadow_stage::<Ellipsoid>())
-    }
-
-    /// The stages for disks, a light still to be placed.
-    pub fn of_disks() -> Self {
-        let of_hits = [intersect::disk_stage(), intersect::classify_stage(), intersect::disk_surface_stage()];
-        Self::of(&of_hits, shade::shape_shadow_stage::<PlacedDisk>())
-    }
-
-    /// The stages for rectangles, a light still to be placed.
-    pub fn of_rectangles() -> Self {
-        let of_hits = [intersect::rectangle_stage(), intersect::classify_stage(), intersect::rectangle_surface_stage()];
-        Self::of(&of_hits, shade::shape_shadow_stage::<PlacedRectangle>())
-    }
-
-    /// The stages for cuboids, a light still to be placed.
-    pub fn of_cuboids() -> Self {
-        let of_hits = [intersect::cuboid_stage(), intersect::classify_stage(), intersect::cuboid_surface_stage()];
-        Self::of(&of_hits, shade::shape_shadow_stage::<Slabs>())
-    }
-
-    /// The stages for triangles, a light still to be placed.
-    pub fn of_triangles() -> Self {
-        let of_hits = [intersect::triangle_stage(), intersect::classify_stage(), intersect::triangle_surface_stage()];
-        Self::of(&of_hits, shade::shape_shadow_stage::<TriangleRow>())
-    }
-
     fn of(to_surface: &[Stage], shadow_stage: Stage) -> Self {
         let to_surface = [&[intersect::start_stage()], to_surface].concat();
         let to_light =
@@ -101,41 +68,6 @@ impl ShadowStages {
         self.shapes(ShapeKind::Plane, planes.len());
         self.to_surface.insert(plane_table(planes));
         self.to_light.insert(plane_table(planes));
-    }
-
-    /// The scene's ellipsoids; an ellipsoid's place is its number.
-    pub fn ellipsoids(&mut self, table: EllipsoidTable) {
-        self.shapes(ShapeKind::Ellipsoid, table.shape.len());
-        self.to_surface.insert(table.clone());
-        self.to_light.insert(table);
-    }
-
-    /// The scene's disks; a disk's place is its number.
-    pub fn disks(&mut self, table: DiskTable) {
-        self.shapes(ShapeKind::Disk, table.shape.len());
-        self.to_surface.insert(table.clone());
-        self.to_light.insert(table);
-    }
-
-    /// The scene's rectangles; a rectangle's place is its number.
-    pub fn rectangles(&mut self, table: RectangleTable) {
-        self.shapes(ShapeKind::Rectangle, table.shape.len());
-        self.to_surface.insert(table.clone());
-        self.to_light.insert(table);
-    }
-
-    /// The scene's cuboids; a cuboid's place is its number.
-    pub fn cuboids(&mut self, table: CuboidTable) {
-        self.shapes(ShapeKind::Cuboid, table.shape.len());
-        self.to_surface.insert(table.clone());
-        self.to_light.insert(table);
-    }
-
-    /// The scene's triangles; a triangle's place is its number.
-    pub fn triangles(&mut self, table: TriangleTable) {
-        self.shapes(ShapeKind::Triangle, table.shape.len());
-        self.to_surface.insert(table.clone());
-        self.to_light.insert(table);
     }
 
     fn shapes(&mut self, kind: ShapeKind, count: usize) {

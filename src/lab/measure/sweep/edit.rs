@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::extract::camera_entity;
+use pinhole::extract::{camera_entity, upward};
 use pinhole::plan::entities;
 use pinhole::scene::*;
 use pinhole::shapes::{Listed, SceneShape, ShapeVisitor, visit_shapes};
@@ -106,18 +106,18 @@ pub fn lay_on_grid(scene: &mut World) {
 
 /// The whole scene turned about the world's origin.
 pub fn turn(scene: &mut World, by: DQuat) {
+    for entity in roots(scene) {
+        let mut entity = scene.entity_mut(entity);
+        if let Some(mut look) = entity.get_mut::<LookAt>() {
+            look.up = by * upward(&look);
+        } else if let Some(mut placement) = entity.get_mut::<Placement>() {
+            placement.orientation = (by * placement.orientation).normalize();
+        }
+    }
     edit_places(scene, |point| by * point);
     for entity in entities::<With<Motion>>(scene) {
         if let Some(mut motion) = scene.entity_mut(entity).get_mut::<Motion>() {
             motion.velocity = by * motion.velocity;
-        }
-    }
-    for entity in roots(scene) {
-        let mut entity = scene.entity_mut(entity);
-        if let Some(mut look) = entity.get_mut::<LookAt>() {
-            look.up = by * look.up;
-        } else if let Some(mut placement) = entity.get_mut::<Placement>() {
-            placement.orientation = (by * placement.orientation).normalize();
         }
     }
 }
@@ -186,6 +186,14 @@ mod tests {
             assert!((axes.y_axis + DVec3::X).length() < 1e-15);
             let normal = PlaneTable::extract(census).expect("planes").row[0].normal;
             assert!((normal + DVec3::X).length() < 1e-7);
+
+            // An up that nobody wrote turns, too, where it is not the default's direction.
+            let mut down = scene(with_child);
+            let camera = camera_entity(&down).expect("a camera");
+            down.entity_mut(camera).insert(LookAt { eye: DVec3::Y * 4.0, target: DVec3::ZERO, up: DVec3::Y });
+            turn(&mut down, DQuat::from_xyzw(0.0, 0.0, half, half));
+            let axes = CameraAxes::extract(&Census::of(&down)).expect("axes").world_from_camera;
+            assert!((axes.y_axis + DVec3::Z).length() + (axes.x_axis - DVec3::Y).length() < 1e-15);
 
             let mut large = scene(with_child);
             scale(&mut large, 3);

@@ -8,8 +8,8 @@ use pinhole::extract::{
 use pinhole::film::{Curve, FilmTile, byte_from_linear, srgb_from_linear};
 use pinhole::intersect::{EmissiveRows, Surfaces};
 use pinhole::lights::irradiance_from_point;
-use pinhole::plan::{Column, Shared};
 use pinhole::material::lambertian;
+use pinhole::plan::{Column, Shared};
 use pinhole::shade::{LightRays, Radiance, ShadowHits};
 use std::mem::swap;
 

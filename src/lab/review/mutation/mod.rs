@@ -5,14 +5,11 @@
 
 mod hits;
 mod light;
-mod meshes;
 mod moving;
-mod rasterised;
 mod rays;
 mod shapes;
 mod table;
 mod textures;
-mod triangles;
 
 pub use table::MUTATIONS;
 

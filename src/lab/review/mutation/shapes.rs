@@ -1,11 +1,14 @@
-//! Mistakes of disks, rectangles and cuboids.
+//! Mistakes between rays and disks, rectangles, cuboids, triangles and meshes, and in rasterisation.
 
 use bevy_ecs::prelude::*;
-use pinhole::extract::{CuboidTable, DiskTable, RectangleTable, ShapeTable};
-use pinhole::intersect::{Hits, ShapeRows, Surfaces};
+use pinhole::extract::{CuboidTable, DiskTable, MeshTable, RectangleTable, ShapeTable, TriangleTable};
+use pinhole::intersect::{Hits, NO_SHAPE, ShadingNormals, ShapeRows, Surfaces};
 use pinhole::plan::{Column, Shared};
-use pinhole::rays::WorldRays;
-use pinhole::shapes::{PlacedDisk, PlacedRectangle, Slabs, crossing, rectangle_t};
+use pinhole::rasterise::Projection;
+use pinhole::rays::{Tile, WorldRays};
+use pinhole::shapes::{
+    PlacedDisk, PlacedMesh, PlacedRectangle, ShapeKind, Slabs, TriangleHit, TriangleRow, crossing, rectangle_t,
+};
 
 fn pairs(rows: usize, shapes: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..rows).flat_map(move |row| (0..shapes).map(move |shape| (row, shape)))
@@ -89,6 +92,115 @@ pub fn round_cuboid(
             let mut surface = surfaces.get(row);
             surface.normal = (rays.point_at(row, hits.t[row]) - slabs.centre).normalize().as_vec3();
             surfaces.set(row, surface);
+        }
+    }
+}
+
+/// Two edges asked for where there are three: u and v above 0, and not their sum below 1.
+pub fn two_edges(triangles: Res<Shared<TriangleTable>>, mut tiles: Query<(&WorldRays, &mut Hits)>) {
+    for (rays, mut hits) in &mut tiles {
+        for row in 0..rays.rows() {
+            for (triangle, &number) in triangles.row.iter().zip(&triangles.shape) {
+                let ([a, b, c], direction) = (triangle.corners, rays.direction_of(row));
+                let (e1, e2, s) = (b - a, c - a, rays.origin_of(row) - a);
+                let (p, q) = (direction.cross(e2), s.cross(e1));
+                let (determinant, t) = (e1.dot(p), e2.dot(q) / e1.dot(p));
+                let inside = s.dot(p) / determinant > 0.0 && direction.dot(q) / determinant > 0.0;
+                if inside && t > 0.0 && t < hits.t[row] {
+                    (hits.t[row], hits.shape[row]) = (t, number);
+                }
+            }
+        }
+    }
+}
+
+/// Each corner's barycentric coordinate given to the next one.
+pub fn next_corner(
+    triangles: Res<Shared<TriangleTable>>,
+    shapes: Res<Shared<ShapeTable>>,
+    mut tiles: Query<(&WorldRays, &Hits, &ShapeRows<TriangleRow>, &mut Surfaces)>,
+) {
+    for (rays, hits, list, mut surfaces) in &mut tiles {
+        for &row in &list.row {
+            let row = row as usize;
+            let triangle = &triangles.row[shapes.row[hits.shape[row] as usize] as usize];
+            let mut triangle_hit = TriangleHit::of(rays.origin_of(row), rays.direction_of(row), triangle);
+            triangle_hit.weights.rotate_left(1);
+            let mut surface = surfaces.get(row);
+            surface.position = triangle_hit.interpolate(&triangle.corners).as_vec3();
+            surfaces.set(row, surface);
+        }
+    }
+}
+
+/// Mixed, and not brought back to length 1.
+pub fn shorter(mut tiles: Query<&mut ShadingNormals>) {
+    for mut normals in &mut tiles {
+        let normals = &mut *normals;
+        let parts = normals.nx.iter_mut().chain(&mut normals.ny).chain(&mut normals.nz);
+        parts.for_each(|part| *part *= 0.9);
+    }
+}
+
+/// No triangle is looked for.
+pub fn triangles_ignored() {}
+
+/// The direction brought to length 1 in object space, so that t counts in a unit of the mesh's own.
+pub fn own_unit(
+    meshes: Res<Shared<MeshTable>>,
+    shapes: Res<Shared<ShapeTable>>,
+    mut tiles: Query<(&WorldRays, &mut Hits)>,
+) {
+    for (rays, mut hits) in &mut tiles {
+        for row in 0..rays.rows() {
+            let shape = hits.shape[row] as usize;
+            if hits.shape[row] != NO_SHAPE && shapes.kind[shape] == ShapeKind::Mesh {
+                let mesh = &meshes.row[shapes.row[shape] as usize];
+                hits.t[row] *= (mesh.object_from_world * rays.direction_of(row)).length();
+            }
+        }
+    }
+}
+
+/// The sign of the normal.
+pub fn inward(mut tiles: Query<(&ShapeRows<PlacedMesh>, &mut Surfaces)>) {
+    for (list, mut surfaces) in &mut tiles {
+        for &row in &list.row {
+            let mut surface = surfaces.get(row as usize);
+            surface.normal = -surface.normal;
+            surfaces.set(row as usize, surface);
+        }
+    }
+}
+
+/// No mesh is looked for.
+pub fn meshes_ignored() {}
+
+/// The depth of what is nearest in the place of its distance along the ray.
+pub fn depth_for_distance(
+    projection: Res<Shared<Projection>>,
+    shapes: Res<Shared<ShapeTable>>,
+    mut tiles: Query<(&WorldRays, &mut Hits)>,
+) {
+    for (rays, mut hits) in &mut tiles {
+        for row in 0..rays.rows() {
+            let shape = hits.shape[row];
+            if shape != NO_SHAPE && shapes.kind[shape as usize] == ShapeKind::Mesh {
+                hits.t[row] *= -(projection.camera_from_world * rays.direction_of(row)).z;
+            }
+        }
+    }
+}
+
+/// Every second line of a rectangle left out.
+pub fn every_second_line(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(&Tile, &mut Hits)>) {
+    for (tile, mut hits) in &mut tiles {
+        for row in 0..hits.rows() {
+            let shape = hits.shape[row];
+            let is_odd = tile.pixel_of(row)[1] % 2 == 1;
+            if is_odd && shape != NO_SHAPE && shapes.kind[shape as usize] == ShapeKind::Sphere {
+                (hits.t[row], hits.shape[row]) = (f64::INFINITY, NO_SHAPE);
+            }
         }
     }
 }

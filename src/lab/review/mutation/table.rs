@@ -1,4 +1,4 @@
-use super::{Bug, Mutation, hits, light, meshes, moving, rasterised, rays, shapes, textures, triangles};
+use super::{Bug, Mutation, hits, light, moving, rays, shapes, textures};
 use bevy_ecs::prelude::*;
 use pinhole::film::film_stage;
 use pinhole::follow::direct_light_stage;
@@ -18,9 +18,9 @@ use pinhole::rays::{
 };
 use pinhole::shade::{
     area_light_stage, background_stage, checker_stage, colour_stage, directional_light_stage, emissive_stage,
-    environment_stage, footprint_stage, gradient_stage, image_stage, moving_shadow_stage,
-    plane_shadow_stage, point_light_stage, shape_shadow_stage, sphere_shadow_stage, spot_light_stage,
-    start_light_stage, start_shadow_stage, stripes_stage, texture_point_stage, unlit_stage,
+    environment_stage, footprint_stage, gradient_stage, image_stage, moving_shadow_stage, plane_shadow_stage,
+    point_light_stage, shape_shadow_stage, sphere_shadow_stage, spot_light_stage, start_light_stage,
+    start_shadow_stage, stripes_stage, texture_point_stage, unlit_stage,
 };
 use pinhole::shapes::{Ellipsoid, PlacedDisk, PlacedMesh, PlacedRectangle, PlacedSphere, Slabs, TriangleRow};
 use pinhole::{intersect, shade};
@@ -90,10 +90,10 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("light-left-over", start_light_stage, "not emptied", MOST, Bug::Instead(|| light::light_left_over.into_configs())),
     bug("far-root", sphere_stage, "where the ray leaves", MOST, Bug::Instead(|| hits::far_root.into_configs())),
     bug("unit-ray", ellipsoid_stage, "unit ray, t kept", SCALED, Bug::Instead(|| hits::ellipsoid_unit_ray.into_configs())),
-    bug("two-edges", triangle_stage, "third edge not asked for", MICROFACETS, Bug::Instead(|| triangles::two_edges.into_configs())),
-    bug("own-unit", mesh_stage, "t in the mesh's own unit", MODELS, Bug::After(|| meshes::own_unit.into_configs())),
-    bug("depth-for-distance", rasterise_stage, "depth taken for the distance along the ray", PROJECTED, Bug::After(|| rasterised::depth_for_distance.into_configs())),
-    bug("every-second-line", box_stage::<PlacedSphere>, "every second line left out", BOXED, Bug::After(|| rasterised::every_second_line.into_configs())),
+    bug("two-edges", triangle_stage, "third edge not asked for", MICROFACETS, Bug::Instead(|| shapes::two_edges.into_configs())),
+    bug("own-unit", mesh_stage, "t in the mesh's own unit", MODELS, Bug::After(|| shapes::own_unit.into_configs())),
+    bug("depth-for-distance", rasterise_stage, "depth taken for the distance along the ray", PROJECTED, Bug::After(|| shapes::depth_for_distance.into_configs())),
+    bug("every-second-line", box_stage::<PlacedSphere>, "every second line left out", BOXED, Bug::After(|| shapes::every_second_line.into_configs())),
     bug("plane-sign", plane_stage, "sign of k", MOST, Bug::Instead(|| hits::plane_sign.into_configs())),
     bug("disk-square", disk_stage, "the square about it", SHAPES, Bug::Instead(|| shapes::disk_square.into_configs())),
     bug("one-coordinate", rectangle_stage, "one coordinate asked", SHAPES, Bug::Instead(|| shapes::one_coordinate.into_configs())),
@@ -103,9 +103,9 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("normal-inward", sphere_surface_stage, "sign of the normal", MOST, Bug::After(|| hits::normal_inward.into_configs())),
     bug("no-epsilon", sphere_surface_stage, "epsilon times 0", MOST, Bug::After(|| hits::no_epsilon.into_configs())),
     bug("normal-as-direction", ellipsoid_surface_stage, "taken for a direction", SCALED, Bug::After(|| hits::normal_as_direction.into_configs())),
-    bug("next-corner", triangle_surface_stage, "barycentrics one corner on", MICROFACETS, Bug::After(|| triangles::next_corner.into_configs())),
-    bug("mesh-inward", mesh_surface_stage, "sign of the normal", MODELS, Bug::After(|| meshes::inward.into_configs())),
-    bug("shorter-normal", shading_normal_stage, "not brought to length 1", MICROFACETS, Bug::After(|| triangles::shorter.into_configs())),
+    bug("next-corner", triangle_surface_stage, "barycentrics one corner on", MICROFACETS, Bug::After(|| shapes::next_corner.into_configs())),
+    bug("mesh-inward", mesh_surface_stage, "sign of the normal", MODELS, Bug::After(|| shapes::inward.into_configs())),
+    bug("shorter-normal", shading_normal_stage, "not brought to length 1", MICROFACETS, Bug::After(|| shapes::shorter.into_configs())),
     bug("constant-epsilon", plane_surface_stage, "one epsilon, 1e-4", MOST, Bug::After(|| hits::constant_epsilon.into_configs())),
     bug("disk-inward", disk_surface_stage, "sign of the normal", SHAPES, Bug::After(|| shapes::disk_inward.into_configs())),
     bug("rectangle-epsilon", rectangle_surface_stage, "one epsilon, 1e-4", SHAPES, Bug::After(|| shapes::rectangle_epsilon.into_configs())),
@@ -127,8 +127,8 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("endless-t-max", start_shadow_stage, "t_max without end", MOST, Bug::After(|| light::endless_t_max.into_configs())),
     bug("spheres-ignored", sphere_shadow_stage, "not looked for", MOST, Bug::Instead(|| light::spheres_ignored.into_configs())),
     bug("ellipsoids-ignored", shape_shadow_stage::<Ellipsoid>, "not looked for", SCALED, Bug::Instead(|| light::ellipsoids_ignored.into_configs())),
-    bug("triangles-ignored", shape_shadow_stage::<TriangleRow>, "not looked for", MICROFACETS, Bug::Instead(|| triangles::ignored.into_configs())),
-    bug("meshes-ignored", shape_shadow_stage::<PlacedMesh>, "not looked for", MODELS, Bug::Instead(|| meshes::ignored.into_configs())),
+    bug("triangles-ignored", shape_shadow_stage::<TriangleRow>, "not looked for", MICROFACETS, Bug::Instead(|| shapes::triangles_ignored.into_configs())),
+    bug("meshes-ignored", shape_shadow_stage::<PlacedMesh>, "not looked for", MODELS, Bug::Instead(|| shapes::meshes_ignored.into_configs())),
     bug("behind-counts", plane_shadow_stage, "t below 0 counts", MOST, Bug::Instead(|| light::behind_counts.into_configs())),
     bug("disks-ignored", shape_shadow_stage::<PlacedDisk>, "not looked for", SHAPES, Bug::Instead(|| light::disks_ignored.into_configs())),
     bug("rectangles-ignored", shape_shadow_stage::<PlacedRectangle>, "not looked for", SHAPES, Bug::Instead(|| light::rectangles_ignored.into_configs())),

@@ -2,7 +2,7 @@ use super::escape;
 use crate::review::{StageBlocks, stage_blocks};
 use std::fmt::Write;
 
-/// Every stage in order, with a small map of the blocks of pixels in which it wrote other numbers.
+/// Every stage in order, whether it wrote other numbers, and for the film a small map of the blocks that differ.
 pub fn stages(before: &str, now: &str) -> String {
     let stages = stage_blocks(before, now);
     let same = stages.iter().take_while(|stage| stage.differing.is_empty() && !stage.gone && !stage.new).count();
@@ -15,12 +15,12 @@ pub fn stages(before: &str, now: &str) -> String {
             escape(&stage.stage),
             escape(&stage.column),
             told(stage),
-            if stage.differing.is_empty() { String::new() } else { map(stage) }
+            if stage.differing.is_empty() || stage.across * stage.down < 2 { String::new() } else { map(stage) }
         );
     }
     format!(
         "<div class=\"wide\"><table class=\"stages\"><thead><tr><th scope=\"col\">stage</th><th scope=\"col\">column</th>\
-         <th scope=\"col\">blocks that differ</th><th scope=\"col\">where</th></tr></thead><tbody>\n{rows}</tbody>\
+         <th scope=\"col\">numbers</th><th scope=\"col\">where</th></tr></thead><tbody>\n{rows}</tbody>\
          </table></div>\n"
     )
 }
@@ -30,7 +30,8 @@ fn told(stage: &StageBlocks) -> String {
         (true, ..) => "no longer runs".into(),
         (_, true, _) => "is new".into(),
         (.., 0) => "same".into(),
-        (.., count) => format!("{count} of {}", stage.across * stage.down),
+        _ if stage.across * stage.down < 2 => "differs".into(),
+        (.., count) => format!("{count} of {} blocks differ", stage.across * stage.down),
     }
 }
 

@@ -1,4 +1,4 @@
-use crate::extract::{CameraAxes, ImageFrame, PerspectiveProjection, camera_entity, camera_kind, eye};
+use crate::extract::{CameraAxes, ImageFrame, PerspectiveProjection, camera_entity, camera_kind, eye, upward};
 use crate::plan::Census;
 use crate::scene::{ChildOf, LookAt, PerspectiveCamera};
 use crate::{Error, Result};
@@ -8,8 +8,8 @@ use glam::DMat3;
 /// A perspective camera and its placement: all that a description in another convention must preserve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedCamera {
-    /// Eye, target and up in world space: as the author wrote them, or else a point one unit ahead and the camera's own
-    /// y axis.
+    /// Eye, target and up in world space: as the author wrote them (an up that nobody wrote is never along the view), or
+    /// else a point one unit ahead and the camera's own y axis.
     pub look: LookAt,
     /// Columns: the camera's x (right), y (up) and z (back) axes as unit vectors in world space.
     pub world_from_camera: DMat3,
@@ -36,6 +36,8 @@ impl PlacedCamera {
         let eye = eye(scene)?;
         let derived = LookAt { eye, target: eye - world_from_camera.z_axis, up: world_from_camera.y_axis };
         let written = scene.get::<LookAt>(camera).copied().filter(|_| scene.get::<ChildOf>(camera).is_none());
+        // Other programs refuse an up along the view, whoever wrote it.
+        let written = written.map(|look| LookAt { up: upward(&look), ..look });
         Ok(Self {
             look: written.unwrap_or(derived),
             world_from_camera,

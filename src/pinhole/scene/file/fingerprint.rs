@@ -1,8 +1,8 @@
 use super::word::Word;
 use super::write::spawned;
 use crate::scene::{
-    ChildOf, Disabled, EmbeddedFiles, Environment, IMAGE_FILE, MeshGeometry, MeshInstance, Name, Sampler, Sampling,
-    SceneFolder, Statistics, UsesMaterial, read_file, texture_files,
+    ChildOf, Disabled, EmbeddedFiles, Environment, IMAGE_FILE, MeshGeometry, MeshInstance, ModelFiles, Name, Sampler,
+    Sampling, SceneFolder, Statistics, UsesMaterial, read_file, texture_files,
 };
 use bevy_ecs::prelude::*;
 use std::any::TypeId;
@@ -41,6 +41,7 @@ pub fn fingerprint(scene: &World) -> String {
             let read = |path: &PathBuf| read_file(path, IMAGE_FILE).ok().map(|bytes| hash(&bytes));
             let held = EmbeddedFiles::find(scene, file)
                 .map(hash)
+                .or_else(|| ModelFiles::find(scene, file).map(|bytes| hash(&bytes)))
                 .or_else(|| *images.entry(SceneFolder::path_of(scene, file)).or_insert_with_key(read));
             text += &format!(" {held:?}");
         }
@@ -67,7 +68,8 @@ fn hash_of_mesh(mesh: &MeshGeometry) -> u64 {
     let triangles = mesh.triangles.iter().flatten().copied();
     let normals = mesh.normals.iter().flatten().flatten().map(|part| part.to_bits());
     let uvs = mesh.uvs.iter().flatten().flatten().map(|part| part.to_bits());
-    let numbers = positions.chain(triangles).chain(normals).chain(uvs);
+    let colours = mesh.colours.iter().flatten().flatten().map(|part| part.to_bits());
+    let numbers = positions.chain(triangles).chain(normals).chain(uvs).chain(colours);
     numbers.fold(FNV_BASIS, |hash, number| (hash ^ u64::from(number)).wrapping_mul(0x0100_0000_01b3))
 }
 

@@ -152,7 +152,7 @@ fn value_mistake(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -
             let fraction = text.get(at..).is_some_and(|rest| rest.starts_with('.'));
             if let Some(field) = fields.iter().find(|field| fraction && field.value.contains(&at)) {
                 let whole = shown(text.get(field.value.clone()).unwrap_or(""));
-                let what = format!("{whose}: {} is {whole}, but it must be a whole number", field.word);
+                let what = format!("{whose}: {} is {whole}, but it must be {}", field.word, whole_number(field.word));
                 return Mistake::new(field.value.start, what);
             }
             Mistake::new(at, format!("{whose}: found {}, but expected `,` or a closing bracket", found(text, at)))
@@ -177,7 +177,9 @@ fn value_mistake(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -
                     "a word with its fields in round brackets, such as Path()".into()
                 }
                 _ if in_variant => "a word with its fields in round brackets, such as Tent(radius: 1.0)".into(),
-                Error::IntegerOutOfBounds if name == "seed" => format!("a whole number from 0 to {}", u64::MAX),
+                Error::IntegerOutOfBounds | Error::ExpectedInteger | Error::InvalidIntegerDigit { .. } => {
+                    whole_number(name)
+                }
                 _ => expected(code, part.word),
             };
             let stands = found(text, at);
@@ -194,13 +196,17 @@ fn token_at(text: &str, value: &Range<usize>, stopped: usize) -> usize {
     if at >= value.end { value.start } else { at.max(value.start) }
 }
 
+/// The whole numbers that a field may hold.
+fn whole_number(field: &str) -> String {
+    let most = if field == "seed" { u64::MAX } else { u32::MAX.into() };
+    format!("a whole number from 0 to {most}")
+}
+
 /// What `ron` expected.
 fn expected(code: &Error, word: &str) -> String {
     let example = || Word::find(word).and_then(|word| (word.of_default)()).unwrap_or_else(|| "(…)".into());
     match code {
         Error::ExpectedFloat => "a number".into(),
-        Error::ExpectedInteger | Error::InvalidIntegerDigit { .. } => "a whole number".into(),
-        Error::IntegerOutOfBounds => format!("a whole number from 0 to {}", u32::MAX),
         Error::ExpectedBoolean => "true or false".into(),
         Error::ExpectedString => "a text in double quotes".into(),
         Error::NoSuchEnumVariant { expected, .. } => format!("one of {}", expected.join(", ")),

@@ -19,10 +19,31 @@ fn replaced(text: &str) -> String {
         let end = from.find(|letter: char| !letter.is_alphanumeric() && letter != '_').unwrap_or(from.len());
         let (name, after) = from.split_at(end);
         done.push_str(before);
-        done.push_str(word_of(name).unwrap_or(name));
-        rest = after;
+        rest = match variant_of(name, after) {
+            Some((written, after)) => {
+                done.push_str(&written);
+                after
+            }
+            None => {
+                done.push_str(word_of(name).unwrap_or(name));
+                after
+            }
+        };
     }
     done + rest
+}
+
+/// A variant such as `Integrator::Path` as a file has it, and what follows.
+fn variant_of<'t>(name: &str, after: &'t str) -> Option<(String, &'t str)> {
+    let after = after.strip_prefix("::")?;
+    let (variant, after) = after.split_at(after.find(|letter: char| !letter.is_alphanumeric()).unwrap_or(after.len()));
+    let written = match (name, variant) {
+        ("Integrator", "RayCasting") => "integrator: RayCasting".into(),
+        ("Integrator", _) => format!("integrator: {variant}()"),
+        ("LightStrategy", _) => format!("lights: {variant}"),
+        _ => return None,
+    };
+    Some((written, after))
 }
 
 /// The word of a component's name.

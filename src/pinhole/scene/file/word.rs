@@ -3,8 +3,8 @@ use crate::scene::{
     Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, EmissionMap, Emissive, Environment,
     EquirectangularCamera, FisheyeCamera, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing, LookAt, Mesh,
     MetallicRoughnessMap, Motion, NormalMap, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight,
-    Rasterisation, Rectangle, Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Torus, Triangle,
-    View,
+    Rasterisation, Rectangle, Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Tint, Torus,
+    Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -50,6 +50,7 @@ const WORDS: &[Word] = &[
     Word::of::<Checker>("checker"),
     Word::of::<Stripes>("stripes"),
     Word::of::<ImageTexture>("image_texture"),
+    Word::of::<Tint>("tint"),
     Word::of::<NormalMap>("normal_map"),
     Word::of::<MetallicRoughnessMap>("metallic_roughness_map"),
     Word::of::<EmissionMap>("emission_map"),

@@ -1,8 +1,8 @@
 use super::read::LONGEST_NAME;
 use super::word::{Word, text_of};
 use crate::scene::{
-    ChildOf, Disabled, Mesh, MeshInstance, MeshPart, Name, SceneError, Tint, UnreadMesh, UsedByShapes, UsesMaterial,
-    called, meshes_in_memory, printable,
+    ChildOf, Disabled, Mesh, MeshInstance, MeshPart, Name, SceneError, UnreadMesh, UsedByShapes, UsesMaterial, called,
+    meshes_in_memory, printable,
 };
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::*;
@@ -119,7 +119,6 @@ fn check_components(scene: &World, entity: &EntityRef<'_>, who: &str) -> Result<
         TypeId::of::<MeshInstance>(),
         TypeId::of::<MeshPart>(),
         TypeId::of::<UnreadMesh>(),
-        TypeId::of::<Tint>(),
     ];
     for &id in entity.archetype().components() {
         let Some(info) = scene.components().get_info(id) else { continue };

@@ -1,13 +1,15 @@
 //! The image files that a model names: where they are, and whether they can be read.
 
-use crate::scene::{IMAGE_FILE, TELLING_BYTES, image_kind, open_file};
-use image::{ImageFormat, ImageReader};
+use crate::scene::{FileStore, IMAGE_FILE, TELLING_BYTES, Undecoded, check_memory, image_kind};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use std::fs;
-use std::io::{BufReader, Read, Seek};
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 /// The greatest number of texels of an image that extraction accepts.
 const MOST_TEXELS: u64 = 1 << 26;
+/// The greatest number of texels that a byte of an image can hold: eight of one bit, in the tightest deflate.
+const MOST_TEXELS_A_BYTE: u64 = 8 * 1032;
 
 /// The ending of an image's name by its first bytes, if it is of a kind that is read.
 pub fn ending_of(bytes: &[u8]) -> &'static str {
@@ -44,41 +46,51 @@ fn in_other_case(path: &Path) -> Option<PathBuf> {
     })
 }
 
-/// Checks that an image can be read, by its first bytes and its head.
+/// The images that were checked, with why they cannot be read if they cannot.
+static CHECKED: FileStore<Result<(), String>> = FileStore::new();
+
+/// What a result counts as in memory, so that the last few thousand are kept.
+const A_RESULT: usize = 1 << 16;
+
+/// Checks that an image can be read, which is known when it has been decoded as a whole: files break off, and are damaged
+/// anywhere.
 ///
 /// Errors: why it cannot be.
 pub fn check_file(path: &Path) -> Result<(), String> {
-    let open = || open_file(path, IMAGE_FILE).map_err(|error| error.to_string());
-    let mut start = Vec::new();
-    open()?.file.take(TELLING_BYTES as u64).read_to_end(&mut start).map_err(|error| error.to_string())?;
-    check(path, &start, || Ok(BufReader::new(open()?.file)))
+    let checked = CHECKED.get(path, IMAGE_FILE, |bytes| Ok((check(path, bytes), A_RESULT)));
+    let checked = checked.map_err(|why| match why {
+        Undecoded::File(error) => error.to_string(),
+        Undecoded::Content(problem) => problem,
+    })?;
+    (*checked).clone()
 }
 
-/// The same of an image in memory.
+/// The same of an image in memory, known by a name.
 ///
 /// Errors: why it cannot be.
-pub fn check_bytes(bytes: &[u8]) -> Result<(), String> {
-    check(Path::new(""), &bytes[..bytes.len().min(TELLING_BYTES)], || Ok(std::io::Cursor::new(bytes)))
+pub fn check_bytes(name: &str, bytes: &[u8]) -> Result<(), String> {
+    let checked = CHECKED.of_bytes(Path::new(name), bytes, |bytes| Ok((check(Path::new(""), bytes), A_RESULT)))?;
+    (*checked).clone()
 }
 
-fn check<R: std::io::BufRead + Seek>(
-    path: &Path,
-    start: &[u8],
-    open: impl FnOnce() -> Result<R, String>,
-) -> Result<(), String> {
-    let format = match image_kind(path, start)? {
-        // Their heads are read where they are used.
+fn check(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    let format = match image_kind(path, &bytes[..bytes.len().min(TELLING_BYTES)])? {
+        // They are decoded where they are used.
         ImageFormat::Hdr | ImageFormat::OpenExr => return Ok(()),
         format => format,
     };
-    let damaged = "it is damaged";
-    let (width, height) =
-        ImageReader::with_format(open()?, format).into_dimensions().map_err(|_| damaged.to_owned())?;
-    match u64::from(width) * u64::from(height) {
-        0 => Err(damaged.into()),
-        texels if texels > MOST_TEXELS => {
-            Err(format!("it has {width} × {height} texels, and an image may have {MOST_TEXELS}"))
-        }
-        _ => Ok(()),
+    let damaged = || "it is damaged".to_owned();
+    let decoder = ImageReader::with_format(Cursor::new(bytes), format).into_decoder().map_err(|_| damaged())?;
+    let (width, height) = decoder.dimensions();
+    let texels = u64::from(width) * u64::from(height);
+    if texels > MOST_TEXELS {
+        return Err(format!("it has {width} × {height} texels, and an image may have {MOST_TEXELS}"));
     }
+    // A byte of a PNG holds no more texels than this, so that less of them does not fill the memory.
+    if texels == 0 || texels / MOST_TEXELS_A_BYTE > bytes.len() as u64 {
+        return Err(damaged());
+    }
+    check_memory(decoder.total_bytes())
+        .map_err(|too_little| format!("it has {width} × {height} texels, which {too_little}"))?;
+    DynamicImage::from_decoder(decoder).map(|_| ()).map_err(|_| damaged())
 }

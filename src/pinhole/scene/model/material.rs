@@ -92,7 +92,10 @@ pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize, not
         match model.name_of_image(scene, texture.image) {
             Ok(file) => Some((file, wrap_of(texture.wrap), transform_of(&texture), !texture.nearest)),
             Err(why) => {
-                notes.missing_images.insert(why);
+                let materials = notes.missing_images.entry(why).or_default();
+                if !materials.contains(&own.name) {
+                    materials.push(own.name.clone());
+                }
                 None
             }
         }

@@ -1,4 +1,6 @@
-use std::collections::BTreeSet;
+use crate::scene::printable;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// What the materials of a model say and its picture does not show, counted.
 #[derive(Debug, Default)]
@@ -21,8 +23,8 @@ pub struct MaterialNotes {
     pub glass_colours: usize,
     /// Glass with a texture of roughness.
     pub glass_roughnesses: usize,
-    /// Why images were replaced, one clause each.
-    pub missing_images: BTreeSet<String>,
+    /// Why images were replaced, one clause each, and the names of the materials that have them.
+    pub missing_images: BTreeMap<String, Vec<Arc<str>>>,
 }
 
 /// How many missing images are named.
@@ -40,8 +42,8 @@ impl MaterialNotes {
             ),
             (
                 self.blended,
-                "is see-through by its alpha (alphaMode BLEND)",
-                "are see-through by their alpha (alphaMode BLEND)",
+                "is see-through by its alpha (alphaMode BLEND, or d and Tr of a .mtl file)",
+                "are see-through by their alpha (alphaMode BLEND, or d and Tr of a .mtl file)",
                 OPAQUE,
             ),
             (
@@ -89,13 +91,26 @@ impl MaterialNotes {
             self.missing_images
                 .iter()
                 .take(NAMED)
-                .map(|why| format!("An image is replaced by the material's own numbers: {why}.")),
+                .map(|(why, materials)| format!("{} by the material's own numbers: {why}.", replaced(materials))),
         );
         let more = self.missing_images.len().saturating_sub(NAMED);
         if more > 0 {
             sentences.push(format!("{more} more images are replaced by their materials' own numbers."));
         }
         sentences
+    }
+}
+
+/// Whose image is replaced: the first of several materials is named.
+fn replaced(materials: &[Arc<str>]) -> String {
+    let named = |name: &str| format!("An image of the material \"{}\"", printable(name, 80));
+    match materials {
+        [one] if !one.is_empty() => format!("{} is replaced", named(one)),
+        [one, more @ ..] if !one.is_empty() => {
+            let others = if more.len() == 1 { "another".to_owned() } else { format!("{} others", more.len()) };
+            format!("{} and {others} is replaced", named(one))
+        }
+        _ => "An image is replaced".into(),
     }
 }
 

@@ -5,7 +5,7 @@ use crate::scene::{
     read_file,
 };
 use bevy_ecs::prelude::*;
-use pinhole_models::{ImageSource, Model, read_model};
+use pinhole_models::{ImageSource, Model, ModelError, read_model};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -71,7 +71,7 @@ fn read(path: &Path, bytes: &[u8]) -> Result<(OpenModel, usize), String> {
     let beside = |name: &str| read_file(&found_beside(folder, name), MODEL_FILE).map_err(|error| error.to_string());
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let model = read_model(&name, bytes, &beside)
-        .map_err(|problem| format!("{} cannot be read: {problem}", printable_path(path)))?;
+        .map_err(|problem| format!("{} cannot be read: {}", printable_path(path), without_file(&name, &problem)))?;
     let parts = model.instances.len() as u64;
     check_memory(parts * BYTES_A_PART)
         .map_err(|too_little| format!("{} has {parts} parts, which {too_little}", printable_path(path)))?;
@@ -83,6 +83,13 @@ fn read(path: &Path, bytes: &[u8]) -> Result<(OpenModel, usize), String> {
     let size = model.meshes.iter().map(|mesh| mesh.bytes()).sum::<usize>() + images.sum::<usize>();
     let closed = geometry.iter().map(|_| OnceLock::new()).collect();
     Ok((OpenModel { model, geometry, closed, path: path.into() }, size))
+}
+
+/// What is wrong with a model, without the name of the file where that is the model itself, which has been named.
+fn without_file(name: &str, problem: &ModelError) -> String {
+    let said = problem.to_string();
+    let own = format!("{}: ", printable(name, 200));
+    said.strip_prefix(&own).map_or_else(|| said.clone(), str::to_owned)
 }
 
 /// Meshes of more triangles than this are not asked whether they are closed where only a remark depends on it.
@@ -130,12 +137,16 @@ impl OpenModel {
                 let path = found_beside(self.path.parent().unwrap_or(Path::new("")), name);
                 // Texture files are named relative to the scene's folder, and an absolute path stays as it is.
                 let path = std::path::absolute(&path).unwrap_or(path);
-                check_file(&path).map_err(|why| format!("{}: {why}", printable_path(&path)))?;
+                check_file(&path).map_err(|why| {
+                    let shown = printable_path(&path);
+                    if why.contains(&shown) { why } else { format!("{shown}: {why}") }
+                })?;
                 Ok(path.to_string_lossy().into_owned())
             }
             ImageSource::Bytes(bytes) => {
                 let model = self.path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
-                check_bytes(bytes).map_err(|why| format!("{}, image {image}: {why}", printable(&model, 80)))?;
+                let name = format!("{}, image {image}", self.path.to_string_lossy());
+                check_bytes(&name, bytes).map_err(|why| format!("{}, image {image}: {why}", printable(&model, 80)))?;
                 let ending = ending_of(bytes);
                 Ok(scene.get_resource_or_init::<ModelFiles>().keep(bytes, |number| match number {
                     1 => format!("{model}, image {image}.{ending}"),
