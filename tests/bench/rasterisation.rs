@@ -9,7 +9,11 @@
 //! All but the frames run on one thread and are timed in processor time; frames take as many threads as there are
 //! processors, and are timed as the viewer makes them, from the camera's pose to the bytes of the pixels.
 
-#![allow(clippy::disallowed_methods, reason = "what is measured here may come from the platform's functions")]
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_types,
+    reason = "what is measured here may come from the platform's functions"
+)]
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 #[path = "rasterisation/curved.rs"]

@@ -3,7 +3,7 @@ use super::material::material_kind_evidence;
 use super::texture::{NO_TEXTURE, rows_of_kind, texture_evidence};
 use crate::material::{components_in_words, material_entities, one_material};
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{MeshInstance, SceneError, Tint};
+use crate::scene::{Feeds, MeshInstance, SceneError, Tint};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeSet;
 
@@ -62,8 +62,8 @@ fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
             );
         }
         let own = one_material(scene, owner)?;
-        if !own.textured {
-            let textured = components_in_words("a ", |own| own.textured);
+        if !own.takes(Feeds::Colour) {
+            let textured = components_in_words("a ", |own| own.takes(Feeds::Colour));
             return refused(own.word, format!("a tint multiplies the colour of diffuse reflection, as of {textured}"));
         }
     }

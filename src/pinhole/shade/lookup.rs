@@ -336,7 +336,7 @@ mod tests {
             UvTransform { offset: DVec2::new(0.25, 0.5), rotation: Degrees(90.0), scale: DVec2::new(2.0, 3.0) };
         let affine = transform.affine("a texture").expect("finite");
         let at = TexturePoint { point: DVec3::new(1.0, 0.0, 0.0), steps: [DVec3::Y, DVec3::INFINITY] };
-        let found = transformed(at, affine);
+        let found = transformed(at, &affine);
         // Anticlockwise as the image is seen, with v down: u turns to -v.
         assert!((found.point - DVec3::new(0.25, -1.5, 0.0)).length() < 1e-12, "{found:?}");
         assert!((found.steps[0] - DVec3::new(3.0, 0.0, 0.0)).length() < 1e-12, "{found:?}");

@@ -56,9 +56,14 @@ impl Case {
         let (naive, pinhole, method) = (&scores[*row], &scores[0], self.outcomes[*row].method);
         let word = if naive.wrong > 0 { "first wrong" } else { "at its worst" };
         let mut lines = vec![format!("{word} at input {input}: {}", method.name)];
-        if let (Some([naive, exact]), Some([pinhole, _])) = (naive.said, pinhole.said) {
-            let [naive, pinhole, exact] = [naive, pinhole, exact].map(said);
-            lines.push(format!("  naive {naive}, pinhole {pinhole}, exact {exact}"));
+        if let (Some([naive, exact]), Some([pinhole, own])) = (naive.said, pinhole.said) {
+            let [naive, pinhole, rounded, exact] = [naive, pinhole, exact, own].map(said);
+            if rounded == exact {
+                lines.push(format!("  naive {naive}, pinhole {pinhole}, exact {exact}"));
+            } else {
+                lines.push(format!("  naive {naive}, exact {rounded} (of the shape in f32)"));
+                lines.push(format!("  pinhole {pinhole}, exact {exact}"));
+            }
         } else if naive.wrong == 0 && pinhole.wrong == 0 && method.unit == self.outcomes[0].method.unit {
             let [naive, pinhole] = [naive, pinhole].map(|score| short(score.worst));
             lines.push(format!("  naive off by {naive} {unit}, pinhole by {pinhole} {unit}", unit = method.unit));
