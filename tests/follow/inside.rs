@@ -641,7 +641,9 @@ fn a_light_beside_a_face_of_glass_is_on_one_side_of_it() {
     let mut worst = 0.0_f64;
     for (from, ior) in [(0.0, 1.5), (7.0, 1.5), (0.0, 1.0), (-3.0, 1.8)] {
         let [below, above] = [-1e-3, 1e-3].map(|height| floor_of(height, from, ior));
-        assert!((below.mean - above.mean).abs() > 6.0 * (below.error + above.error), "{below:?} and {above:?} differ");
+        // Where nothing is refracted, the two are alike.
+        let differ = (below.mean - above.mean).abs() > 6.0 * (below.error + above.error);
+        assert!(differ || ior == 1.0, "{below:?} and {above:?}");
         for height in [-1e-4, -1e-6, -1e-7, -1e-9, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4] {
             let (found, expected) = (floor_of(height, from, ior), if height < 0.0 { &below } else { &above });
             // Positions are rounded to f32, by 5e-7 at most here.

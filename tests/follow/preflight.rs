@@ -416,7 +416,7 @@ fn what_precision_cannot_keep_apart_is_said() {
         })
     };
     let [thin, narrow] = [pane(1e-6), shell(1.0 + 1e-6)];
-    assert!(thin.len() == 1 && thin[0].contains("cuboid \"pane\" is 1.0e-6 thin"), "{thin:?}");
+    assert!(thin.len() == 1 && thin[0].contains("cuboid \"pane\" is 1.0e-6 thick"), "{thin:?}");
     assert!(narrow.len() == 1 && narrow[0].contains("\"shell\"") && narrow[0].contains("1.0e-6 apart"), "{narrow:?}");
     assert_eq!([pane(1e-2), shell(1.01), shell(1.0)], [const { Vec::<String>::new() }; 3]);
 }

@@ -224,15 +224,15 @@ fn frosted_blocks() -> World {
     world
 }
 
-/// The eye on a face of an absorbing block, and a lamp just within another above the floor.
-fn on_a_face() -> World {
+/// The eye on the surface of the sea over a floor, and a lamp a hair above it.
+fn on_the_sea() -> World {
     let mut world = toggled(&[Toggle::Light, Toggle::Shadow, Toggle::Plane]);
     let (camera, lamp) = (named(&mut world, "camera"), named(&mut world, "lamp"));
     let look = LookAt { eye: DVec3::new(0.0, 1.5, 2.0), target: DVec3::ZERO, ..LookAt::default() };
     world.entity_mut(camera).insert((look, Integrator::PATH));
-    let glass = Glass { absorption: Rgb::grey(2.0), ..Glass::default() };
-    world.spawn((Cuboid { size: DVec3::new(4.0, 1.0, 4.0) }, Placement::at(0.0, 1.5, 0.0), glass));
-    world.entity_mut(lamp).insert(Placement::at(0.0, 1.0 + 1e-7, 0.4));
+    let glass = Glass { absorption: Rgb::grey(0.3), ..Glass::default() };
+    world.spawn((Plane::default(), Placement::at(0.0, 1.5, 0.0), glass));
+    world.entity_mut(lamp).insert(Placement::at(0.0, 1.5 + 1e-7, 0.4));
     world
 }
 
@@ -318,7 +318,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("films", films()),
         ("a lamp in ink", in_ink()),
         ("frosted blocks", frosted_blocks()),
-        ("an eye and a lamp on faces of glass", on_a_face()),
+        ("an eye and a lamp on the sea", on_the_sea()),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();

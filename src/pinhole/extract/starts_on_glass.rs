@@ -90,27 +90,27 @@ impl Table for GlassStartTable {
 }
 
 /// Evidence of such points, of those that pass a test.
-fn evidence(scene: &Census<'_>, such: impl Fn(&GlassStart) -> bool, is: &str) -> Evidence {
+fn evidence(scene: &Census<'_>, such: impl Fn(&GlassStart) -> bool, at: &str) -> Evidence {
     // What is wrong with the scene is said elsewhere.
     let found = starts(scene).unwrap_or_default();
     let names: Vec<&str> = found.iter().filter(|(_, start)| such(start)).map(|(name, _)| &**name).collect();
     let reason = match &names[..] {
-        [] => format!("no camera and no light without an area {is} of glass"),
-        [one] => format!("the {one} {is} of glass"),
-        [one, ..] => format!("the {one} and {} more: {is} of glass", names.len() - 1),
+        [] => format!("0 cameras and lights without an area {at} of glass"),
+        [one] => format!("1 start of paths {at} of glass: the {one}"),
+        [one, ..] => format!("{} starts of paths {at} of glass: the {one}, …", names.len()),
     };
     Evidence { needed: !names.is_empty(), reason, count: names.len() }
 }
 
 /// Evidence that the eye or a light is on the surface of glass.
 pub fn start_on_glass_evidence(scene: &Census<'_>) -> Evidence {
-    scene.once(|scene| evidence(scene, |start| start.is_on, "is on the surface"))
+    scene.once(|scene| evidence(scene, |start| start.is_on, "on the surface"))
 }
 
 /// Evidence that a light, or the eye where light paths are connected to it, is close to the surface of glass.
 pub fn end_close_to_glass_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
         let traced = traced_evidence(scene).needed;
-        evidence(scene, |start| traced || start.position != DVec3::ZERO, "is close to the surface")
+        evidence(scene, |start| traced || start.position != DVec3::ZERO, "close to the surface")
     })
 }

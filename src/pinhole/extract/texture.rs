@@ -3,7 +3,7 @@ use super::check::{kind_and_name, positive_length, triple};
 use super::material::in_use;
 use super::pose::pose;
 use super::shape_kind::shape_entities;
-use crate::material::{components_in_words, material_entities, one_material};
+use crate::material::{REGISTERED, components_in_words, material_entities, one_material};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Checker, Feeds, ImageTexture, Rgb, SceneError, Stripes, Texture, TextureBy, for_each_texture};
 use bevy_ecs::prelude::*;
@@ -201,7 +201,8 @@ fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
     for (at, &(owner, own)) in owned.iter().enumerate() {
         let who = kind_and_name(scene, own.word, owner);
         if !materials.contains(&owner) {
-            let accepted = "it belongs on an entity that is a material, such as one with a Matte";
+            let first = REGISTERED.iter().find(|material| material.takes(own.feeds)).map_or("Matte", |own| own.component);
+            let accepted = format!("it belongs on an entity that is a material, such as one with a {first}");
             return Err(SceneError::new(who, "material", "missing", accepted));
         }
         let material = one_material(scene, owner)?;

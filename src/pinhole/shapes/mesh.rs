@@ -122,6 +122,8 @@ impl PlacedMesh {
     }
 
     /// The closest hit, its shape's number 0; [`ClosestHit::NONE`] for a miss.
+    // It is asked for single points; inlined there, the loop over a tile's rays would not be.
+    #[inline(never)]
     pub fn closest(&self, origin: DVec3, direction: DVec3) -> ClosestHit {
         self.keep_closest_of_ray([origin, direction], 0, ClosestHit::NONE, &mut Stack::default())
     }

@@ -207,6 +207,7 @@ fn materials(bench: &mut Bench, exponent: f64, colour: [f64; 3], specular: [f64;
     let kind = vec![MaterialKind::Matte, MaterialKind::Phong, MaterialKind::BlinnPhong];
     bench.insert(MaterialTable::opaque(kind, vec![colour; 3]));
     let (specular, exponents) = (vec![specular], vec![exponent]);
+    bench.insert(MatteTable);
     bench.insert(PhongTable::new(specular.clone(), exponents.clone()));
     bench.insert(BlinnPhongTable::new(specular, exponents));
 }
