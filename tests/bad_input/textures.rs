@@ -121,7 +121,7 @@ pub const TEXTURES: &[Case] = &[
     ("a map of roughness without a material", &["metallic–roughness map \"cloth\"", "missing", "Principled"], |w| {
         w.spawn((Name::new("cloth"), MetallicRoughnessMap::default()));
     }),
-    ("a map of roughness on matte", &["metallic–roughness map \"floor\"", "is matte", "only a Principled"], |w| {
+    ("a map of roughness on matte", &["metallic–roughness map \"floor\"", "is matte", "a Principled"], |w| {
         put(w, "floor", MetallicRoughnessMap::default());
     }),
     ("a map of roughness without a file", &["metallic–roughness map \"ball\"", "file is \"\"", ".png, .jpg"], |w| {
