@@ -201,7 +201,8 @@ fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
     for (at, &(owner, own)) in owned.iter().enumerate() {
         let who = kind_and_name(scene, own.word, owner);
         if !materials.contains(&owner) {
-            let first = REGISTERED.iter().find(|material| material.takes(own.feeds)).map_or("Matte", |own| own.component);
+            let first =
+                REGISTERED.iter().find(|material| material.takes(own.feeds)).map_or("Matte", |own| own.component);
             let accepted = format!("it belongs on an entity that is a material, such as one with a {first}");
             return Err(SceneError::new(who, "material", "missing", accepted));
         }

@@ -152,6 +152,7 @@ pub use pinhole_models::is_invisible;
 pub use placement::{LookAt, Placement};
 pub use plane::Plane;
 pub use point_light::PointLight;
+#[doc(hidden)]
 pub use printable::{printable, printable_message, printable_path};
 pub use rasterisation::Rasterisation;
 #[doc(hidden)]
@@ -166,6 +167,7 @@ pub use scene_error::SceneError;
 pub use sphere::Sphere;
 pub use spot_light::SpotLight;
 pub use stripes::Stripes;
+#[doc(hidden)]
 #[doc(hidden)]
 pub use texture::{Feeds, Texture, TextureBy, UvTransform, Wrap, WrapMode};
 pub(crate) use textures::for_each_texture;
