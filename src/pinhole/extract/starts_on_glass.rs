@@ -5,7 +5,9 @@ use super::lights_of::light_kinds;
 use super::{GlassBodyTable, eye, glass_evidence, traced_evidence};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{SceneError, called};
+use crate::shapes::Bounds;
 use glam::DVec3;
+use std::sync::Arc;
 
 /// How far a ray's origin is moved off a surface that it is on, as a fraction of its distance from the eye: some steps of
 /// f32.
@@ -40,15 +42,20 @@ impl GlassBodyTable {
         let steps = [-1.0, 0.0, 1.0];
         let around = steps.map(|x| steps.map(|y| steps.map(|z| DVec3::new(x, y, z))));
         let around = around.as_flattened().as_flattened();
-        self.row.iter().any(|body| {
+        let within = Bounds { least: point - distance, most: point + distance };
+        self.row.iter().filter(|body| body.bounds.overlaps(&within)).any(|body| {
             let here = body.windings(point, 0.0);
             around.iter().any(|step| body.windings(point + distance * *step, 0.0) != here)
         })
     }
 }
 
-/// Each point that paths start from, with its name.
-fn starts(scene: &Census<'_>) -> Result<Vec<(String, GlassStart)>, SceneError> {
+/// Each point that paths start from close to glass, with its name; found once for the plan and the table.
+fn starts(scene: &Census<'_>) -> Result<Arc<[(String, GlassStart)]>, SceneError> {
+    scene.once(|scene| find_starts(scene).map(Arc::from))
+}
+
+fn find_starts(scene: &Census<'_>) -> Result<Vec<(String, GlassStart)>, SceneError> {
     if !glass_evidence(scene).needed {
         return Ok(Vec::new());
     }
@@ -81,7 +88,7 @@ impl Table for GlassStartTable {
     const NAME: &'static str = "starts close to glass";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        Ok(Self { row: starts(scene)?.into_iter().map(|(_, start)| start).collect() })
+        Ok(Self { row: starts(scene)?.iter().map(|(_, start)| *start).collect() })
     }
 
     fn bytes(&self) -> usize {
@@ -92,7 +99,7 @@ impl Table for GlassStartTable {
 /// Evidence of such points, of those that pass a test.
 fn evidence(scene: &Census<'_>, such: impl Fn(&GlassStart) -> bool, at: &str) -> Evidence {
     // What is wrong with the scene is said elsewhere.
-    let found = starts(scene).unwrap_or_default();
+    let found = starts(scene).unwrap_or_else(|_| Arc::new([]));
     let names: Vec<&str> = found.iter().filter(|(_, start)| such(start)).map(|(name, _)| &**name).collect();
     let reason = match &names[..] {
         [] => format!("0 cameras and lights without an area {at} of glass"),

@@ -36,9 +36,8 @@ pub fn absorb_at_start(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Surfac
             if there == NO_ROW {
                 continue;
             }
-            let origin = DVec3::new(rays.ox[ray].into(), rays.oy[ray].into(), rays.oz[ray].into());
-            let direction = DVec3::new(rays.dx[ray].into(), rays.dy[ray].into(), rays.dz[ray].into());
-            let passed = passed_at_start(&surfaces.get(rays.path[ray] as usize), origin, direction);
+            let surface = surfaces.get(rays.path[ray] as usize);
+            let passed = passed_at_start(&surface, rays.origin_of(ray), rays.direction_of(ray));
             let [r, g, b] = transmittances(&glass, there, passed);
             rays.r[ray] *= r;
             rays.g[ray] *= g;
@@ -85,8 +84,7 @@ pub fn absorb_shadow_rays(
             let is_behind = rays.direction_of(ray).dot(surface.normal.as_dvec3()) < 0.0;
             let there = if is_behind { far } else { near };
             if there != NO_ROW {
-                let origin = DVec3::new(rays.ox[ray].into(), rays.oy[ray].into(), rays.oz[ray].into());
-                let passed = passed_at_start(&surface, origin, rays.direction_of(ray));
+                let passed = passed_at_start(&surface, rays.origin_of(ray), rays.direction_of(ray));
                 let [r, g, b] = transmittances(&glass, there, passed + light_distance(rays.t_max[ray]));
                 rays.r[ray] = (f64::from(rays.r[ray]) * r) as f32;
                 rays.g[ray] = (f64::from(rays.g[ray]) * g) as f32;

@@ -164,7 +164,7 @@ pub fn carry_media(
         kept.slices_mut(scattered.rows());
         for ray in 0..scattered.rows() {
             let row = scattered.path[ray] as usize;
-            let goes = DVec3::new(scattered.dx[ray].into(), scattered.dy[ray].into(), scattered.dz[ray].into());
+            let goes = scattered.direction_of(ray);
             let own = materials.interior[surfaces.material[row] as usize];
             let through = own != NO_ROW && goes.dot(surfaces.get(row).normal.as_dvec3()) < 0.0;
             let (stack, from_outside) = (media.get(row), sides.outside[row] != 0);

@@ -85,6 +85,18 @@ impl Scattered {
         [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
     }
 
+    /// The origin of a ray, converted to f64.
+    #[inline(always)]
+    pub fn origin_of(&self, ray: usize) -> DVec3 {
+        DVec3::new(f64::from(self.ox[ray]), f64::from(self.oy[ray]), f64::from(self.oz[ray]))
+    }
+
+    /// The direction of a ray, converted to f64.
+    #[inline(always)]
+    pub fn direction_of(&self, ray: usize) -> DVec3 {
+        DVec3::new(f64::from(self.dx[ray]), f64::from(self.dy[ray]), f64::from(self.dz[ray]))
+    }
+
     /// Appends a ray for each of these rows, except for rays of throughput 0.
     ///
     /// Every row is written, and the next one overwrites it unless it counts, so that no branch depends on the surface.

@@ -6,7 +6,7 @@ use crate::rays::{Paths, join_camera};
 use crate::shade::{JoinPoints, LightRays, Radiance};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 column! {
     /// The light that a batch of light paths adds to the film, in the order of bounces and paths.
@@ -70,7 +70,7 @@ pub fn splat_light(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<SplatVie
             if sent == [0.0; 3] {
                 continue;
             }
-            let origin = DVec3::new(rays.ox[ray].into(), rays.oy[ray].into(), rays.oz[ray].into());
+            let origin = rays.origin_of(ray);
             let lens = points.map_or(DVec2::ZERO, |points| points.get(row));
             let Some(joined) = join_camera(&join, lens, origin) else { continue };
             let (first, throughput) = (paths.first[row] as usize, paths.throughput(row));

@@ -4,7 +4,7 @@ use super::MediumStack;
 use super::interface::{Interface, InterfaceView};
 use super::media::list_around;
 use crate::extract::{
-    GlassBodyTable, GlassStart, GlassStartTable, GlassTable, MaterialTable, end_close_to_glass_evidence,
+    GlassBody, GlassBodyTable, GlassStart, GlassStartTable, GlassTable, MaterialTable, end_close_to_glass_evidence,
     followed_evidence, start_on_glass_evidence,
 };
 use crate::intersect::{NO_SHAPE, Surfaces};
@@ -12,7 +12,6 @@ use crate::plan::{Column, Shared, Stage, TileSystems};
 use crate::rays::{RayTimes, WorldRays};
 use crate::shade::{LightRays, ShadowHits, light_distance, shadow_evidence};
 use bevy_ecs::prelude::*;
-use glam::DVec3;
 
 /// How far from its light a shadow ray may end, as a fraction of its length and of the light's distance from the eye: more
 /// than f32 rounds its direction by.
@@ -24,7 +23,7 @@ pub fn leave_glass_at_start(
     (bodies, starts): (Res<Shared<GlassBodyTable>>, Res<Shared<GlassStartTable>>),
     mut tiles: Query<(&mut WorldRays, Option<&RayTimes>)>,
 ) {
-    let step_at = |origin: DVec3| {
+    let step_at = |origin: glam::DVec3| {
         let own = starts.row.iter().find(|start| start.position == origin);
         own.or(starts.row.first()).map_or(0.0, |start| start.step)
     };
@@ -33,7 +32,9 @@ pub fn leave_glass_at_start(
             let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
             let (time, step) = (times.map_or(0.0, |times| times.time[row]), step_at(origin));
             let [ahead, behind] = [1.0, -1.0].map(|sign| origin + sign * step * direction);
-            if bodies.row.iter().any(|body| body.windings(ahead, time) != body.windings(behind, time)) {
+            let is_near = |body: &&GlassBody| body.bounds.contains(ahead) || body.bounds.contains(behind);
+            let mut near = bodies.row.iter().filter(is_near);
+            if near.any(|body| body.windings(ahead, time) != body.windings(behind, time)) {
                 (rays.ox[row], rays.oy[row], rays.oz[row]) = ahead.as_vec3().into();
             }
         }
@@ -60,8 +61,7 @@ pub fn block_across_surfaces(
                 continue;
             }
             let (direction, distance) = (rays.direction_of(ray), light_distance(t_max));
-            let origin = DVec3::new(rays.ox[ray].into(), rays.oy[ray].into(), rays.oz[ray].into());
-            let end = origin + distance * direction;
+            let end = rays.origin_of(ray) + distance * direction;
             let off = |start: &GlassStart| (start.position - end).length();
             let is_end = |start: &&GlassStart| off(start) <= BESIDE * (distance + start.position.length());
             let found = ends.row.iter().filter(is_end).min_by(|a, b| off(a).total_cmp(&off(b)));

@@ -61,6 +61,12 @@ impl LightRays {
         [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
     }
 
+    /// The origin of a ray, converted to f64.
+    #[inline(always)]
+    pub fn origin_of(&self, ray: usize) -> DVec3 {
+        DVec3::new(f64::from(self.ox[ray]), f64::from(self.oy[ray]), f64::from(self.oz[ray]))
+    }
+
     /// The direction of a ray, converted to f64.
     #[inline(always)]
     pub fn direction_of(&self, ray: usize) -> DVec3 {
