@@ -30,7 +30,7 @@ pub fn after_help() -> String {
         "render cover --view surface",
         "plan 04_orthographic",
         "trace cover --pixel 480,300",
-        "extremes shapes",
+        "extremes shapes --rays 500",
         "sweep 05_pinhole",
         "report 18 --quick",
         "export 05_pinhole",
