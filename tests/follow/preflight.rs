@@ -420,3 +420,21 @@ fn what_precision_cannot_keep_apart_is_said() {
     assert!(narrow.len() == 1 && narrow[0].contains("\"shell\"") && narrow[0].contains("1.0e-6 apart"), "{narrow:?}");
     assert_eq!([pane(1e-2), shell(1.01), shell(1.0)], [const { Vec::<String>::new() }; 3]);
 }
+
+/// A lamp on the upper face of a block is asked about by its name; one beside it is not.
+#[test]
+fn what_lies_exactly_on_glass_is_said() {
+    let told = |height: f64| {
+        let mut world = World::new();
+        let look = LookAt { eye: DVec3::new(0.0, 2.0, 6.0), target: DVec3::ZERO, ..LookAt::default() };
+        world.spawn((PerspectiveCamera::default(), look, Resolution { width: 16, height: 16 }, Integrator::PATH));
+        world.spawn((Name::new("block"), Cuboid::default(), Placement::at(0.0, 0.5, 0.0), Glass::default()));
+        world.spawn((Plane::default(), Matte::default()));
+        world.spawn((Name::new("lamp"), PointLight::default(), Placement::at(0.0, height, 0.0)));
+        let told = said(&world).expect("a scene that can be rendered");
+        told.into_iter().filter(|sentence| sentence.contains("on the surface of glass")).collect::<Vec<_>>()
+    };
+    let on = told(1.0);
+    assert!(on.len() == 1 && on[0].starts_with("the point light \"lamp\" lies exactly on"), "{on:?}");
+    assert_eq!([told(1.01), told(0.9)], [const { Vec::<String>::new() }; 2]);
+}

@@ -1,6 +1,6 @@
 use super::shape_kind::{one_shape, shape_entities};
 use super::velocity::{moves_while_open, velocity_of};
-use super::{MaterialTable, NO_ROW, ShapeTable, ShutterTable, eye};
+use super::{GlassTable, MaterialTable, NO_ROW, ShapeTable, ShutterTable, eye};
 use crate::plan::{Census, Table};
 use crate::scene::SceneError;
 use crate::shapes::emitter::triangle_solid_angle;
@@ -50,6 +50,21 @@ impl GlassBody {
             }
         }
     }
+}
+
+/// Lists the glass of the bodies that are around a point, at a time since the shutter opened; the first is what is there.
+pub fn list_around<'b>(
+    bodies: impl IntoIterator<Item = &'b GlassBody>,
+    glass: &GlassTable,
+    (point, time): (DVec3, f64),
+    around: &mut Vec<u32>,
+) {
+    around.clear();
+    for body in bodies {
+        let windings = if body.bounds.contains(point) { body.windings(point, time) } else { 0 };
+        around.extend((0..windings).map(|_| body.glass));
+    }
+    around.sort_by_key(|&row| (std::cmp::Reverse(glass.priority[row as usize]), row));
 }
 
 /// All bodies of glass: the medium at a point follows from which of them it is inside.

@@ -100,7 +100,7 @@ pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
 pub use exr_file::read_exr;
 pub use filter::FilterTable;
 pub use glass::GlassTable;
-pub use glass_body::{GlassBody, GlassBodyTable};
+pub use glass_body::{GlassBody, GlassBodyTable, list_around};
 pub use glass_overlap::{absorption_evidence, deep_glass, glass_overlaps};
 pub use gradient::GradientTable;
 pub use hierarchy::{HierarchyOf, hierarchy_evidence};
@@ -153,7 +153,9 @@ pub use shapes_of::{
 };
 pub use sky::sky_evidence;
 pub use srgb::linear_from_srgb;
-pub use starts_on_glass::{GlassStart, GlassStartTable, end_close_to_glass_evidence, start_on_glass_evidence};
+pub use starts_on_glass::{
+    GlassStart, GlassStartTable, end_close_to_glass_evidence, start_on_glass_evidence, starts_on_glass,
+};
 pub use texels::Texels;
 pub use texture::{
     NO_TEXTURE, ShapeSpaces, TextureMap, TextureMapping, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,

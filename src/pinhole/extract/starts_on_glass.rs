@@ -14,7 +14,7 @@ use std::sync::Arc;
 const STEP: f64 = 1.0 / (1 << 22) as f64;
 /// How close a point is to a surface that it is on, as a fraction of the scene's extent: more than f64 rounds by.
 const ROUNDING: f64 = STEP * STEP;
-/// How close to a surface a light is close, as a fraction of that distance: beyond it, shadow rays are certain to hit the
+/// How close to a surface a light is close, as a fraction of the scene's extent about the eye: beyond it, shadow rays are certain to hit the
 /// surface between.
 const CLOSE: f64 = 1.0 / 1024.0;
 
@@ -37,7 +37,7 @@ pub struct GlassStartTable {
 }
 
 impl GlassBodyTable {
-    /// Whether a surface of glass is within this distance of a point, as far as 14 points around it tell.
+    /// Whether a surface of glass is within this distance of a point, as far as the corners, edges and faces of a cube around it tell.
     fn is_close(&self, point: DVec3, distance: f64) -> bool {
         let steps = [-1.0, 0.0, 1.0];
         let around = steps.map(|x| steps.map(|y| steps.map(|z| DVec3::new(x, y, z))));
@@ -77,8 +77,12 @@ fn find_starts(scene: &Census<'_>) -> Result<Vec<(String, GlassStart)>, SceneErr
     let camera = camera_entity(scene).map_or("camera".into(), |camera| format!("camera {}", called(scene, camera)));
     let mut found: Vec<_> = place(camera, DVec3::ZERO, from_origin).into_iter().collect();
     for kind in light_kinds().iter().filter(|kind| !kind.is_distant) {
-        for light in (kind.sources)(scene)? {
-            found.extend(light.position().and_then(|at| place(kind.word.into(), at, from_origin)));
+        // Those that cast shadows, as the sources.
+        let entities = (kind.entities)(scene);
+        let shadowed = entities.iter().filter(|light| (kind.casts_shadows)(scene.entity(**light)));
+        for (light, &entity) in (kind.sources)(scene)?.iter().zip(shadowed) {
+            let name = format!("{} {}", kind.word, called(scene, entity));
+            found.extend(light.position().and_then(|at| place(name, at, from_origin)));
         }
     }
     Ok(found)
@@ -107,6 +111,11 @@ fn evidence(scene: &Census<'_>, such: impl Fn(&GlassStart) -> bool, at: &str) ->
         [one, ..] => format!("{} starts of paths {at} of glass: the {one}, …", names.len()),
     };
     Evidence { needed: !names.is_empty(), reason, count: names.len() }
+}
+
+/// The names of the camera and of the lights that are on the surface of glass.
+pub fn starts_on_glass(scene: &Census<'_>) -> Result<Vec<String>, SceneError> {
+    Ok(starts(scene)?.iter().filter(|(_, start)| start.is_on).map(|(name, _)| name.clone()).collect())
 }
 
 /// Evidence that the eye or a light is on the surface of glass.

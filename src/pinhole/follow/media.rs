@@ -1,8 +1,8 @@
 use super::deeper_media::{Carrier, deeper_media_evidence};
 use super::{DeeperMedia, MediumStack, Scattered};
 use crate::extract::{
-    GlassBody, GlassBodyTable, GlassTable, MaterialTable, NO_ROW, absorption_evidence, end_close_to_glass_evidence,
-    followed_evidence, glass_contact_evidence, glass_evidence, glass_overlaps,
+    GlassBodyTable, GlassTable, MaterialTable, NO_ROW, absorption_evidence, end_close_to_glass_evidence,
+    followed_evidence, glass_contact_evidence, glass_evidence, glass_overlaps, list_around,
 };
 use crate::intersect::{Contacts, GlassCrossing, SurfaceSides, Surfaces};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
@@ -100,21 +100,6 @@ pub fn start_media(
     }
 }
 // ANCHOR_END: start_media
-
-/// Lists the glass of the bodies that are around a point, at a time since the shutter opened, by their priority.
-pub(super) fn list_around<'b>(
-    bodies: impl IntoIterator<Item = &'b GlassBody>,
-    glass: &GlassTable,
-    (point, time): (DVec3, f64),
-    around: &mut Vec<u32>,
-) {
-    around.clear();
-    for body in bodies {
-        let windings = if body.bounds.contains(point) { body.windings(point, time) } else { 0 };
-        around.extend((0..windings).map(|_| body.glass));
-    }
-    around.sort_by_key(|&row| (std::cmp::Reverse(glass.priority[row as usize]), row));
-}
 
 /// Lists the bodies whose boxes overlap the box around the origins of a tile's rays.
 fn list_near(bodies: &GlassBodyTable, rays: &WorldRays, near: &mut Vec<u32>) {

@@ -1,11 +1,9 @@
 //! Paths that start on the surface of glass, and shadow rays that end close to one.
 
-use super::MediumStack;
 use super::interface::{Interface, InterfaceView};
-use super::media::list_around;
 use crate::extract::{
-    GlassBody, GlassBodyTable, GlassStart, GlassStartTable, GlassTable, MaterialTable, end_close_to_glass_evidence,
-    followed_evidence, start_on_glass_evidence,
+    GlassBody, GlassBodyTable, GlassStart, GlassStartTable, GlassTable, MaterialTable, NO_ROW,
+    end_close_to_glass_evidence, followed_evidence, list_around, start_on_glass_evidence,
 };
 use crate::intersect::{NO_SHAPE, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems};
@@ -72,7 +70,7 @@ pub fn block_across_surfaces(
             let is_behind = direction.dot(surface.normal.as_dvec3()) < 0.0;
             let before_light = light.position - light.step * direction;
             list_around(&bodies.row, &glass, (before_light, times.map_or(0.0, |times| times.time[row])), &mut around);
-            if MediumStack::of(&around).0.top() != if is_behind { far } else { near } {
+            if around.first().copied().unwrap_or(NO_ROW) != if is_behind { far } else { near } {
                 (rays.r[ray], rays.g[ray], rays.b[ray]) = (0.0, 0.0, 0.0);
             }
         }

@@ -1,9 +1,10 @@
 use crate::Result;
-use crate::extract::{GlassBodyTable, GlassTable, ShapeTable, TriangleTable, glass_evidence, listed_kinds, shape_name};
+use crate::extract::{
+    GlassBodyTable, GlassTable, ShapeTable, TriangleTable, glass_evidence, list_around, listed_kinds, shape_name,
+};
 use crate::plan::Census;
 use crate::shapes::emitter::triangle_solid_angle;
 use glam::DVec3;
-use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -28,8 +29,9 @@ pub fn ior_around_camera(scene: &Census<'_>) -> Result<Option<f64>> {
         return Ok(None);
     }
     let (bodies, glass) = (scene.table::<GlassBodyTable>()?, scene.table::<GlassTable>()?);
-    let around = bodies.row.iter().filter(|body| body.windings(DVec3::ZERO, 0.0) > 0).map(|body| body.glass as usize);
-    Ok(around.min_by_key(|&row| (Reverse(glass.priority[row]), row)).map(|row| glass.ior[row]))
+    let mut around = Vec::new();
+    list_around(&bodies.row, &glass, (DVec3::ZERO, 0.0), &mut around);
+    Ok(around.first().map(|&row| glass.ior[row as usize]))
 }
 
 /// The first triangle of a mesh of one material that is closed around the camera: signed solid angles, negative where a

@@ -5,7 +5,7 @@ use super::missing::missing_paths;
 use super::pilot::{Pilot, pilot};
 use super::radians::radians;
 use super::slow::{Effort, many_bounces, many_light_bounces, never_done, slow, why_slow};
-use super::thin::unresolved_glass;
+use super::thin::{on_the_surface, unresolved_glass};
 use super::tiny::tiny_shapes;
 use super::unseen::unseen;
 use crate::extract::{ImageFrame, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, traced_evidence};
@@ -84,6 +84,7 @@ pub fn foretell(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), condit
     }
     warnings.extend(shape_around_camera(scene, &shapes)?);
     warnings.extend(unresolved_glass(scene)?);
+    warnings.extend(on_the_surface(scene)?);
     warnings.extend(unseen(scene));
     warnings.extend(emitters(scene)?);
     warnings.extend(missing_paths(scene, &pilot));

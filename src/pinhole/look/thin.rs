@@ -1,5 +1,5 @@
 use crate::Result;
-use crate::extract::{contact_evidence, shape_name, unresolved};
+use crate::extract::{contact_evidence, shape_name, starts_on_glass, unresolved};
 use crate::plan::Census;
 
 /// Warnings of glass that is thinner, or nearer to another surface, than single precision can keep apart.
@@ -23,4 +23,15 @@ pub fn unresolved_glass(scene: &Census<'_>) -> Result<Vec<String>> {
         }
     };
     Ok(unresolved(scene)?.into_iter().map(warning).collect())
+}
+
+/// Warnings of a camera or a light without an area that lies exactly on the surface of glass.
+pub fn on_the_surface(scene: &Census<'_>) -> Result<Vec<String>> {
+    let warning = |name: String| {
+        format!(
+            "the {name} lies exactly on the surface of glass: its rays start inside or outside, each on the side that it \
+             leads to; move it a little to have all of them on one side"
+        )
+    };
+    Ok(starts_on_glass(scene)?.into_iter().map(warning).collect())
 }
