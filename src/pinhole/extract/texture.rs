@@ -3,12 +3,11 @@ use super::check::{kind_and_name, positive_length, triple};
 use super::material::in_use;
 use super::pose::pose;
 use super::shape_kind::shape_entities;
-use crate::material::{REGISTERED, components_in_words, material_entities, one_material};
+use crate::material::{REGISTERED, components_in_words, is_material, material_entities, one_material};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Checker, Feeds, ImageTexture, Rgb, SceneError, Stripes, Texture, TextureBy, for_each_texture};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The row of a material without a texture of some kind.
@@ -189,38 +188,47 @@ fn size_of_texture<T: Texture>(scene: &Census<'_>, material: Entity, size: f64) 
     positive_length(&kind_and_name(scene, T::WORD, material), "size", size)
 }
 
+/// Checks that an entity with such a component is a material whose BSDF takes what it gives.
+pub(super) fn check_owner(
+    scene: &Census<'_>,
+    (word, owner): (&str, Entity),
+    (feeds, given): (Feeds, &str),
+) -> Result<(), SceneError> {
+    let refused =
+        |value, accepted| Err(SceneError::new(kind_and_name(scene, word, owner), "material", value, accepted));
+    if !is_material(scene, owner) {
+        let first = REGISTERED.iter().find(|material| material.takes(feeds)).map_or("Matte", |first| first.component);
+        return refused("missing", format!("it belongs on an entity that is a material, such as one with a {first}"));
+    }
+    let material = one_material(scene, owner)?;
+    if !material.takes(feeds) {
+        let takers = components_in_words("a ", |material| material.takes(feeds));
+        return refused(material.word, format!("{given}, as of {takers}"));
+    }
+    Ok(())
+}
+
 /// Checks that every texture of a material belongs to one, that its BSDF takes what the texture gives, and that it has one
 /// texture of colours at most.
 fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
-    let materials: BTreeSet<Entity> = material_entities(scene).iter().copied().collect();
     let of_materials = TEXTURES.iter().filter(|own| own.feeds != Feeds::Emission);
     let mut owned: Vec<(Entity, &Registered)> = of_materials
         .flat_map(|own| (own.owners)(scene).iter().map(move |&owner| (owner, own)).collect::<Vec<_>>())
         .collect();
     owned.sort_by_key(|(owner, _)| owner.index());
     for (at, &(owner, own)) in owned.iter().enumerate() {
-        let who = kind_and_name(scene, own.word, owner);
-        if !materials.contains(&owner) {
-            let first =
-                REGISTERED.iter().find(|material| material.takes(own.feeds)).map_or("Matte", |own| own.component);
-            let accepted = format!("it belongs on an entity that is a material, such as one with a {first}");
-            return Err(SceneError::new(who, "material", "missing", accepted));
-        }
-        let material = one_material(scene, owner)?;
-        if !material.takes(own.feeds) {
-            let takers = components_in_words("a ", |material| material.takes(own.feeds));
-            let given = match own.feeds {
-                Feeds::Colour => "a texture colours diffuse reflection",
-                Feeds::MetallicRoughness => "it gives a metallic and a roughness",
-                Feeds::Normal => "it tilts normals",
-                Feeds::Emission => "it changes an emission",
-            };
-            return Err(SceneError::new(who, "material", material.word, format!("{given}, as of {takers}")));
-        }
+        let given = match own.feeds {
+            Feeds::Colour => "a texture colours diffuse reflection",
+            Feeds::MetallicRoughness => "it gives a metallic and a roughness",
+            Feeds::Normal => "it tilts normals",
+            Feeds::Emission => "it changes an emission",
+        };
+        check_owner(scene, (own.word, owner), (own.feeds, given))?;
         let is_second =
             |(other, of): &&(Entity, &Registered)| *other == owner && [own.feeds, of.feeds] == [Feeds::Colour; 2];
         if let Some((_, other)) = owned[at + 1..].iter().take_while(|(other, _)| *other == owner).find(is_second) {
             let value = format!("given twice, as {} and as {}", own.word, other.word);
+            let who = kind_and_name(scene, own.word, owner);
             return Err(SceneError::new(who, "texture", value, "a material may have one texture only"));
         }
     }

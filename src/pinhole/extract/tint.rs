@@ -1,11 +1,9 @@
 use super::check::{kind_and_name, reflectance};
 use super::material::material_kind_evidence;
-use super::texture::{NO_TEXTURE, rows_of_kind, texture_evidence};
-use crate::material::{components_in_words, material_entities, one_material};
+use super::texture::{NO_TEXTURE, check_owner, rows_of_kind, texture_evidence};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Feeds, MeshInstance, SceneError, Tint};
 use bevy_ecs::prelude::*;
-use std::collections::BTreeSet;
 
 /// The tints of materials, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,7 +31,9 @@ impl Table for TintTable {
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (of_material, rows) = rows_of_kind::<Tint>(scene);
         let mut table = Self { of_material, ..Self::default() };
-        check_owners(scene)?;
+        for &owner in scene.entities::<With<Tint>>().iter() {
+            check_owner(scene, ("tint", owner), (Feeds::Colour, "a tint multiplies the colour of diffuse reflection"))?;
+        }
         for material in rows {
             let Some(tint) = scene.get::<Tint>(material) else { continue };
             let who = kind_and_name(scene, "tint", material);
@@ -46,28 +46,6 @@ impl Table for TintTable {
     fn bytes(&self) -> usize {
         self.of_material.len() * 4 + self.factor.len() * (size_of::<[f64; 3]>() + size_of::<bool>())
     }
-}
-
-/// Checks that every tint belongs to a material whose colour it can multiply.
-fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
-    let materials: BTreeSet<Entity> = material_entities(scene).iter().copied().collect();
-    for &owner in scene.entities::<With<Tint>>().iter() {
-        let refused = |value: &str, accepted: String| {
-            Err(SceneError::new(kind_and_name(scene, "tint", owner), "material", value, accepted))
-        };
-        if !materials.contains(&owner) {
-            return refused(
-                "missing",
-                "a tint belongs on an entity that is a material, such as one with a Matte".into(),
-            );
-        }
-        let own = one_material(scene, owner)?;
-        if !own.takes(Feeds::Colour) {
-            let textured = components_in_words("a ", |own| own.takes(Feeds::Colour));
-            return refused(own.word, format!("a tint multiplies the colour of diffuse reflection, as of {textured}"));
-        }
-    }
-    Ok(())
 }
 
 /// Evidence that a shape is made of a material with a tint.
