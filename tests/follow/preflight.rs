@@ -428,7 +428,7 @@ fn what_lies_exactly_on_glass_is_said() {
         let mut world = World::new();
         let look = LookAt { eye: DVec3::new(0.0, 2.0, 6.0), target: DVec3::ZERO, ..LookAt::default() };
         world.spawn((PerspectiveCamera::default(), look, Resolution { width: 16, height: 16 }, Integrator::PATH));
-        world.spawn((Name::new("block"), Cuboid::default(), Placement::at(0.0, 0.5, 0.0), Glass::default()));
+        world.spawn((Name::new("block"), Cuboid { size: DVec3::ONE }, Placement::at(0.0, 0.5, 0.0), Glass::default()));
         world.spawn((Plane::default(), Matte::default()));
         world.spawn((Name::new("lamp"), PointLight::default(), Placement::at(0.0, height, 0.0)));
         let told = said(&world).expect("a scene that can be rendered");
