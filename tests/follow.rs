@@ -36,6 +36,8 @@ mod material_maps;
 mod materials;
 #[path = "follow/nested.rs"]
 mod nested;
+#[path = "follow/non_opaque.rs"]
+mod non_opaque;
 #[path = "follow/normal_maps.rs"]
 mod normal_maps;
 #[path = "follow/numerics.rs"]

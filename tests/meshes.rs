@@ -179,7 +179,7 @@ fn what_a_mesh_cannot_be_is_one_sentence() {
     assert!(said("(name: \"m\", mesh: (file: \"square.ply\"), glass: ())").contains("glass"), "an open mesh of glass");
     let mut scene = World::new();
     scene.spawn(PerspectiveCamera::default());
-    scene.spawn(Mesh { file: "square.ply".into() });
+    scene.spawn(Mesh { file: "square.ply".into(), ..Mesh::default() });
     let error = validate(&Census::of(&scene)).expect_err("nothing has read it").to_string();
     assert!(error.contains("load_meshes"), "{error}");
 }
@@ -259,7 +259,7 @@ fn a_file_s_maps_give_points_what_its_exporter_was_told() {
     let look = LookAt { eye, target: DVec3::ZERO, ..LookAt::default() };
     let size = Resolution { width: 128, height: 128 };
     scene.entity_mut(camera).insert((near, look, size, Integrator::RayCasting));
-    scene.spawn(Mesh { file: file.to_string_lossy().into_owned() });
+    scene.spawn(Mesh { file: file.to_string_lossy().into_owned(), ..Mesh::default() });
     load_meshes(&mut scene);
     let ModelNotes(notes) = scene.resource::<ModelNotes>();
     assert!(!notes.iter().any(|note| note.contains("left out")), "{notes:?}");

@@ -241,7 +241,7 @@ fn files_of_one_name_keep_their_own_images() {
         let texture = ("/materials/0/pbrMetallicRoughness/baseColorTexture", json!({ "index": 0 }));
         let file = with(&[texture, ("/images/0/uri", uri(&image(image::ImageFormat::Png, |_, _| colour)))]);
         let path = write(&folder.path().join(part), "model.gltf", &file);
-        scene.spawn(Mesh { file: path.to_string_lossy().into_owned() });
+        scene.spawn(Mesh { file: path.to_string_lossy().into_owned(), ..Mesh::default() });
     }
     load_meshes(&mut scene);
     let textures: Vec<String> = scene.query::<&ImageTexture>().iter(&scene).map(|own| own.file.clone()).collect();

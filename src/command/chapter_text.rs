@@ -45,7 +45,7 @@ pub fn text_beside(mut world: World, folder: &Path, stem: &str) -> (std::result:
             .and_then(|bytes| place_beside(folder, Path::new(&name), &bytes, MODEL_FILE))
             .map_or(name, |(free, _)| free);
         for &instance in &mesh.instances {
-            world.entity_mut(instance).insert(Mesh { file: free.clone() });
+            world.entity_mut(instance).insert(Mesh { file: free.clone(), ..Mesh::default() });
         }
         mesh.file = free;
     }

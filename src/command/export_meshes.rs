@@ -29,7 +29,7 @@ pub fn write_meshes(world: &mut World, file: &Path) -> Result<Vec<PathBuf>> {
             made.push(folder.join(&free));
         }
         for instance in mesh.instances {
-            world.entity_mut(instance).insert(Mesh { file: free.clone() });
+            world.entity_mut(instance).insert(Mesh { file: free.clone(), ..Mesh::default() });
         }
     }
     Ok(made)
@@ -38,7 +38,7 @@ pub fn write_meshes(world: &mut World, file: &Path) -> Result<Vec<PathBuf>> {
 /// Names every model file by its path from this folder if it lies there or below, and otherwise by its whole path.
 pub fn name_models(world: &mut World, folder: Option<&Path>) {
     let mut renamed = BTreeMap::new();
-    for Mesh { file } in world.query::<&Mesh>().iter(world) {
+    for Mesh { file, .. } in world.query::<&Mesh>().iter(world) {
         let path = SceneFolder::path_of(world, file);
         let whole = || std::path::absolute(&path).unwrap_or(path.clone()).to_string_lossy().into_owned();
         let name = folder.and_then(|folder| name_below(folder, &path)).unwrap_or_else(whole);

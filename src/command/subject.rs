@@ -70,7 +70,7 @@ impl<'c> Subject<'c> {
             }
             Self::Model { mut model, typed } => {
                 for setting in settings {
-                    model = exposed(model, &typed, setting)?;
+                    model = set_on_model(model, &typed, setting)?;
                 }
                 Ok(Self::Model { model, typed })
             }
@@ -162,12 +162,21 @@ impl<'c> Subject<'c> {
     }
 }
 
-/// A model whose light is multiplied by what a setting says, which is the only one that model files have.
-fn exposed(model: ModelScene, typed: &str, setting: &str) -> Result<ModelScene> {
+/// A model with what a setting says: a factor of its light, or that its single-sided materials are so.
+fn set_on_model(model: ModelScene, typed: &str, setting: &str) -> Result<ModelScene> {
+    if let Some(written) = setting.trim().strip_prefix("single_sided=") {
+        return match written.trim().parse() {
+            Ok(single_sided) => Ok(ModelScene { single_sided, ..model }),
+            Err(_) => {
+                let written = find::shown(written.as_ref());
+                Err(Error::CommandLine(format!("single_sided is {written}, but it must be true or false")))
+            }
+        };
+    }
     let Some(written) = setting.trim().strip_prefix("exposure=") else {
         let what = format!(
-            "{typed} is a model file, which has no value to set but its exposure, as in exposure=1: `export` makes a scene \
-             file of it"
+            "{typed} is a model file, which has no values to set but its exposure, as in exposure=1, and whether its single-sided \
+             materials have a back, as in single_sided=true: `export` makes a scene file of it"
         );
         return Err(Error::CommandLine(what));
     };

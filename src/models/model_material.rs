@@ -14,6 +14,8 @@ pub struct ModelMaterial {
     pub alpha: f64,
     /// How the alpha is meant.
     pub alpha_mode: AlphaMode,
+    /// An image of the opacity in red, a factor of the alpha, in place of the base colour texture's.
+    pub opacity_texture: Option<ModelTexture>,
     /// 0 for a dielectric, 1 for a metal; a factor of the texture's blue.
     pub metallic: f64,
     /// The perceived roughness, from 0 to 1; a factor of the texture's green.
@@ -32,6 +34,10 @@ pub struct ModelMaterial {
     pub ior: f64,
     /// The fraction of the dielectric's light that passes through it instead of its diffuse base, from 0 to 1.
     pub transmission: f64,
+    /// How much of the surface is under a clear coat, from 0 to 1.
+    pub coat: f64,
+    /// The perceived roughness of the coat, from 0 to 1.
+    pub coat_roughness: f64,
     /// Whether what it transmits goes through an infinitely thin sheet, which does not bend it, instead of into an interior.
     pub thin: bool,
     /// The absorption coefficient of the interior, per scene unit of the world; each part at least 0.
@@ -49,6 +55,7 @@ impl Default for ModelMaterial {
             base_colour_texture: None,
             alpha: 1.0,
             alpha_mode: AlphaMode::Opaque,
+            opacity_texture: None,
             metallic: 0.0,
             roughness: 1.0,
             metallic_roughness_texture: None,
@@ -58,6 +65,8 @@ impl Default for ModelMaterial {
             emission_texture: None,
             ior: 1.5,
             transmission: 0.0,
+            coat: 0.0,
+            coat_roughness: 0.0,
             thin: false,
             absorption: [0.0; 3],
             double_sided: false,

@@ -93,6 +93,7 @@ const LIST: &[Part] = &[Part(&[
     // Rays are intersected with each kind of shape, and the closest hit is kept.
 ], intersections), Part(&[
     (Motion, intersect::moving_stage),
+    (Textures, shade::non_opaque_stage),
 
     // Or, where a camera asks for it, triangles are projected onto the image, and the boxes of other shapes.
 ], raster_boxes), Part(&[
@@ -157,6 +158,7 @@ const LIST: &[Part] = &[Part(&[
     (Shadows, shade::start_shadow_stage),
 ], shadow_rays), Part(&[
     (Motion, shade::moving_shadow_stage),
+    (Textures, shade::non_opaque_shadow_stage),
     (Glass, follow::absorb_shadow_stage),
     (Glass, follow::block_across_surfaces_stage),
 

@@ -146,6 +146,28 @@ pub const TEXTURES: &[Case] = &[
         edit::<Emissive>(w, "glow", |e| e.radiance = Rgb::grey(3e38));
         put(w, "glow", EmissionMap { file: EVENING.into(), ..EmissionMap::default() });
     }),
+    ("an opacity of 1.5", &["opacity \"floor\"", "opacity is 1.5", "from 0 to 1"], |w| {
+        put(w, "floor", Opacity { opacity: 1.5, ..Opacity::default() });
+    }),
+    ("a cutoff of −1", &["opacity \"floor\"", "cutoff is -1", "at least 0"], |w| {
+        put(w, "floor", Opacity { cutoff: -1.0, ..Opacity::default() });
+    }),
+    ("an opacity of nothing", &["opacity \"mist\"", "missing", "a Matte"], |w| {
+        w.spawn((Name::new("mist"), Opacity::default()));
+    }),
+    ("an opacity of glass", &["opacity \"pane\"", "is glass", "a Matte"], |w| {
+        w.spawn((Name::new("pane"), Sphere::default(), Glass::default(), Opacity::default()));
+    }),
+    ("single-sided glass", &["single sided \"pane\"", "is glass", "a Matte"], |w| {
+        w.spawn((Name::new("pane"), Sphere::default(), Glass::default(), SingleSided {}));
+    }),
+    ("an opacity map that is not there", &["opacity map \"floor\"", "there is no file nowhere.png"], |w| {
+        put(w, "floor", OpacityMap { file: "nowhere.png".into(), ..OpacityMap::default() });
+    }),
+    ("an opacity of what moves", &["\"satin\"", "given to a shape that moves", "must be opaque"], |w| {
+        put(w, "satin", (Opacity { opacity: 0.5, ..Opacity::default() }, Motion { velocity: DVec3::X }));
+        put(w, "main", Shutter::default());
+    }),
     ("a gradient and a background", &["the scene", "a Background by \"sky\" and a Gradient by \"dusk\""], |w| {
         w.spawn((Name::new("dusk"), Gradient::default()));
     }),
@@ -186,6 +208,9 @@ pub const TEXTURE_FIELDS: &[Field] = &[
     ("scale", "ball", |w, v| put(w, "ball", NormalMap { scale: v, ..NormalMap::default() })),
     ("size", "ball", |w, v| worn(w, MetallicRoughnessMap { size: v, ..MetallicRoughnessMap::default() })),
     ("size", "glow", |w, v| put(w, "glow", EmissionMap { size: v, ..EmissionMap::default() })),
+    ("opacity", "floor", |w, v| put(w, "floor", Opacity { opacity: v, ..Opacity::default() })),
+    ("cutoff", "floor", |w, v| put(w, "floor", Opacity { cutoff: v, ..Opacity::default() })),
+    ("size", "floor", |w, v| put(w, "floor", OpacityMap { size: v, file: EVENING.into(), ..OpacityMap::default() })),
     ("bottom", "sky", |w, v| behind(w, Gradient { bottom: Rgb::grey(v), ..Gradient::default() })),
     ("top", "sky", |w, v| behind(w, Gradient { top: Rgb::grey(v), ..Gradient::default() })),
     ("scale", "sky", |w, v| behind(w, Environment { scale: v, ..environment(EVENING) })),

@@ -36,7 +36,13 @@ fn a_principled_dielectric_reflects_by_its_index() {
     let up = DVec3::Z;
     for (ior, expected) in [(1.0, 0.0), (1.5, 0.04), (2.0, 1.0 / 9.0), (2.5, 9.0 / 49.0), (1e9, 1.0)] {
         let mut world = World::new();
-        world.spawn(Principled { base_colour: Rgb::BLACK, metallic: 0.0, roughness: 0.1, ior });
+        world.spawn(Principled {
+            base_colour: Rgb::BLACK,
+            metallic: 0.0,
+            roughness: 0.1,
+            ior,
+            ..Principled::default()
+        });
         let table = Census::of(&world).table::<PrincipledTable>().expect("a table");
         let site = Site::opaque(0, Parameters { roughness: 0.1, ..Parameters::default() });
         let reflected = Bsdf::eval(&*table, &site, up, up)[1] / ggx_brdf(up, up, 0.01);

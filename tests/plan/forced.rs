@@ -236,6 +236,14 @@ fn on_the_sea() -> World {
     world
 }
 
+/// A ball that is half there, over a floor and its shadow.
+fn half_there() -> World {
+    let mut world = toggled(&[Toggle::Sphere, Toggle::Light, Toggle::Shadow, Toggle::Plane]);
+    let ball = named(&mut world, "ball");
+    world.entity_mut(ball).insert(Opacity { opacity: 0.5, ..Opacity::default() });
+    world
+}
+
 /// A lamp, a floor and the camera within ink.
 fn in_ink() -> World {
     let mut world = toggled(&[Toggle::Light, Toggle::Shadow, Toggle::Plane]);
@@ -316,6 +324,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("rasterised spheres", rasterised(shining(Setup { size, ..Setup::default() }))),
         ("many lights", scenes::many::many_lights(Setup { size, ..Setup::default() })),
         ("films", films()),
+        ("a ball that is half there", half_there()),
         ("a lamp in ink", in_ink()),
         ("frosted blocks", frosted_blocks()),
         ("an eye and a lamp on the sea", on_the_sea()),

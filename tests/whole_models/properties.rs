@@ -15,6 +15,7 @@ pub fn properties() -> Vec<(&'static str, bool, Vec<(&'static str, Value)>)> {
         info["extensions"] = json!({ "KHR_texture_transform": { field: value } });
         vec![("/materials/0/pbrMetallicRoughness/baseColorTexture", info)]
     };
+    let thin = ("/materials/0/pbrMetallicRoughness/baseColorFactor", json!([0.9, 0.9, 0.9, 0.4]));
     let clear = ("/materials/0/extensions/KHR_materials_transmission/transmissionFactor", json!(1.0));
     let skin = vec![
         ("/skins/0", json!({ "joints": [3], "inverseBindMatrices": 6 })),
@@ -40,8 +41,13 @@ pub fn properties() -> Vec<(&'static str, bool, Vec<(&'static str, Value)>)> {
             vec![("/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength", json!(5.0))],
         ),
         ("occlusion", false, vec![("/materials/0/occlusionTexture", texture.clone())]),
-        ("alpha mask", false, vec![("/materials/0/alphaMode", json!("MASK"))]),
-        ("alpha blend", false, vec![("/materials/0/alphaMode", json!("BLEND"))]),
+        ("alpha mask", true, vec![thin.clone(), ("/materials/0/alphaMode", json!("MASK"))]),
+        ("alpha blend", true, vec![thin, ("/materials/0/alphaMode", json!("BLEND"))]),
+        (
+            "clear coat",
+            true,
+            vec![("/materials/0/extensions/KHR_materials_clearcoat", json!({ "clearcoatFactor": 1.0 }))],
+        ),
         ("alpha mode that is none", false, vec![("/materials/0/alphaMode", json!("GLASS"))]),
         ("single-sided", false, vec![("/materials/0/doubleSided", json!(false))]),
         ("index of refraction", true, vec![("/materials/0/extensions/KHR_materials_ior/ior", json!(2.5))]),
@@ -141,9 +147,7 @@ pub fn properties() -> Vec<(&'static str, bool, Vec<(&'static str, Value)>)> {
             )],
         ),
     ];
-    for name in
-        ["unlit", "variants", "clearcoat", "sheen", "specular", "iridescence", "anisotropy", "dispersion", "new"]
-    {
+    for name in ["unlit", "variants", "sheen", "specular", "iridescence", "anisotropy", "dispersion", "new"] {
         let place: &'static str = format!("/materials/0/extensions/KHR_materials_{name}").leak();
         all.push((name, false, vec![(place, json!({}))]));
         let required = ("/extensionsRequired", json!([format!("KHR_materials_{name}")]));

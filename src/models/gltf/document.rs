@@ -14,6 +14,8 @@ pub const TRANSMISSION: &str = "KHR_materials_transmission";
 
 /// The extension of dielectrics with an interior.
 pub const VOLUME: &str = "KHR_materials_volume";
+/// The extension of surfaces under a clear coat.
+pub const CLEARCOAT: &str = "KHR_materials_clearcoat";
 /// The extension of materials by specular and glossiness.
 pub const SPECULAR_GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
 /// The extension that offsets, rotates and scales texture coordinates.
@@ -22,12 +24,13 @@ pub const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
 pub const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 
 /// The extensions that are read; the last allows whole numbers in all attributes.
-pub const EXTENSIONS: [&str; 9] = [
+pub const EXTENSIONS: [&str; 10] = [
     LIGHTS,
     EMISSIVE_STRENGTH,
     IOR,
     TRANSMISSION,
     VOLUME,
+    CLEARCOAT,
     SPECULAR_GLOSSINESS,
     INSTANCING,
     TEXTURE_TRANSFORM,

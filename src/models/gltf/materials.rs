@@ -1,4 +1,4 @@
-use super::document::{Document, EMISSIVE_STRENGTH, IOR, SPECULAR_GLOSSINESS, TRANSMISSION, Table, VOLUME};
+use super::document::{CLEARCOAT, Document, EMISSIVE_STRENGTH, IOR, SPECULAR_GLOSSINESS, TRANSMISSION, Table, VOLUME};
 use super::images::Images;
 use super::object::Object;
 use super::specular_glossiness::specular_glossiness;
@@ -110,6 +110,13 @@ fn read_material<'a>(
     let strength = of_extension(EMISSIVE_STRENGTH, "emissiveStrength", 1.0)?;
     let ior = of_extension(IOR, "ior", 1.5)?;
     let transmission = of_extension(TRANSMISSION, "transmissionFactor", 0.0)?;
+    let coat = of_extension(CLEARCOAT, "clearcoatFactor", 0.0)?;
+    let coat_roughness = of_extension(CLEARCOAT, "clearcoatRoughnessFactor", 0.0)?;
+    if let Some(own) = object.extension(CLEARCOAT)? {
+        let textures = ["clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"];
+        let there = textures.iter().filter(|texture| own.get(texture).is_some()).count();
+        remarks.add_unread("textures of clear coats", there as u64);
+    }
     if let Some(own) = object.extension(TRANSMISSION)? {
         remarks.add_unread("transmission textures", u64::from(own.get("transmissionTexture").is_some()));
     }
@@ -125,6 +132,7 @@ fn read_material<'a>(
         base_colour_texture: reflection.base_colour_texture,
         alpha: remarks.clamp(alpha, 0.0, 1.0),
         alpha_mode: alpha_mode(object, remarks)?,
+        opacity_texture: None,
         metallic: remarks.clamp(metallic, 0.0, 1.0),
         roughness: remarks.clamp(roughness, 0.0, 1.0),
         metallic_roughness_texture: reflection.metallic_roughness_texture,
@@ -136,6 +144,8 @@ fn read_material<'a>(
         // 0 stands for a reflectance of 1.
         ior: if ior == 0.0 { 0.0 } else { remarks.clamp(ior, 1.0, f64::MAX) },
         transmission: remarks.clamp(transmission, 0.0, 1.0),
+        coat: remarks.clamp(coat, 0.0, 1.0),
+        coat_roughness: remarks.clamp(coat_roughness, 0.0, 1.0),
         thin: thickness <= 0.0,
         absorption: if thickness > 0.0 { absorption(object, remarks)? } else { [0.0; 3] },
         double_sided: object.flag("doubleSided")?,
@@ -254,12 +264,12 @@ mod tests {
     fn what_is_not_read_is_said() {
         let model = model(
             "'occlusionTexture':{'index':0},'emissiveTexture':{'index':4},'normalTexture':{'index':0,'texCoord':1,\
-             'extensions':{'KHR_texture_transform':{}}},'extensions':{'KHR_materials_clearcoat':{},\
+             'extensions':{'KHR_texture_transform':{}}},'extensions':{'KHR_materials_sheen':{},\
              'KHR_materials_transmission':{'transmissionTexture':{}}}",
         );
         assert_eq!(
             model.remarks.sentences()[1],
-            "Not read: the extension KHR_materials_clearcoat (1), textures without an image in PNG or JPEG (1), \
+            "Not read: the extension KHR_materials_sheen (1), textures without an image in PNG or JPEG (1), \
              occlusion textures (1), transmission textures (1), corners behind the last triangle (1)."
         );
     }

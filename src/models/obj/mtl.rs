@@ -78,6 +78,7 @@ pub fn read_mtl(
                 let mut map = |is_srgb| Map::read(&rest_of(&line), is_srgb, images, remarks);
                 match &keyword[..] {
                     b"map_kd" => replace(&mut material.diffuse_map, map(true).map(|map| map.texture)),
+                    b"map_d" => replace(&mut material.opacity_map, map(false).map(|map| map.texture)),
                     b"map_ka" => material.has_ambient_map = true,
                     b"map_ke" => replace(&mut material.emission_map, map(true).map(|map| map.texture)),
                     b"norm" => replace(&mut material.normal_map, map(false)),

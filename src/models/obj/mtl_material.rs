@@ -32,6 +32,8 @@ pub struct MtlMaterial {
     pub diffuse_map: Option<ModelTexture>,
     /// Whether there is a `map_Ka`.
     pub has_ambient_map: bool,
+    /// From `map_d`.
+    pub opacity_map: Option<ModelTexture>,
     /// From `map_Ke`.
     pub emission_map: Option<ModelTexture>,
     /// From `norm`.
@@ -75,7 +77,8 @@ impl MtlMaterial {
             },
             base_colour_texture: self.diffuse_map,
             alpha,
-            alpha_mode: if alpha < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
+            alpha_mode: if alpha < 1.0 || self.opacity_map.is_some() { AlphaMode::Blend } else { AlphaMode::Opaque },
+            opacity_texture: self.opacity_map,
             metallic: remarks.clamp(metallic, 0.0, 1.0),
             roughness: remarks.clamp(roughness, 0.0, 1.0),
             normal_texture: normal_map.map(|map| map.texture),

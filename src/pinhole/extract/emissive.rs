@@ -1,5 +1,6 @@
 use super::check::{kind_and_name, light_colour};
 use super::material::material_kind_evidence;
+use super::non_opaque::is_non_opaque;
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Disabled, EmissionMap, Emissive, SceneError, Sides, UsesMaterial};
 use bevy_ecs::prelude::*;
@@ -12,7 +13,8 @@ pub struct EmissiveTable {
     pub radiance: Vec<[f32; 3]>,
     /// Whether it is emitted only on the side of the shape's own normal.
     pub one_sided: Vec<bool>,
-    /// Whether an image gives it, so that light sampling leaves it to BSDF sampling; empty where none does for any.
+    /// Whether it is not the same at every point, because an image gives it or the surface is not opaque, so that light
+    /// sampling leaves it to BSDF sampling; empty where it is for all.
     pub mapped: Vec<bool>,
 }
 
@@ -28,23 +30,24 @@ pub(super) fn emissive_of(scene: &Census<'_>, shape: Entity) -> Option<Entity> {
     [Some(shape), used].into_iter().flatten().find(emits)
 }
 
-/// Whether an image gives a shape's emission.
+/// Whether a shape's emission is not the same at every point: an image gives it, or the surface is not opaque.
 pub(super) fn is_emission_mapped(scene: &Census<'_>, shape: Entity) -> bool {
-    emissive_of(scene, shape).is_some_and(|emissive| scene.get::<EmissionMap>(emissive).is_some())
+    is_non_opaque(scene)(shape)
+        || emissive_of(scene, shape).is_some_and(|emissive| scene.get::<EmissionMap>(emissive).is_some())
 }
 
 impl Table for EmissiveTable {
     const NAME: &'static str = "emissive surfaces";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let mut table = Self::default();
+        let (mut table, is_non_opaque) = (Self::default(), is_non_opaque(scene));
         for &entity in emissive_entities(scene).iter() {
             let emissive = scene.get::<Emissive>(entity).copied().unwrap_or_default();
             let who = kind_and_name(scene, "emissive", entity);
             let radiance = light_colour(&who, "radiance", emissive.radiance)?.to_array();
             table.radiance.push(radiance.map(|part| part as f32));
             table.one_sided.push(emissive.sides == Sides::Front);
-            table.mapped.push(scene.get::<EmissionMap>(entity).is_some());
+            table.mapped.push(scene.get::<EmissionMap>(entity).is_some() || is_non_opaque(entity));
         }
         if !table.mapped.contains(&true) {
             table.mapped.clear();

@@ -6,7 +6,7 @@ use crate::scene::SceneError;
 use crate::shapes::{Listed, hierarchy_of};
 use std::marker::PhantomData;
 
-/// The hierarchy over the shapes of one kind, in the order of their table.
+/// The hierarchy over the opaque shapes of one kind, in the order of their table.
 #[derive(Clone, Debug, Default)]
 pub struct HierarchyOf<S: Listed> {
     /// The hierarchy; none where a shape has no bounding box.
@@ -19,7 +19,8 @@ impl<S: Listed> Table for HierarchyOf<S> {
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let shapes = scene.table::<ShapesOf<S>>()?;
-        Ok(Self { bvh: hierarchy_of(&shapes.row), of: PhantomData })
+        let opaque = shapes.opaque().0;
+        Ok(Self { bvh: if opaque.is_empty() { None } else { hierarchy_of(opaque) }, of: PhantomData })
     }
 
     fn bytes(&self) -> usize {

@@ -41,6 +41,7 @@ static BACKGROUNDS: FileStore<RemarkedTexels> = FileStore::new();
 static NORMAL_MAPS: FileStore<RemarkedTexels> = FileStore::new();
 static FACTORS: FileStore<Pyramid> = FileStore::new();
 static EMISSIONS: FileStore<Pyramid> = FileStore::new();
+static ALPHAS: FileStore<Pyramid> = FileStore::new();
 
 /// The image of a texture, with its pyramid.
 ///
@@ -61,6 +62,13 @@ pub(super) fn factor_image(scene: &World, who: &str, file: &str) -> Result<Arc<P
 /// Errors: the same.
 pub(super) fn emission_image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError> {
     decoded(&EMISSIONS, scene, who, file, Numbers::Radiance, with_pyramid)
+}
+
+/// The alpha of an image, in all three parts; 1 where it has none.
+///
+/// Errors: the same.
+pub(super) fn alpha_image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError> {
+    decoded(&ALPHAS, scene, who, file, Numbers::Alphas, with_pyramid)
 }
 
 /// The image of an environment.
@@ -229,8 +237,12 @@ fn divide_by_exposure(bytes: &[u8], texels: &mut Texels, remarks: &mut Vec<Strin
 }
 
 /// Converts pixels to linear light, or to numbers that are no light: integers of colours are sRGB, all else is linear;
-/// alpha is ignored.
+/// alpha is ignored, but where it is asked for.
 fn linear(image: DynamicImage, numbers: Numbers) -> Vec<[f32; 3]> {
+    if numbers == Numbers::Alphas {
+        // An image without gets one of 1 everywhere.
+        return image.into_rgba32f().pixels().map(|texel| [texel.0[3]; 3]).collect();
+    }
     let as_it_is = numbers.are_no_light();
     let decoded = |part: f64| if as_it_is { part } else { linear_from_srgb(part) };
     let bytes_a_part = image.color().bytes_per_pixel() / image.color().channel_count();

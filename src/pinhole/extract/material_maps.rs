@@ -1,33 +1,35 @@
-//! Images over uv that are no colours: metallic and roughness, and emission.
+//! Images over uv that are no colours: metallic and roughness, emission, and opacity.
 
 use super::Pyramid;
 use super::check::{kind_and_name, positive_length};
 use super::emissive::emissive_entities;
-use super::image_file::{emission_image, factor_image};
+use super::image_file::{alpha_image, emission_image, factor_image};
 use super::texture::{NO_TEXTURE, rows_of_kind, texture_of_kind};
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{EmissionMap, Emissive, MetallicRoughnessMap, SceneError, Texture, UvTransform, Wrap, WrapMode};
+use crate::scene::{
+    EmissionMap, Emissive, MetallicRoughnessMap, OpacityChannel, OpacityMap, SceneError, Texture, UvTransform, Wrap,
+    WrapMode,
+};
 use bevy_ecs::prelude::*;
 use glam::{DMat2, DVec2};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A map: an image over uv, beside a material or its emission.
-trait UvMap: Texture {
-    fn file(&self) -> &str;
+pub(super) trait UvMap: Texture {
     fn size(&self) -> f64;
     fn wrap(&self) -> Wrap;
     fn transform(&self) -> UvTransform;
-    /// Reads the image that a file holds.
-    fn image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError>;
+    /// Reads its image.
+    fn image(&self, scene: &World, who: &str) -> Result<Arc<Pyramid>, SceneError>;
 }
 
+/// What reads an image file, with who asks for it.
+type ReadImage = fn(&World, &str, &str) -> Result<Arc<Pyramid>, SceneError>;
+
 macro_rules! uv_map {
-    ($map:ty, $image:path) => {
+    ($map:ty, $read:expr) => {
         impl UvMap for $map {
-            fn file(&self) -> &str {
-                &self.file
-            }
             fn size(&self) -> f64 {
                 self.size
             }
@@ -37,15 +39,20 @@ macro_rules! uv_map {
             fn transform(&self) -> UvTransform {
                 self.transform
             }
-            fn image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError> {
-                $image(scene, who, file)
+            fn image(&self, scene: &World, who: &str) -> Result<Arc<Pyramid>, SceneError> {
+                let read: fn(&Self) -> ReadImage = $read;
+                read(self)(scene, who, &self.file)
             }
         }
     };
 }
 
-uv_map!(MetallicRoughnessMap, factor_image);
-uv_map!(EmissionMap, emission_image);
+uv_map!(MetallicRoughnessMap, |_| factor_image);
+uv_map!(EmissionMap, |_| emission_image);
+uv_map!(OpacityMap, |map| match map.channel {
+    OpacityChannel::Alpha => alpha_image,
+    OpacityChannel::Red => factor_image,
+});
 
 /// Images over uv, in the order of the rows that they belong to.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -63,17 +70,17 @@ pub struct UvImages {
 }
 
 impl UvImages {
-    fn push<M: UvMap>(&mut self, scene: &Census<'_>, owner: Entity, map: &M) -> Result<(), SceneError> {
+    pub(super) fn push<M: UvMap>(&mut self, scene: &Census<'_>, owner: Entity, map: &M) -> Result<(), SceneError> {
         let who = kind_and_name(scene, M::WORD, owner);
         self.size.push(positive_length(&who, "size", map.size())?);
         self.wrap.push(map.wrap().axes());
         self.transform.push(map.transform().affine(&who)?);
         self.filter.push(map.is_filtered());
-        self.pyramid.push(M::image(scene, &who, map.file())?);
+        self.pyramid.push(map.image(scene, &who)?);
         Ok(())
     }
 
-    fn bytes(&self) -> usize {
+    pub(super) fn bytes(&self) -> usize {
         let images: BTreeMap<_, usize> = self.pyramid.iter().map(|image| (Arc::as_ptr(image), image.bytes())).collect();
         images.into_values().sum()
     }

@@ -56,6 +56,7 @@ mod material_maps;
 mod mesh_file;
 mod motion;
 mod moving;
+mod non_opaque;
 mod normal_map;
 mod on_camera;
 mod pixel_steps;
@@ -135,6 +136,7 @@ pub use material_maps::{
 };
 pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_evidence};
 pub use moving::{MovingTable, shape_bodies};
+pub use non_opaque::{Coverage, NonOpaqueTable, non_opaque_evidence};
 pub use normal_map::{NormalMapTable, normal_map_evidence};
 pub use pixel_steps::PixelSteps;
 pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, upward, world_from_entity};
@@ -195,6 +197,7 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<EmissiveTable>,
     |scene| listed_kinds().iter().try_for_each(|listed| (listed.check)(scene)),
     answer::<MovingTable>,
+    answer::<NonOpaqueTable>,
     spacing::check_spacing,
     |scene| light_kinds().iter().try_for_each(|kind| (kind.check)(scene)),
     answer::<TextureMaps>,

@@ -1,5 +1,6 @@
 use super::check::kind_and_name;
 use super::emissive::emissive_entities;
+use super::non_opaque::is_non_opaque;
 use super::shape_kind::{one_shape, shape_entities};
 use super::velocity::moves_while_open;
 use crate::material::{NO_ROW, components_in_words, material_entities, material_kind};
@@ -33,12 +34,18 @@ impl Table for ShapeTable {
             |row: u32| kinds.get(row as usize).copied().flatten().is_some_and(|kind| !kind.is_specular());
         let mut table = Self::default();
         let (mut rows_of_kind, moves) = ([0; ShapeKind::Moving as usize + 1], moves_while_open(scene));
+        let (is_non_opaque, mut last) = (is_non_opaque(scene), Vec::new());
         for &entity in shape_entities(scene).iter() {
             let listed = one_shape(scene, entity)?;
             let kind = if moves(entity) { ShapeKind::Moving } else { listed.kind };
-            let rows = &mut rows_of_kind[kind as usize];
-            table.row.push(*rows);
-            *rows += 1;
+            // Those that are not opaque are in the table of their kind after all others.
+            if kind != ShapeKind::Moving && is_non_opaque(entity) {
+                last.push(table.row.len());
+                table.row.push(0);
+            } else {
+                table.row.push(rows_of_kind[kind as usize]);
+                rows_of_kind[kind as usize] += 1;
+            }
             table.kind.push(kind);
             let used = scene.get::<UsesMaterial>(entity).map(|used| used.0);
             let [own, of_used] = [Some(entity), used].map(|entity| row_in(&materials, entity));
@@ -52,6 +59,11 @@ impl Table for ShapeTable {
             table.non_specular.push(non_specular(material));
             table.material.push(material);
             table.emissive.push(if emits == NO_ROW { used_emits } else { emits });
+        }
+        for shape in last {
+            let rows = &mut rows_of_kind[table.kind[shape] as usize];
+            table.row[shape] = *rows;
+            *rows += 1;
         }
         Ok(table)
     }

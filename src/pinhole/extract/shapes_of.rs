@@ -1,5 +1,6 @@
 use super::camera::eye;
 use super::check::{finite_point, kind_and_name};
+use super::non_opaque::is_non_opaque;
 use super::pose::pose;
 use super::shape_kind::{moving_shapes, numbered, shape_entities};
 use super::velocity::moves_while_open;
@@ -12,7 +13,8 @@ use crate::shapes::{
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-/// Shapes of one kind in render space, in spawn order, except for those that [move](super::MovingTable).
+/// Shapes of one kind in render space, in spawn order, except for those that [move](super::MovingTable); those that
+/// [are not opaque](super::NonOpaqueTable) come last, and only their surfaces are computed from here.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShapesOf<S: Listed> {
     /// The shapes, as the intersection kernels read them.
@@ -21,6 +23,8 @@ pub struct ShapesOf<S: Listed> {
     pub beside: Vec<S::Beside>,
     /// The shape's number.
     pub shape: Vec<u32>,
+    /// How many, from the first on, are opaque to every ray.
+    pub opaque: usize,
 }
 
 /// The table of spheres.
@@ -43,27 +47,37 @@ pub type MeshTable = ShapesOf<PlacedMesh>;
 
 impl<S: Listed> Default for ShapesOf<S> {
     fn default() -> Self {
-        Self { row: Vec::new(), beside: Vec::new(), shape: Vec::new() }
+        Self { row: Vec::new(), beside: Vec::new(), shape: Vec::new(), opaque: 0 }
     }
 }
 
 impl<S: Listed> ShapesOf<S> {
-    /// Appends a shape, with what its surface needs and its number.
+    /// Appends an opaque shape, with what its surface needs and its number.
     pub fn push(&mut self, (row, beside): (S, S::Beside), shape: u32) {
         self.row.push(row);
         self.beside.push(beside);
         self.shape.push(shape);
+        self.opaque += 1;
+    }
+
+    /// The opaque shapes, and their numbers.
+    #[inline(always)]
+    pub fn opaque(&self) -> (&[S], &[u32]) {
+        (&self.row[..self.opaque], &self.shape[..self.opaque])
     }
 
     /// Those that pass a test, at the moment when the shutter opens.
     ///
     /// Errors: what is wrong with one of them.
     pub(super) fn that(scene: &Census<'_>, such: impl Fn(Entity) -> bool) -> Result<Self, SceneError> {
-        let eye = eye(scene)?;
-        let mut table = Self::default();
-        for (shape, entity) in numbered::<S>(scene).into_iter().filter(|&(_, entity)| such(entity)) {
+        let (eye, is_non_opaque) = (eye(scene)?, is_non_opaque(scene));
+        let those = numbered::<S>(scene).into_iter().filter(|&(_, entity)| such(entity));
+        let (others, opaque): (Vec<_>, Vec<_>) = those.partition(|&(_, entity)| is_non_opaque(entity));
+        let (mut table, count) = (Self::default(), opaque.len());
+        for (shape, entity) in opaque.into_iter().chain(others) {
             table.push(placed_shape::<S>(scene, entity, eye)?, shape as u32);
         }
+        table.opaque = count;
         Ok(table)
     }
 }

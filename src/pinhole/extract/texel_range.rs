@@ -13,6 +13,8 @@ pub enum Numbers {
     Normals,
     /// Numbers that are no light, such as roughness: from 0 to 1.
     Factors,
+    /// Alphas, from 0 to 1.
+    Alphas,
 }
 
 /// Blue of a normal that points out of the surface at the lowest angle.
@@ -25,7 +27,7 @@ const HEIGHT: f32 = 0.02;
 impl Numbers {
     /// Whether they are taken as they are in the file, without the sRGB curve.
     pub fn are_no_light(self) -> bool {
-        matches!(self, Self::Normals | Self::Factors)
+        matches!(self, Self::Normals | Self::Factors | Self::Alphas)
     }
 
     /// Replaces what is out of range by what is nearest in it; says how many texels that were, if any.

@@ -211,7 +211,7 @@ pub(super) fn check_owner(
 /// Checks that every texture of a material belongs to one, that its BSDF takes what the texture gives, and that it has one
 /// texture of colours at most.
 fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
-    let of_materials = TEXTURES.iter().filter(|own| own.feeds != Feeds::Emission);
+    let of_materials = TEXTURES.iter().filter(|own| !matches!(own.feeds, Feeds::Emission | Feeds::Opacity));
     let mut owned: Vec<(Entity, &Registered)> = of_materials
         .flat_map(|own| (own.owners)(scene).iter().map(move |&owner| (owner, own)).collect::<Vec<_>>())
         .collect();
@@ -222,6 +222,7 @@ fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
             Feeds::MetallicRoughness => "it gives a metallic and a roughness",
             Feeds::Normal => "it tilts normals",
             Feeds::Emission => "it changes an emission",
+            Feeds::Opacity => "it opens a surface",
         };
         check_owner(scene, (own.word, owner), (own.feeds, given))?;
         let is_second =

@@ -85,7 +85,8 @@ macro_rules! all_tables {
                 let mut closest = ClosestHit::NONE;
                 $(if let (Some(shapes), hierarchy) = &self.$field {
                     let bvh = hierarchy.as_ref().and_then(|hierarchy| hierarchy.bvh.as_ref());
-                    closest = keep_closest_counted((&shapes.row, &shapes.shape, bvh), ray, closest, counts);
+                    let (row, shape) = shapes.opaque();
+                    closest = keep_closest_counted((row, shape, bvh), ray, closest, counts);
                 })+
                 closest
             }

@@ -46,9 +46,10 @@ fn keep_closest<S: Listed>(
     rays: RaySlices<'_>,
     hits: ClosestHits<'_>,
 ) {
+    let (row, shape) = shapes.opaque();
     match hierarchy.and_then(|hierarchy| hierarchy.bvh.as_ref()) {
-        Some(bvh) => keep_closest_of((&shapes.row, &shapes.shape, bvh), rays, hits),
-        None => S::keep_closest(&shapes.row, &shapes.shape, rays, hits),
+        Some(bvh) => keep_closest_of((row, shape, bvh), rays, hits),
+        None => S::keep_closest(row, shape, rays, hits),
     }
 }
 

@@ -26,6 +26,20 @@ pub struct PrincipledTable {
     energy: Vec<EnergyTable>,
     /// The energies of all roughnesses, if a texture gives any material another than its own.
     by_roughness: &'static [EnergyTable],
+    /// The clear coat of each; empty where none has one.
+    coats: Vec<Coat>,
+}
+
+/// The reflectance of a clear coat at normal incidence: that of index 1.5.
+const COAT: f64 = 0.04;
+
+/// A clear coat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Coat {
+    /// How much of the surface is under it.
+    factor: f64,
+    roughness: f64,
+    energy_of: u32,
 }
 
 /// A principled surface at one point.
@@ -36,16 +50,53 @@ struct Surface<'a> {
     alpha: f64,
     dielectric: f64,
     energy: Energy<'a>,
+    coat: Option<CoatHere<'a>>,
+}
+
+/// A clear coat that is there.
+#[derive(Clone, Copy)]
+struct CoatHere<'a> {
+    factor: f64,
+    alpha: f64,
+    energy: Energy<'a>,
+}
+
+impl CoatHere<'_> {
+    /// What it reflects of the light that arrives or leaves at this cosine.
+    #[inline(always)]
+    fn albedo(&self, cosine: f64) -> f64 {
+        let once = COAT * (1.0 - self.energy.lost(cosine)) + (1.0 - COAT) * self.energy.left_at_grazing(cosine);
+        self.factor * once.clamp(0.0, 1.0)
+    }
+
+    // ANCHOR: coat
+    /// The BRDF of a base under the coat: the coat's own reflection, and of the base's what goes through it twice.
+    ///
+    /// What the coat reflects back down is lost, so a coated surface is darker than its base, as wet ones are.
+    #[inline(always)]
+    fn over(&self, base: [f64; 3], to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
+        let facing = grazing(to_eye.dot((to_light + to_eye).normalize_or_zero()));
+        let own = self.factor * ggx_brdf(to_light, to_eye, self.alpha) * (COAT + (1.0 - COAT) * facing);
+        let through = (1.0 - self.albedo(to_light.z)) * (1.0 - self.albedo(to_eye.z));
+        base.map(|base| own + through * base)
+    }
+    // ANCHOR_END: coat
 }
 
 impl PrincipledTable {
     /// Adds a material; the energies of equal roughnesses are there once, and their rows in `known`.
     fn push(&mut self, own: &Principled, known: &mut HashMap<u64, u32>) {
-        let alpha = alpha_of(own.roughness);
-        let energy_of = *known.entry(alpha.to_bits()).or_insert_with(|| {
-            self.energy.push(EnergyTable::new(alpha));
-            self.energy.len() as u32 - 1
-        });
+        let mut energies = |roughness: f64| {
+            let alpha = alpha_of(roughness);
+            *known.entry(alpha.to_bits()).or_insert_with(|| {
+                self.energy.push(EnergyTable::new(alpha));
+                self.energy.len() as u32 - 1
+            })
+        };
+        let energy_of = energies(own.roughness);
+        // One that is nowhere needs no energies of its own.
+        let of_coat = if own.coat > 0.0 { energies(own.coat_roughness) } else { energy_of };
+        self.coats.push(Coat { factor: own.coat, roughness: own.coat_roughness, energy_of: of_coat });
         let amplitude = (own.ior - 1.0) / (own.ior + 1.0);
         self.dielectric.push(amplitude * amplitude);
         self.roughness.push(own.roughness);
@@ -62,7 +113,11 @@ impl PrincipledTable {
         } else {
             Energy::between(self.by_roughness, roughness)
         };
-        Surface { colour, metallic, alpha: alpha_of(roughness), dielectric: self.dielectric[site.row], energy }
+        let coat = self.coats.get(site.row).filter(|coat| coat.factor > 0.0).map(|coat| {
+            let energy = Energy::of(&self.energy[coat.energy_of as usize], coat.roughness);
+            CoatHere { factor: coat.factor, alpha: alpha_of(coat.roughness), energy }
+        });
+        Surface { colour, metallic, alpha: alpha_of(roughness), dielectric: self.dielectric[site.row], energy, coat }
     }
 }
 
@@ -105,9 +160,10 @@ impl Surface<'_> {
     }
     // ANCHOR_END: principled
 
-    /// The probability of sampling specular reflection of one scattering: its part of the albedo.
+    /// The probability of sampling the coat, and that of sampling specular reflection of one scattering where it is not:
+    /// their parts of the albedo.
     #[inline(always)]
-    fn specular_probability(&self, to_eye: DVec3) -> f64 {
+    fn probabilities(&self, to_eye: DVec3) -> [f64; 2] {
         let (energy, metallic, of_dielectric) = (self.energy, self.metallic, self.dielectric);
         let (lost, left) = (energy.lost(to_eye.z), energy.left_at_grazing(to_eye.z));
         let below = 1.0 - energy.of_dielectric(of_dielectric, lost, left);
@@ -118,7 +174,12 @@ impl Surface<'_> {
             dielectric + metallic * (energy.again(*colour) * lost - dielectric)
         };
         let whole = once + self.colour.iter().map(broad).sum::<f64>();
-        if whole > 0.0 { (once / whole).clamp(0.0, 1.0) } else { 1.0 }
+        let specular = if whole > 0.0 { (once / whole).clamp(0.0, 1.0) } else { 1.0 };
+        let coat = self.coat.map_or(0.0, |coat| {
+            let own = coat.albedo(to_eye.z);
+            3.0 * own / (3.0 * own + (1.0 - own) * whole)
+        });
+        [coat, specular]
     }
 
     #[inline(always)]
@@ -127,20 +188,29 @@ impl Surface<'_> {
             return [0.0; 3];
         }
         let (once, broad) = (self.once(to_light, to_eye), self.broad(to_light, to_eye));
-        [0, 1, 2].map(|part| once[part] + broad[part])
+        let base = [0, 1, 2].map(|part| once[part] + broad[part]);
+        self.coat.map_or(base, |coat| coat.over(base, to_light, to_eye))
     }
 
     #[inline(always)]
     fn pdf(&self, to_light: DVec3, to_eye: DVec3) -> f64 {
-        let once = self.specular_probability(to_eye);
+        let [of_coat, once] = self.probabilities(to_eye);
         let visible = visible_pdf(to_light, to_eye, self.alpha);
-        once * visible + (1.0 - once) * cosine_pdf(to_light.z)
+        let base = once * visible + (1.0 - once) * cosine_pdf(to_light.z);
+        match self.coat {
+            Some(coat) => of_coat * visible_pdf(to_light, to_eye, coat.alpha) + (1.0 - of_coat) * base,
+            None => base,
+        }
     }
 
-    /// By visible microfacet normals or by the cosine; `choice` selects which.
+    /// By visible microfacet normals, of the coat or below it, or by the cosine; `choice` selects which.
     #[inline(always)]
     fn sample(&self, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
-        let to_light = if choice < self.specular_probability(to_eye) {
+        let [of_coat, once] = self.probabilities(to_eye);
+        let below = if of_coat > 0.0 { (choice - of_coat) / (1.0 - of_coat) } else { choice };
+        let to_light = if let (true, Some(coat)) = (below < 0.0, self.coat) {
+            ggx_sample(to_eye, coat.alpha, numbers)?.to_light
+        } else if below < once {
             ggx_sample(to_eye, self.alpha, numbers)?.to_light
         } else {
             cosine_direction(numbers)
@@ -155,20 +225,24 @@ impl Table for PrincipledTable {
     const NAME: &'static str = "principled materials";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let (mut table, mut known) = (Self::default(), HashMap::new());
+        let (mut table, mut known, mut has_coat) = (Self::default(), HashMap::new(), false);
         for entity in entities_of_kind(scene, Self::KIND) {
             let own = scene.get::<Principled>(entity).copied().unwrap_or_default();
             Self::parameters(&own, &kind_and_name(scene, Self::WORD, entity))?;
             table.push(&own, &mut known);
+            has_coat |= own.coat > 0.0;
             if scene.get::<MetallicRoughnessMap>(entity).is_some() {
                 table.by_roughness = EnergyTable::of_all_roughnesses();
             }
+        }
+        if !has_coat {
+            table.coats.clear();
         }
         Ok(table)
     }
 
     fn bytes(&self) -> usize {
-        let rows = self.dielectric.len() * (2 * size_of::<f64>() + size_of::<u32>());
+        let rows = self.dielectric.len() * (2 * size_of::<f64>() + size_of::<u32>()) + size_of_val(&self.coats[..]);
         rows + size_of_val(&self.energy[..]) + size_of_val(self.by_roughness)
     }
 }
@@ -182,7 +256,13 @@ impl Bsdf for PrincipledTable {
     const TAKES: &'static [Feeds] = &[Feeds::Colour, Feeds::MetallicRoughness];
 
     fn parameters(own: &Principled, who: &str) -> Result<Parameters, SceneError> {
-        for (field, value) in [("metallic", own.metallic), ("roughness", own.roughness)] {
+        let numbers = [
+            ("metallic", own.metallic),
+            ("roughness", own.roughness),
+            ("coat", own.coat),
+            ("coat_roughness", own.coat_roughness),
+        ];
+        for (field, value) in numbers {
             if !(0.0..=1.0).contains(&value) {
                 return Err(SceneError::new(who, field, number(value), "it must be a number from 0 to 1"));
             }
@@ -224,6 +304,12 @@ impl Bsdf for PrincipledTable {
             let Example { component, lossless_to } = of(1.0, 0.0, 0.4);
             Example { component: Principled { ior, ..component }, lossless_to }
         });
-        white.chain([of(0.5, 0.0, 0.0), of(0.2, 0.3, 0.4), of(0.7, 1.0, 0.7)]).chain(dense).collect()
+        let coated =
+            [(0.3, 0.0, 1.0, 0.0), (1.0, 1.0, 1.0, 0.3), (0.0, 0.0, 0.5, 0.8)].map(|(grey, metallic, coat, rough)| {
+                let Example { component, .. } = of(grey, metallic, 0.5);
+                let component = Principled { coat, coat_roughness: rough, ..component };
+                Example { component, lossless_to: None }
+            });
+        white.chain(coated).chain([of(0.5, 0.0, 0.0), of(0.2, 0.3, 0.4), of(0.7, 1.0, 0.7)]).chain(dense).collect()
     }
 }

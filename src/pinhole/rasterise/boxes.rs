@@ -65,7 +65,7 @@ impl<S: Listed> Table for RasterBoxes<S> {
             false => 0.0,
         };
         let extents = BoxExtents::new(&projection, margin);
-        let each = shapes.row.par_iter().with_min_len(TASK).enumerate();
+        let each = shapes.opaque().0.par_iter().with_min_len(TASK).enumerate();
         let mut boxes: Vec<(BoxExtent, u32)> =
             each.filter_map(|(row, shape)| Some((extents.of_shape(shape)?, row as u32))).collect();
         boxes.sort_by(|(one, _), (other, _)| one.nearest.total_cmp(&other.nearest));

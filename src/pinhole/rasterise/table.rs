@@ -162,18 +162,18 @@ enum Source<'s> {
 }
 
 impl<'s> Source<'s> {
-    /// Those of all shapes, in the order of their numbers.
+    /// Those of all opaque shapes, in the order of their numbers.
     fn all(setup: &Setup<'_>, triangles: &'s TriangleTable, meshes: &'s MeshTable) -> Vec<Self> {
-        let vertices: Vec<Vec<Vertex>> = meshes.row.par_iter().map(|mesh| setup.vertices(mesh)).collect();
+        let vertices: Vec<Vec<Vertex>> = meshes.opaque().0.par_iter().map(|mesh| setup.vertices(mesh)).collect();
         let (mut all, mut next) = (Vec::new(), 0);
         for (row, (mesh, vertices)) in meshes.row.iter().zip(vertices).enumerate() {
             let shape = meshes.shape[row];
-            let until = triangles.shape.partition_point(|&own| own < shape);
+            let until = triangles.opaque().1.partition_point(|&own| own < shape);
             all.push(Self::Table(triangles, next..until));
             next = until;
             all.push(Self::Mesh(mesh, vertices, Whose { shape, primitive: 0, row: row as u32 }));
         }
-        all.push(Self::Table(triangles, next..triangles.row.len()));
+        all.push(Self::Table(triangles, next..triangles.opaque));
         all
     }
 

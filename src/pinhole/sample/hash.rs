@@ -1,3 +1,5 @@
+use glam::DVec3;
+
 /// A hash of a pixel and the seed, from which the pixel's random numbers are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PixelKey(u64);
@@ -25,6 +27,16 @@ pub(super) fn mixed(bits: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     z ^ (z >> 31)
+}
+
+/// A number in [0, 1) that depends on every bit of a ray and of a salt.
+///
+/// As PBRT-4 decides whether a ray hits a surface with an alpha (`GeometricPrimitive::Intersect`).
+#[inline(always)]
+pub fn unit_of_ray(ray: [DVec3; 2], salt: u64) -> f64 {
+    let parts = ray.map(|vector| vector.to_array());
+    let bits = parts.as_flattened().iter().fold(mixed(salt), |bits, part| mixed(bits ^ part.to_bits()));
+    unit(halves(bits)[0])
 }
 
 /// The two halves of 64 bits.

@@ -26,7 +26,7 @@ mod sobol;
 mod stratified;
 
 pub use crate::filters::{box_offset, table_offset, tent_offset};
-pub use hash::{PixelKey, unit};
+pub use hash::{PixelKey, unit, unit_of_ray};
 pub use independent::{Independent, uniform};
 pub use mean_error::{INTEGRANDS, Integrand, MeanError, mean_error, slope};
 pub use owen::owen_scrambled;

@@ -53,6 +53,7 @@ mod model;
 mod motion;
 mod name;
 mod normal_map;
+mod opacity;
 mod open_file;
 mod orientation;
 mod placement;
@@ -94,7 +95,6 @@ pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use directional_light::DirectionalLight;
 pub use disk::Disk;
-#[doc(hidden)]
 pub use emission_map::EmissionMap;
 pub use emissive::{Emissive, Sides};
 pub use environment::Environment;
@@ -143,6 +143,7 @@ pub use motion::{Motion, Shutter};
 #[doc(hidden)]
 pub use name::{called, some_of};
 pub use normal_map::NormalMap;
+pub use opacity::{Opacity, OpacityChannel, OpacityMap, SingleSided};
 #[doc(hidden)]
 pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, read_file};
 #[doc(hidden)]

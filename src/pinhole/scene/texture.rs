@@ -15,6 +15,8 @@ pub enum Feeds {
     Normal,
     /// A factor of the emission.
     Emission,
+    /// A factor of the opacity.
+    Opacity,
 }
 
 /// A texture: a component beside a material, or beside an emission, that changes something of the surface from point to

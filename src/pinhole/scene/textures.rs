@@ -1,13 +1,13 @@
 //! The list of textures.
 
-use super::{Checker, EmissionMap, ImageTexture, MetallicRoughnessMap, NormalMap, Stripes, Texture};
+use super::{Checker, EmissionMap, ImageTexture, MetallicRoughnessMap, NormalMap, OpacityMap, Stripes, Texture};
 use bevy_ecs::prelude::*;
 
 /// All textures; a further one is a line here.
 // ANCHOR: texture_list
 macro_rules! for_each_texture {
     ($then:ident) => {
-        $then! { Checker, Stripes, ImageTexture, NormalMap, MetallicRoughnessMap, EmissionMap }
+        $then! { Checker, Stripes, ImageTexture, NormalMap, MetallicRoughnessMap, EmissionMap, OpacityMap }
     };
 }
 // ANCHOR_END: texture_list

@@ -61,7 +61,7 @@ impl EmissionFactors {
 }
 
 /// The mean of an image over a pixel's footprint about a point of uv, or its nearest texel.
-fn looked_up(images: &UvImages, map: usize, uv: TexturePoint) -> [f64; 3] {
+pub(super) fn looked_up(images: &UvImages, map: usize, uv: TexturePoint) -> [f64; 3] {
     let (size, wrap, pyramid) = (images.size[map], images.wrap[map], &images.pyramid[map]);
     let at = TexturePoint { point: uv.point / size, steps: uv.steps.map(|step| step / size) };
     let at = transformed(at, &images.transform[map]);

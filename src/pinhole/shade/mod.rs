@@ -30,6 +30,7 @@ mod image_texture;
 mod light;
 mod lookup;
 mod material_maps;
+mod non_opaque;
 mod normal_map;
 mod parameters;
 mod radiance;
@@ -91,6 +92,8 @@ pub use material_maps::{
     EmissionFactors, MetallicRoughness, emission_map_stage, evaluate_emission, evaluate_metallic_roughness,
     metallic_roughness_stage,
 };
+#[doc(hidden)]
+pub use non_opaque::{intersect_non_opaque, non_opaque_shadow_stage, non_opaque_stage};
 #[doc(hidden)]
 pub use normal_map::{copy_normals, copy_normals_stage, map_normals, mapped_normal, normal_map_stage, uv_directions};
 #[doc(hidden)]

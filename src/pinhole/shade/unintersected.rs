@@ -1,7 +1,7 @@
 //! Shapes that no stage on offer intersects.
 
 use super::shadow::ShadowHits;
-use crate::extract::{MovingTable, ShapeTable, listed_kind, shape_name};
+use crate::extract::{MovingTable, NonOpaqueTable, ShapeTable, listed_kind, shape_name};
 use crate::intersect::{Hits, Surfaces};
 use crate::plan::{Census, ColumnKind, Plan, Stage, TableKind};
 use crate::scene::SceneError;
@@ -33,7 +33,11 @@ pub fn check_shapes_are_intersected(scene: &Census<'_>, offer: &[Stage], plan: &
             .kind
             .iter()
             .map(|&kind| listed_kind(kind).map_or_else(TableKind::of::<MovingTable>, |listed| listed.table));
-        let missing = tables.enumerate().find(|(_, table)| !intersects(column, *table));
+        let non_opaque = scene.table::<NonOpaqueTable>()?;
+        let also = non_opaque.shape.iter().map(|&shape| (shape as usize, TableKind::of::<NonOpaqueTable>()));
+        // The tables of the kinds have their surfaces.
+        let also = also.filter(|_| column != ColumnKind::of::<Surfaces>());
+        let missing = tables.enumerate().chain(also).find(|(_, table)| !intersects(column, *table));
         if let Some((shape, table)) = missing {
             let value = format!("in the table of {}", table.name);
             return Err(SceneError::new(shape_name(scene, shape), "shape", value, accepted));

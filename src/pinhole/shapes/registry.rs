@@ -116,6 +116,11 @@ macro_rules! registry {
                 match self { $(Self::$kind(shape, beside) => shape.surface(beside, hit),)+ }
             }
 
+            /// u and v where a ray hits it; `at` is what its surface has, `own` the hit in its uv space.
+            pub fn uv(&self, hit: &RayHit, at: DVec3, own: DVec3) -> [f64; 2] {
+                match self { $(Self::$kind(shape, beside) => shape.uv(beside, hit, at, own),)+ }
+            }
+
             /// How many times it contains a point.
             pub fn windings(&self, point: DVec3) -> u32 {
                 match self { $(Self::$kind(shape, _) => shape.windings(point),)+ }

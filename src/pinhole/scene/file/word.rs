@@ -2,9 +2,9 @@ use crate::scene::material::MATERIALS;
 use crate::scene::{
     Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, EmissionMap, Emissive, Environment,
     EquirectangularCamera, FisheyeCamera, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing, LookAt, Mesh,
-    MetallicRoughnessMap, Motion, NormalMap, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight,
-    Rasterisation, Rectangle, Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Tint, Torus,
-    Triangle, View,
+    MetallicRoughnessMap, Motion, NormalMap, Opacity, OpacityMap, OrthographicCamera, PerspectiveCamera, Placement,
+    Plane, PointLight, Rasterisation, Rectangle, Resolution, Sampling, Shutter, SingleSided, Sphere, SpotLight,
+    Statistics, Stripes, Tint, Torus, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -54,6 +54,9 @@ const WORDS: &[Word] = &[
     Word::of::<NormalMap>("normal_map"),
     Word::of::<MetallicRoughnessMap>("metallic_roughness_map"),
     Word::of::<EmissionMap>("emission_map"),
+    Word::of::<Opacity>("opacity"),
+    Word::of::<OpacityMap>("opacity_map"),
+    Word::of::<SingleSided>("single_sided"),
     Word::of::<Background>("background"),
     Word::of::<Gradient>("gradient"),
     Word::of::<Environment>("environment"),

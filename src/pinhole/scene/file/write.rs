@@ -93,7 +93,7 @@ fn parts(
     let brought = brought_along(scene, entity);
     for word in Word::all() {
         let mesh = mesh.filter(|_| (word.kind)() == TypeId::of::<Mesh>());
-        let mesh = mesh.map(|file| text_of(&Mesh { file: file.clone() }));
+        let mesh = mesh.map(|file| text_of(&Mesh { file: file.clone(), ..Mesh::default() }));
         let Some(text) = (word.write)(entity).or(mesh) else { continue };
         let text = text.map_err(|error| unwritable(&who, word.word, &error))?;
         let comes_along = scene.components().get_id((word.kind)()).is_some_and(|id| brought.contains(&id));

@@ -20,6 +20,12 @@ pub struct Principled {
     /// incidence: 4 % for 1.5.
     #[serde(skip_serializing_if = "is_usual")]
     pub ior: f64,
+    /// How much of the surface is under a clear coat of index 1.5, from 0 to 1.
+    #[serde(skip_serializing_if = "is_none")]
+    pub coat: f64,
+    /// The perceived roughness of the coat, from 0 to 1.
+    #[serde(skip_serializing_if = "is_none")]
+    pub coat_roughness: f64,
 }
 
 /// The index of refraction that a scene file need not write.
@@ -29,8 +35,12 @@ fn is_usual(ior: &f64) -> bool {
     *ior == USUAL
 }
 
+fn is_none(factor: &f64) -> bool {
+    *factor == 0.0
+}
+
 impl Default for Principled {
     fn default() -> Self {
-        Self { base_colour: Rgb::grey(0.8), metallic: 0.0, roughness: 0.5, ior: USUAL }
+        Self { base_colour: Rgb::grey(0.8), metallic: 0.0, roughness: 0.5, ior: USUAL, coat: 0.0, coat_roughness: 0.0 }
     }
 }

@@ -17,20 +17,19 @@ use std::path::Path;
 /// A file that cannot be read leaves an [`UnreadMesh`], for which extraction refuses the scene.
 pub fn load_meshes(scene: &mut World) {
     let mut query = scene.query_filtered::<(Entity, &Mesh), Without<Disabled>>();
-    let mut named: Vec<(Entity, String)> =
-        query.iter(scene).map(|(entity, mesh)| (entity, mesh.file.clone())).collect();
+    let mut named: Vec<(Entity, Mesh)> = query.iter(scene).map(|(entity, mesh)| (entity, mesh.clone())).collect();
     named.sort_by_key(|(entity, _)| entity.index());
     let loaded: BTreeSet<Entity> = scene.query::<&MeshPart>().iter(scene).map(|part| part.0).collect();
     let mut materials = BTreeMap::new();
-    for (entity, file) in named.into_iter().filter(|(entity, _)| !loaded.contains(entity)) {
-        match open_model(scene, &file) {
+    for (entity, mesh) in named.into_iter().filter(|(entity, _)| !loaded.contains(entity)) {
+        match open_model(scene, &mesh.file) {
             Ok(model) if model.model.instances.is_empty() => {
                 scene.entity_mut(entity).insert(UnreadMesh(model.nothing()));
             }
             Ok(model) => {
                 let mut of_materials = MaterialNotes::default();
-                spawn_parts(scene, entity, (&file, &model), (&mut materials, &mut of_materials));
-                let notes = notes_on(&file, &model, &of_materials);
+                spawn_parts(scene, entity, (&mesh, &model), (&mut materials, &mut of_materials));
+                let notes = notes_on(&mesh.file, &model, &of_materials);
                 let mut said = scene.get_resource_or_init::<ModelNotes>();
                 for note in notes {
                     if !said.0.contains(&note) {
@@ -54,8 +53,8 @@ fn notes_on(file: &str, model: &OpenModel, of_materials: &MaterialNotes) -> Vec<
 fn spawn_parts(
     scene: &mut World,
     entity: Entity,
-    (file, model): (&str, &OpenModel),
-    (materials, notes): (&mut BTreeMap<(String, usize), Entity>, &mut MaterialNotes),
+    (mesh, model): (&Mesh, &OpenModel),
+    (materials, notes): (&mut BTreeMap<(String, bool, usize), Entity>, &mut MaterialNotes),
 ) {
     let used = scene.get::<UsesMaterial>(entity).map(|used| used.0);
     let has_own = is_material(scene.entity(entity)) || scene.entity(entity).contains::<Emissive>();
@@ -72,9 +71,9 @@ fn spawn_parts(
     for (at, instance) in model.model.instances.iter().enumerate() {
         let number = instance.material.unwrap_or(usize::MAX);
         let material = own.unwrap_or_else(|| {
-            let key = (file.to_owned(), number);
+            let key = (mesh.file.clone(), mesh.single_sided, number);
             *materials.entry(key).or_insert_with(|| {
-                let material = spawn_material(scene, model, number, notes);
+                let material = spawn_material(scene, (model, number), mesh.single_sided, notes);
                 scene.entity_mut(material).insert(MeshPart(entity));
                 material
             })

@@ -4,8 +4,9 @@ use super::components_of::name;
 use super::material_notes::MaterialNotes;
 use super::open_model::OpenModel;
 use crate::scene::{
-    Degrees, EmissionMap, Emissive, Glass, ImageTexture, MetallicRoughnessMap, Name, NormalMap, Principled, Rgb,
-    RoughGlass, Sides, TextureBy, ThinGlass, UvTransform, Wrap, WrapMode,
+    Degrees, EmissionMap, Emissive, Glass, ImageTexture, MetallicRoughnessMap, Name, NormalMap, Opacity,
+    OpacityChannel, OpacityMap, Principled, Rgb, RoughGlass, Sides, SingleSided, TextureBy, ThinGlass, UvTransform,
+    Wrap, WrapMode,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -46,7 +47,14 @@ fn transmits(own: &ModelMaterial, is_closed: impl FnOnce() -> bool) -> Transmits
 }
 
 /// Spawns a material of a model, and counts what of it is left out.
-pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize, notes: &mut MaterialNotes) -> Entity {
+///
+/// Those that are single-sided are so here where it is asked for.
+pub fn spawn_material(
+    scene: &mut World,
+    (model, material): (&OpenModel, usize),
+    single_sided: bool,
+    notes: &mut MaterialNotes,
+) -> Entity {
     let Some(own) = model.model.materials.get(material).cloned() else {
         let tint = model.tint_of(material, false);
         // White under the colours of vertices.
@@ -67,7 +75,9 @@ pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize, not
     let entity = match transmits {
         Transmits::Opaque => {
             let ior = ior(OF_DIELECTRICS);
-            scene.spawn(Principled { base_colour, metallic: own.metallic, roughness: own.roughness, ior }).id()
+            let (metallic, roughness) = (own.metallic, own.roughness);
+            let (coat, coat_roughness) = (own.coat, own.coat_roughness);
+            scene.spawn(Principled { base_colour, metallic, roughness, ior, coat, coat_roughness }).id()
         }
         Transmits::Thin => {
             notes.open_glass += usize::from(!own.thin);
@@ -86,7 +96,7 @@ pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize, not
         }
     };
     name(scene, entity, &own.name);
-    remark(&own, transmits, model.is_open_somewhere(material), notes);
+    remark(&own, transmits, !single_sided && model.is_open_somewhere(material), notes);
     let mut named = |scene: &mut World, texture: Option<ModelTexture>| {
         let texture = texture?;
         match model.name_of_image(scene, texture.image) {
@@ -120,6 +130,17 @@ pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize, not
         return entity;
     }
     let base_colour_map = named(scene, own.base_colour_texture);
+    if single_sided && !own.double_sided {
+        scene.entity_mut(entity).insert(SingleSided {});
+    }
+    if let Some(opacity) = opacity_of(&own) {
+        scene.entity_mut(entity).insert(opacity);
+        let of_colour = || base_colour_map.clone().map(|map| (map, OpacityChannel::Alpha));
+        let map = named(scene, own.opacity_texture).map(|map| (map, OpacityChannel::Red)).or_else(of_colour);
+        if let Some(((file, wrap, transform, filter), channel)) = map {
+            scene.entity_mut(entity).insert(OpacityMap { file, channel, size: 1.0, wrap, transform, filter });
+        }
+    }
     if let Some(tint) = model.tint_of(material, base_colour_map.is_some()) {
         scene.entity_mut(entity).insert(tint);
     }
@@ -132,19 +153,24 @@ pub fn spawn_material(scene: &mut World, model: &OpenModel, material: usize, not
     entity
 }
 
+/// The opacity of a material, without its image; none where its alpha has no meaning.
+fn opacity_of(own: &ModelMaterial) -> Option<Opacity> {
+    match own.alpha_mode {
+        AlphaMode::Opaque => None,
+        AlphaMode::Mask { cutoff } => Some(Opacity { opacity: own.alpha, mask: true, cutoff }),
+        AlphaMode::Blend => Some(Opacity { opacity: own.alpha, ..Opacity::default() }),
+    }
+}
+
 /// Counts what a material says and its components do not.
 fn remark(own: &ModelMaterial, transmits: Transmits, is_open: bool, notes: &mut MaterialNotes) {
-    let has_alpha = own.alpha < 1.0 || own.base_colour_texture.is_some();
-    match own.alpha_mode {
-        AlphaMode::Mask { cutoff } if has_alpha && cutoff > 0.0 => notes.masked += 1,
-        AlphaMode::Blend if has_alpha => notes.blended += 1,
-        _ => {}
-    }
     notes.in_part += usize::from(own.transmission > 0.0 && own.transmission < 1.0 && own.metallic < 1.0);
     if transmits == Transmits::Opaque {
         notes.seen_from_behind += usize::from(!own.double_sided && is_open);
         return;
     }
+    let has_alpha = own.alpha < 1.0 || own.base_colour_texture.is_some();
+    notes.glass_alphas += usize::from(has_alpha && own.alpha_mode != AlphaMode::Opaque);
     notes.glass_colours += usize::from(own.base_colour_texture.is_some());
     notes.glass_roughnesses += usize::from(own.metallic_roughness_texture.is_some());
 }

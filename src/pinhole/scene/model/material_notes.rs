@@ -5,10 +5,8 @@ use std::sync::Arc;
 /// What the materials of a model say and its picture does not show, counted.
 #[derive(Debug, Default)]
 pub struct MaterialNotes {
-    /// Those that are cut out by an alpha mask.
-    pub masked: usize,
-    /// Those that are see-through by their alpha.
-    pub blended: usize,
+    /// Glass with an alpha.
+    pub glass_alphas: usize,
     /// Those that are meant to be seen from one side, of meshes that can be seen from the other.
     pub seen_from_behind: usize,
     /// Those that transmit a part of the light that enters.
@@ -35,22 +33,10 @@ impl MaterialNotes {
     pub fn sentences(&self) -> Vec<String> {
         let counted = [
             (
-                self.masked,
-                "is cut out by its alpha (alphaMode MASK)",
-                "are cut out by their alpha (alphaMode MASK)",
-                OPAQUE,
-            ),
-            (
-                self.blended,
-                "is see-through by its alpha (alphaMode BLEND, or d and Tr of a .mtl file)",
-                "are see-through by their alpha (alphaMode BLEND, or d and Tr of a .mtl file)",
-                OPAQUE,
-            ),
-            (
                 self.seen_from_behind,
                 "is single-sided (doubleSided is false)",
                 "are single-sided (doubleSided is false)",
-                "the back, which the file wants left out, is seen",
+                "the back, which the file wants left out, is seen (single_sided=true leaves it out)",
             ),
             (
                 self.in_part,
@@ -71,6 +57,7 @@ impl MaterialNotes {
                 "are solid glass with a base colour",
                 "the colour is left out, for only absorption tints solid glass",
             ),
+            (self.glass_alphas, "of glass has an alpha", "of glass have an alpha", LEFT_OUT),
             (self.glass_colours, "of glass has a texture of colour", "of glass have a texture of colour", LEFT_OUT),
             (
                 self.glass_roughnesses,
@@ -114,5 +101,4 @@ fn replaced(materials: &[Arc<str>]) -> String {
     }
 }
 
-const OPAQUE: &str = "drawn opaque";
 const LEFT_OUT: &str = "left out";

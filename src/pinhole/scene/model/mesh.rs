@@ -13,6 +13,8 @@ pub struct Mesh {
     /// A .gltf, .glb, .obj or .ply file; its path is relative to the scene file's folder, or to the current folder if
     /// there is no scene file.
     pub file: String,
+    /// Whether materials that the file calls single-sided are not there from behind; if not, both sides are seen.
+    pub single_sided: bool,
 }
 
 /// An entity that [`load_meshes`](super::load_meshes) made for the mesh file of that one; scene files leave it out.

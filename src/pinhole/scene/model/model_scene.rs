@@ -42,6 +42,8 @@ pub struct ModelScene {
     pub said: Vec<String>,
     /// The factor of all light of the file.
     pub exposure: f64,
+    /// Whether materials that the file calls single-sided are not there from behind.
+    pub single_sided: bool,
 }
 
 impl ModelScene {
@@ -85,7 +87,7 @@ impl ModelScene {
             }
             LitBy::Nothing => said.push("it has no light: a sky and a sun are added".into()),
         }
-        Ok(Self { path: path.into(), said, exposure })
+        Ok(Self { path: path.into(), said, exposure, single_sided: false })
     }
 
     /// The same with another factor of all its light.
@@ -124,7 +126,7 @@ impl ModelScene {
             }
         }
         let name = self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        scene.spawn((Mesh { file: named }, Name::new(name)));
+        scene.spawn((Mesh { file: named, single_sided: self.single_sided }, Name::new(name)));
         scene.insert_resource(ModelNotes(self.said.clone()));
         load_meshes(&mut scene);
         // The surfaces of the model shine as much brighter or darker as its lights.
