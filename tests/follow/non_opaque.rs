@@ -210,6 +210,31 @@ fn a_single_sided_surface_is_there_from_the_front_only() {
     assert_ne!(scene(-1.0, true, false), scene(-1.0, false, false), "with two sides");
 }
 
+/// Of two surfaces in one place the one with the lower number is hit, whichever of them is opaque.
+#[test]
+fn of_two_surfaces_in_one_place_the_first_is_hit() {
+    for (half_first, expected) in [(true, 0.7), (false, 1.0)] {
+        let mut world = World::new();
+        seen(&mut world, DVec3::ZERO, DVec3::Y, 8.0, 0.01);
+        let camera = named(&mut world, "camera");
+        let sampling = Sampling { samples: 64, sampler: Sampler::Independent, ..Sampling::default() };
+        world.entity_mut(camera).insert(sampling);
+        for half in [half_first, !half_first] {
+            let shape = world.spawn(Rectangle::default()).id();
+            if half {
+                let opacity = Opacity { opacity: OPACITY, ..Opacity::default() };
+                world.entity_mut(shape).insert((Matte { colour: Rgb::grey(0.0) }, opacity));
+            } else {
+                world.entity_mut(shape).insert(Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() });
+            }
+        }
+        let pixels = numbers(&render(&world, &offer(), &Execution::default(), &()).expect("renders").film).pixels;
+        let mean = pixels.iter().map(|pixel| pixel[0]).sum::<f64>() / pixels.len() as f64;
+        eprintln!("half there first {half_first}: {mean} for {expected}");
+        assert!((mean - expected).abs() <= if half_first { 0.015 } else { 0.0 }, "{mean} for {expected}");
+    }
+}
+
 /// What is opaque everywhere is no reason for a stage.
 #[test]
 fn opaque_shapes_are_spared_the_test() {

@@ -7,7 +7,7 @@ use crate::intersect::{HitColumn, HitPrimitives, Hits, NO_SHAPE, RayColumn};
 use crate::plan::{Shared, Stage, TileSystems};
 use crate::rays::{SampleNumber, WorldRays};
 use crate::sample::unit_of_ray;
-use crate::shapes::{RayHit, SurfacePoint};
+use crate::shapes::{ClosestHit, RayHit, SurfacePoint};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -38,7 +38,7 @@ pub fn intersect_non_opaque<R: RayColumn, H: HitColumn>(
                 if closest.any && closest.shape != NO_SHAPE {
                     break;
                 }
-                let hit = first_opaque_hit((&shapes, one), ray, closest.t, salt);
+                let hit = first_opaque_hit((&shapes, one), ray, closest, salt);
                 if let Some((t, primitive)) = hit {
                     (closest.t, closest.shape, closest.primitive) = (t, shapes.shape[one], primitive);
                 }
@@ -49,12 +49,12 @@ pub fn intersect_non_opaque<R: RayColumn, H: HitColumn>(
 }
 
 // ANCHOR: first_opaque_hit
-/// The nearest hit of a ray with a shape, closer than `limit`, at which the shape is opaque to it; and which primitive it
-/// hits.
+/// The nearest hit of a ray with a shape at which the shape is opaque to it, and which primitive it hits; none if it is not
+/// closer than the closest so far.
 fn first_opaque_hit(
     (shapes, one): (&NonOpaqueTable, usize),
     [origin, direction]: [DVec3; 2],
-    limit: f64,
+    closest: ClosestHit,
     salt: u64,
 ) -> Option<(f64, u32)> {
     let (body, coverage, mut from) = (&shapes.body[one], &shapes.coverage[one], 0.0);
@@ -62,7 +62,10 @@ fn first_opaque_hit(
         let start = origin + from * direction;
         let t = body.t(start, direction);
         let at = from + t;
-        if !(at < limit) {
+
+        // At equal distances the lowest number wins, as in every kernel, so that the order of the stages does not matter.
+        let wins_tie = at == closest.t && shapes.shape[one] < closest.shape && at < f64::INFINITY;
+        if !(at < closest.t || wins_tie) {
             break;
         }
         let primitive = body.primitive_at(start, direction, t);
