@@ -26,7 +26,7 @@ use pinhole::plan::{
     Census, ColumnKind, ComponentValues, Evidence, Plan, PlanError, Stage, StageKind, TableKind, TileSystems, plan,
     view_names,
 };
-use pinhole::render::{Execution, RenderWorld, StageClock, inspect, prepare};
+use pinhole::render::{RenderWorld, StageClock, inspect, prepare};
 use pinhole::scene::*;
 use scenes::{
     EYES, Eye, FilmBits, Setup, Toggle, VIEWED, combinations, film, film_by, full, named, offer, one_world,
@@ -110,7 +110,7 @@ fn rows_systems_columns_and_tables_are_one_list() {
         planned += 1;
         let (plan, extracted) = prepare(&Census::of(&scene), &offer).unwrap_or_else(|error| panic!("{on:?}: {error}"));
         assert_eq!(plan.rows.len(), offer.len(), "{on:?}: a row a stage on offer");
-        let mut frame = RenderWorld::new(&plan, &extracted, 1, &Execution::default(), &[]);
+        let mut frame = RenderWorld::new(&plan, &extracted, 1, &[]);
         frame.schedule.initialize(&mut frame.world).map(|_| ()).expect("builds");
 
         let kept: Vec<&str> = plan.rows.iter().filter(|row| row.kept).map(|row| row.stage).collect();

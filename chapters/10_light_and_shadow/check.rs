@@ -232,7 +232,7 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                     let Some(light) = in_direction(&lights.row, position, rays.direction_of(ray)) else {
                         continue;
                     };
-                    let colour = materials.colour[surface.material as usize];
+                    let colour = materials.parameters[surface.material as usize].colour;
                     let light_of = |part: usize| {
                         let (intensity, light) = (lights.row[light].intensity[part], lights.row[light].position.into());
                         let asked = (colour[part], intensity, position.into(), normal.into(), light);

@@ -3,7 +3,6 @@
 //! New here: shadow rays, stage by stage; the box that chapter 5 left closed.
 
 use bevy_ecs::prelude::*;
-use pinhole::material::MatteTable;
 use pinhole::scene::*;
 use pinhole::{Chapter, follow, shade, stages};
 
@@ -25,7 +24,7 @@ pub fn chapter() -> Chapter {
         .offer(shade::start_shadow_stage())
         .offer(shade::sphere_shadow_stage())
         .offer(shade::plane_shadow_stage())
-        .offer(follow::direct_light_stage::<MatteTable>())
+        .offer(follow::matte_direct_light_stage())
 }
 // ANCHOR_END: chapter
 

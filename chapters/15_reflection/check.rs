@@ -278,7 +278,7 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                     let (normal, to_light) = (surface.normal.as_dvec3(), rays.direction_of(ray));
                     let (cosine, to_eye) = (normal.dot(to_light), -eye.direction_of(row));
                     let (own, colour, irradiance) =
-                        (materials.row[material] as usize, materials.colour[material], rays.irradiance(ray));
+                        (materials.row[material] as usize, materials.parameters[material].colour, rays.irradiance(ray));
                     let whole = |part: usize| {
                         let model = [colour[part], phong.specular[own][part], phong.exponent[own]];
                         let facing = irradiance[part] / cosine;

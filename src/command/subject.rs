@@ -164,29 +164,22 @@ impl<'c> Subject<'c> {
 
 /// A model with what a setting says: a factor of its light, or that its single-sided materials are so.
 fn set_on_model(model: ModelScene, typed: &str, setting: &str) -> Result<ModelScene> {
-    if let Some(written) = setting.trim().strip_prefix("single_sided=") {
-        return match written.trim().parse() {
-            Ok(single_sided) => Ok(ModelScene { single_sided, ..model }),
-            Err(_) => {
-                let written = find::shown(written.as_ref());
-                Err(Error::CommandLine(format!("single_sided is {written}, but it must be true or false")))
-            }
-        };
-    }
-    let Some(written) = setting.trim().strip_prefix("exposure=") else {
-        let what = format!(
-            "{typed} is a model file, which has no values to set but its exposure, as in exposure=1, and whether its single-sided \
-             materials have a back, as in single_sided=true: `export` makes a scene file of it"
-        );
-        return Err(Error::CommandLine(what));
+    let shown = |written: &str| find::shown(written.as_ref());
+    let what = match setting.trim().split_once('=').map(|(field, written)| (field, written.trim())) {
+        Some(("exposure", written)) => match written.parse::<f64>() {
+            Ok(factor) if (1e-30..=1e30).contains(&factor) => return Ok(model.with_exposure(factor)),
+            _ => format!("the exposure is {}, but it must be a number from 1e-30 to 1e30", shown(written)),
+        },
+        Some(("single_sided", written)) => match written.parse() {
+            Ok(single_sided) => return Ok(ModelScene { single_sided, ..model }),
+            Err(_) => format!("single_sided is {}, but it must be true or false", shown(written)),
+        },
+        _ => format!(
+            "{typed} is a model file, which has no values to set but its exposure, as in exposure=1, and whether backs of \
+             its single-sided materials are left out, as in single_sided=true: `export` makes a scene file of it"
+        ),
     };
-    match written.trim().parse::<f64>() {
-        Ok(factor) if (1e-30..=1e30).contains(&factor) => Ok(model.with_exposure(factor)),
-        _ => {
-            let written = find::shown(written.as_ref());
-            Err(Error::CommandLine(format!("the exposure is {written}, but it must be a number from 1e-30 to 1e30")))
-        }
-    }
+    Err(Error::CommandLine(what))
 }
 
 /// Takes away the view of a column that scene files are not offered, and names it.

@@ -155,8 +155,9 @@ fn shape_curve<S: Oracle>(plural: &str, counts: &[usize]) {
         let bvh = hierarchy_of(&shapes).expect("bounded shapes");
         let row = sets.iter().flat_map(|rays| {
             let all = SIDE * SIDE;
-            let (tree, hits) =
-                rays.time(all, BATCH, |rays, hits| keep_closest_of((&shapes, &numbers, &bvh), rays, hits));
+            let (tree, hits) = rays.time(all, BATCH, |rays, hits| {
+                keep_closest_of((&shapes, &numbers, &bvh), rays, hits, &mut Default::default())
+            });
             let (one_by_one, same) = rays.time(all, BATCH, |rays, hits| S::keep_closest(&shapes, &numbers, rays, hits));
             assert_eq!(hits, same, "{count} {plural}");
             [Some(tree), Some(one_by_one)]
@@ -194,7 +195,10 @@ fn sphere_curve(counts: &[usize]) -> Curve {
         let bvh = hierarchy_of(&shapes).expect("bounded shapes");
         let build = 1e3 * start.elapsed().as_secs_f64();
         let wide = |rays: &Rays| {
-            rays.time(whole, BATCH, |rays, hits| keep_closest_of((&shapes, &numbers, &bvh), rays, hits)).0
+            rays.time(whole, BATCH, |rays, hits| {
+                keep_closest_of((&shapes, &numbers, &bvh), rays, hits, &mut Default::default())
+            })
+            .0
         };
         let all = |rays: &Rays| {
             let few = rays_for(count);

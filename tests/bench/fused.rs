@@ -202,7 +202,7 @@ fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
         let direction = (to_light * (1.0 / distance)).as_vec3().as_dvec3();
         let cosine = surface.normal.as_dvec3().dot(direction);
         if cosine > 0.0 && !blocked(scene, light, origin, direction, distance) {
-            let colour = scene.materials.colour[surface.material as usize];
+            let colour = scene.materials.parameters[surface.material as usize].colour;
             let irradiance = irradiance_from_point(row.intensity, cosine, distance * distance);
             // Pinhole keeps irradiance in a column of f32.
             let brdf = lambertian(colour);

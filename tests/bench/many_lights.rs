@@ -16,7 +16,7 @@ use pinhole::lights::{PlacedPointLight, luminance};
 use pinhole::models::TriangleMesh;
 use pinhole::plan::{Census, Column, ExtractedTable, RowKind, Shared, Table};
 use pinhole::rays::{ActivePixels, SampleNumber, Tile};
-use pinhole::render::{Execution, RenderWorld, prepare};
+use pinhole::render::{RenderWorld, prepare};
 use pinhole::scene::*;
 use pinhole::shade::Radiance;
 use pinhole::stages;
@@ -130,7 +130,7 @@ impl Bench {
     fn new(scene: &Census<'_>, change: impl FnOnce(&mut Vec<ExtractedTable>)) -> Self {
         let (plan, mut tables) = prepare(scene, &stages::all()).expect("prepared");
         change(&mut tables);
-        let mut render = RenderWorld::of_pass(RowKind::Pixel, &plan, &tables, 1, &Execution::default(), &[]);
+        let mut render = RenderWorld::of_pass(RowKind::Pixel, &plan, &tables, 1, &[]);
         let tile = render.tiles[0];
         let all = ActivePixels((0..SIDE * SIDE).collect());
         render.swap_film(tile, &mut FilmTile::new(Tile { x: 0, y: 0, width: SIDE, height: SIDE }));

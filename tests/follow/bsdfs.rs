@@ -37,7 +37,7 @@ fn examples_of(own: &Registration) -> Vec<Example> {
         let census = Census::of(&world);
         let table = census.table::<MaterialTable>().expect("a material");
         assert_eq!(table.kind[..], [own.kind], "{} {number} is of its own kind", own.component);
-        let opaque = Site::opaque(table.row[0] as usize, table.parameters(0));
+        let opaque = Site::opaque(table.row[0] as usize, table.parameters[0]);
         let etas = if own.transmits { &ETAS[..] } else { &[1.0] };
         Example {
             name: format!("{} {number}", own.component),

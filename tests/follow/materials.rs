@@ -44,7 +44,7 @@ fn peak(spawn: &Spawn, own: &Registration) -> f64 {
     spawn(&mut world.spawn_empty());
     let census = Census::of(&world);
     let table = census.table::<MaterialTable>().expect("a material");
-    let opaque = Site::opaque(table.row[0] as usize, table.parameters(0));
+    let opaque = Site::opaque(table.row[0] as usize, table.parameters[0]);
     let site = if own.transmits { Site { eta: 1.5, ..opaque } } else { opaque };
     let (bsdf, eye) = ((own.bsdf)(&census).expect("its table"), DVec3::new(1.0, 0.0, 1.0).normalize());
     let samples = (0..1000).filter_map(|index| {

@@ -126,7 +126,8 @@ impl Shadows {
             let blocked = self.blocked(start(surface.position, surface.normal), direction, f64::from(rays.t_max[ray]));
             wrong += usize::from(blocked != (self.hits.shape[ray] != NO_SHAPE));
             if !blocked {
-                let colour = self.materials.colour.get(surface.material as usize).copied().unwrap_or_default();
+                let colour =
+                    self.materials.parameters.get(surface.material as usize).copied().unwrap_or_default().colour;
                 let irradiance = rays.irradiance(ray);
                 let brings = [0, 1, 2].map(|part| lambertian(colour)[part] * irradiance[part]);
                 pixels[path as usize].iter_mut().zip(brings).for_each(|(sum, part)| *sum += part as f32);

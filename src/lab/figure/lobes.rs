@@ -34,7 +34,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let (Some(of_phong), Some(of_blinn)) = (first(MaterialKind::Phong), first(MaterialKind::BlinnPhong)) else {
         return Err(figure.unsuited("a Phong and a Blinn–Phong material"));
     };
-    let matte = |material: usize| materials.colour[material][0] * FRAC_1_PI;
+    let matte = |material: usize| materials.parameters[material].colour[0] * FRAC_1_PI;
     // In the first plane the two lobes all but coincide: the wider line shows beside the other.
     let models: [(Pen, &dyn Fn([DVec3; 2]) -> f64); 3] = [
         (Pen::new(INK, 1.8), &|_| matte(of_phong)),

@@ -108,7 +108,7 @@ fn lit(surface: &Surface, lights: &PointLightTable, materials: &MaterialTable, o
         let direction = to_light / distance;
         let cosine = surface.normal.as_dvec3().dot(direction);
         if cosine > 0.0 && !occluders.block(origin, direction, f64::from(shadow_t_max(distance))) {
-            let colour = materials.colour.get(surface.material as usize).copied().unwrap_or_default();
+            let colour = materials.parameters.get(surface.material as usize).copied().unwrap_or_default().colour;
             let irradiance = irradiance_from_point(light.intensity, cosine, distance * distance);
             let brings = [0, 1, 2].map(|part| lambertian(colour)[part] * irradiance[part]);
             sum.iter_mut().zip(brings).for_each(|(sum, part)| *sum += part as f32);

@@ -161,7 +161,8 @@ fn colours(scene: &World, kind: ShapeKind) -> Result<Vec<[f64; 3]>> {
     let (shapes, materials) = (ShapeTable::extract(census)?, MaterialTable::extract(census)?);
     let of_kind = (0..shapes.kind.len()).filter(|&shape| shapes.kind[shape] == kind);
     // A shape that only emits light is drawn black.
-    let colour = |shape: usize| materials.colour.get(shapes.material[shape] as usize).copied().unwrap_or_default();
+    let colour =
+        |shape: usize| materials.parameters.get(shapes.material[shape] as usize).copied().unwrap_or_default().colour;
     Ok(of_kind.map(colour).collect())
 }
 

@@ -132,7 +132,11 @@ impl Room {
         }
         let hit = RayHit { origin, direction, t, primitive: 0, displacement: DVec3::ZERO };
         let normal = self.bodies[shape].surface(&hit).normal;
-        Some(Vertex { position: origin + direction * t, normal, albedo: self.materials.colour[material as usize] })
+        Some(Vertex {
+            position: origin + direction * t,
+            normal,
+            albedo: self.materials.parameters[material as usize].colour,
+        })
     }
 
     /// A sample of the middle of the light as the renderer weights it, and whether anything is in between.

@@ -224,7 +224,7 @@ fn shade(
     for (hit, surface, mut radiance) in &mut rays {
         radiance.0 = match hit.shape {
             NO_SHAPE => background.radiance,
-            _ => materials.colour[surface.0.material as usize].map(|part| part as f32),
+            _ => materials.parameters[surface.0.material as usize].colour.map(|part| part as f32),
         };
     }
 }

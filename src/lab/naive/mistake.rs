@@ -46,7 +46,8 @@ pub fn scatter_matte_by(sample: MatteSample) -> Stage {
                 scattered.append(&list.row, |number, row| {
                     let surface = surfaces.get(row);
                     let local = (sample.direction)(points[number]);
-                    let (throughput, colour) = (paths.throughput(row), materials.colour[surface.material as usize]);
+                    let (throughput, colour) =
+                        (paths.throughput(row), materials.parameters[surface.material as usize].colour);
                     ScatteredRay {
                         origin: offset_origin(surface.position, surface.normal, surface.bound),
                         direction: frame_of(surface.normal.as_dvec3()) * local,

@@ -52,23 +52,18 @@ fn is_open(scene: &Census<'_>, material: Entity) -> bool {
 
 /// A predicate for the shapes that are not opaque to every ray.
 pub(super) fn is_non_opaque(scene: &Census<'_>) -> impl Fn(Entity) -> bool {
-    let any = !owners(scene).is_empty();
+    let any = owners(scene).iter().any(|list| !list.is_empty());
     move |shape| any && used_material(scene, shape).is_some_and(|material| is_open(scene, material))
 }
 
-/// The entities with a component that makes a material less than opaque, in spawn order.
-fn owners(scene: &Census<'_>) -> Vec<Entity> {
-    let lists = [
-        scene.entities::<With<Opacity>>(),
-        scene.entities::<With<OpacityMap>>(),
-        scene.entities::<With<SingleSided>>(),
-    ];
-    lists.iter().flat_map(|list| list.iter().copied()).collect()
+/// The entities with each component that makes a material less than opaque, in spawn order.
+fn owners(scene: &Census<'_>) -> [Arc<[Entity]>; 3] {
+    [scene.entities::<With<Opacity>>(), scene.entities::<With<OpacityMap>>(), scene.entities::<With<SingleSided>>()]
 }
 
 /// Checks that every opacity is a number that it may be, on a material that takes it.
 fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
-    for owner in owners(scene) {
+    for &owner in owners(scene).iter().flat_map(|list| list.iter()) {
         let word = if scene.get::<SingleSided>(owner).is_some() { "single sided" } else { Opacity::WORD };
         let who = kind_and_name(scene, word, owner);
         let of_opaque = || format!("it belongs on a {}", components_in_words("", |material| !material.transmits));

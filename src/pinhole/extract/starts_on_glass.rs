@@ -14,8 +14,8 @@ use std::sync::Arc;
 const STEP: f64 = 1.0 / (1 << 22) as f64;
 /// How close a point is to a surface that it is on, as a fraction of the scene's extent: more than f64 rounds by.
 const ROUNDING: f64 = STEP * STEP;
-/// How close to a surface a light is close, as a fraction of the scene's extent about the eye: beyond it, shadow rays are certain to hit the
-/// surface between.
+/// How close to a surface a light is close, as a fraction of the scene's extent about the eye: beyond it, shadow rays are
+/// certain to hit the surface between.
 const CLOSE: f64 = 1.0 / 1024.0;
 
 /// A point that paths start from, or end at, close to the surface of glass.
@@ -37,7 +37,8 @@ pub struct GlassStartTable {
 }
 
 impl GlassBodyTable {
-    /// Whether a surface of glass is within this distance of a point, as far as the corners, edges and faces of a cube around it tell.
+    /// Whether a surface of glass is within this distance of a point, as far as the corners, edges and faces of a cube
+    /// around it tell.
     fn is_close(&self, point: DVec3, distance: f64) -> bool {
         let steps = [-1.0, 0.0, 1.0];
         let around = steps.map(|x| steps.map(|y| steps.map(|z| DVec3::new(x, y, z))));

@@ -165,8 +165,8 @@ impl LayerInputs<'_> {
                 }
                 // A surface that only emits has no material, and reflects no light.
                 (None, Some(materials), Some(surfaces)) => self.add_rows(sums, pixels, |row| {
-                    let colour = materials.colour.get(surfaces.material[row] as usize);
-                    colour.map_or(DVec3::ZERO, |&colour| DVec3::from(colour))
+                    let own = materials.parameters.get(surfaces.material[row] as usize);
+                    own.map_or(DVec3::ZERO, |own| DVec3::from(own.colour))
                 }),
                 _ => {}
             },

@@ -10,13 +10,14 @@ use crate::extract::{
     glass_contact_evidence, mis_evidence, needed_if, traced_evidence,
 };
 use crate::intersect::{Contacts, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces};
-use crate::material::{Bsdf, BsdfClass, Parameters, Site, Transport};
+use crate::material::{Bsdf, BsdfClass, MatteTable, Parameters, Site, Transport};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, WorldRays, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
 use crate::shade::{LightPdfs, LightRays, ParameterColumns, ReflectionView, ReflectionViewItem, lit_evidence};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
+use glam::DVec3;
 
 /// What a path carries, by the pass that a stage runs in.
 pub(super) const fn transport(from_light: bool) -> Transport {
@@ -82,6 +83,34 @@ pub struct LightWeightView {
     pub rays: &'static mut LightRays,
 }
 
+/// The surfaces that rays from an eye see, and the rays.
+///
+/// All components are of one length: one check of a row's number serves them all, so that what a BSDF does not ask for is
+/// not read.
+struct Seen<'a> {
+    ray: [&'a [f32]; 3],
+    normal: [&'a [f32]; 3],
+    shading: Option<&'a ShadingNormals>,
+    material: &'a [u32],
+}
+
+impl<'a> Seen<'a> {
+    fn new(rays: &'a WorldRays, surfaces: &'a Surfaces, shading: Option<&'a ShadingNormals>) -> Self {
+        let (.., nx, ny, nz, _, material) = surfaces.slices();
+        let ray = [&rays.dx, &rays.dy, &rays.dz].map(|component| &component[..material.len()]);
+        Self { ray, normal: [nx, ny, nz], shading, material }
+    }
+
+    /// A direction of world space and that to the eye, in the frame of a row's surface.
+    #[inline(always)]
+    fn local<B: Bsdf>(&self, row: usize, to_light: DVec3) -> [DVec3; 2] {
+        let of = |components: &[&[f32]; 3]| DVec3::from(components.map(|component| f64::from(component[row])));
+        let normal = self.shading.map_or_else(|| of(&self.normal), |normals| normals.get(row));
+        let local_from_world = B::frame(normal).transpose();
+        [to_light, -of(&self.ray)].map(|direction| local_from_world * direction)
+    }
+}
+
 // ANCHOR: mis_bsdf
 /// Weights every light sample at a surface with this BSDF against BSDF sampling.
 pub fn mis_bsdf<B: Bsdf>(
@@ -90,17 +119,14 @@ pub fn mis_bsdf<B: Bsdf>(
 ) {
     for (LightWeightViewItem { eye, surfaces, shading, pdfs, mut rays }, columns, interface) in &mut tiles {
         let interface = Interface::new(interface, glass.as_deref());
+        let seen = Seen::new(eye, surfaces, shading);
         for ray in 0..rays.rows() {
             let (row, by_light) = (rays.path[ray] as usize, pdfs.pdf[ray]);
-            let surface = surfaces.get(row);
-            let material = surface.material as usize;
+            let material = seen.material[row] as usize;
             if by_light == 0.0 || materials.kind[material] != B::KIND {
                 continue;
             }
-            let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row));
-            let local_from_world = B::frame(normal).transpose();
-            let [to_light, to_eye] =
-                [rays.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
+            let [to_light, to_eye] = seen.local::<B>(row, rays.direction_of(ray));
             let of_row = (columns.get(&materials, row, material), row, material);
             let site = site::<B>(&materials, &interface, of_row, Transport::Radiance);
             let by_bsdf = bsdf.pdf(&site, to_light, to_eye);
@@ -119,26 +145,27 @@ pub fn add_direct_light<B: Bsdf, const FROM_LIGHT: bool>(
     for (view, columns, interface) in &mut tiles {
         let ReflectionViewItem { eye, surfaces, shading, light, shadow: hits, mut radiance } = view;
         let interface = Interface::new(interface, glass.as_deref());
-        for ray in 0..light.rows() {
-            let row = light.path[ray] as usize;
-            let surface = surfaces.get(row);
-            let material = surface.material as usize;
-            if materials.kind[material] != B::KIND || hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) {
+        let seen = Seen::new(eye, surfaces, shading);
+        let (path, .., dx, dy, dz, _, r, g, b) = light.slices();
+        let blocked = hits.map(|hits| &hits.shape[..path.len()]);
+        let sum = radiance.slices_mut(seen.material.len());
+        for ray in 0..path.len() {
+            let row = path[ray] as usize;
+            let material = seen.material[row] as usize;
+            if materials.kind[material] != B::KIND || blocked.is_some_and(|shape| shape[ray] != NO_SHAPE) {
                 continue;
             }
             // A BSDF is a function of two directions in the frame of the surface.
-            let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |normals| normals.get(row));
-            let local_from_world = B::frame(normal).transpose();
-            let [to_light, to_eye] =
-                [light.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
+            let to_light = DVec3::from([dx[ray], dy[ray], dz[ray]].map(f64::from));
+            let [to_light, to_eye] = seen.local::<B>(row, to_light);
             let of_row = (columns.get(&materials, row, material), row, material);
             let site = site::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
             // The cosine is in the irradiance.
-            let (bsdf, irradiance) = (bsdf.eval(&site, to_light, to_eye), light.irradiance(ray));
+            let (bsdf, irradiance) = (bsdf.eval(&site, to_light, to_eye), [r[ray], g[ray], b[ray]].map(f64::from));
             let [r, g, b] = [0, 1, 2].map(|part| (bsdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
-            radiance.r[row] += r;
-            radiance.g[row] += g;
-            radiance.b[row] += b;
+            sum.0[row] += r;
+            sum.1[row] += g;
+            sum.2[row] += b;
         }
     }
 }
@@ -177,6 +204,14 @@ pub fn direct_light_stage<B: Bsdf>() -> Stage {
     let stage = Stage::new(B::NAMES.direct_light, TileSystems::Shade, add_direct_light::<B, false>);
     let stage = at_interfaces::<B>(stage).when(|scene| bsdf_evidence::<B>(scene).and(|| lit_evidence(scene)));
     if B::TRANSMITS { stage.on_camera_paths() } else { stage }
+}
+
+/// The stage that evaluates the matte BSDF for direct light.
+///
+/// A generic function is compiled in the crate that names its types, and as much optimised as that crate: this one is
+/// compiled here.
+pub fn matte_direct_light_stage() -> Stage {
+    direct_light_stage::<MatteTable>()
 }
 
 /// The stage that evaluates a BSDF for connections to the camera.

@@ -51,8 +51,8 @@ pub use beyond_contacts::{
     leave_contacts, leave_contacts_stage, leave_contacts_to_lights, leave_contacts_to_lights_stage,
 };
 pub use bsdf::{
-    LightWeightView, add_direct_light, connections_stage, direct_light_stage, mis_bsdf, mis_stage, sample_bsdf,
-    sample_from_lights_stage, sample_stage,
+    LightWeightView, add_direct_light, connections_stage, direct_light_stage, matte_direct_light_stage, mis_bsdf,
+    mis_stage, sample_bsdf, sample_from_lights_stage, sample_stage,
 };
 pub use bsdf_rows::{BsdfRows, classify_bsdf, classify_bsdf_stage};
 pub use caustic_paths::{

@@ -2,7 +2,7 @@ use crate::extract::followed_evidence;
 use crate::intersect::{ShadingNormals, Surface, Surfaces};
 use crate::material::{Bsdf, BsdfSample};
 use crate::plan::{Stage, TileSystems, column};
-use crate::rays::{Paths, WorldRays};
+use crate::rays::{Paths, WorldRays, ray_vectors};
 use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
@@ -79,22 +79,12 @@ impl ScatteredRay {
     }
 }
 
+ray_vectors!(Scattered);
+
 impl Scattered {
     /// The direction, each component mapped from [−1, 1] to [0, 1].
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
-    }
-
-    /// The origin of a ray, converted to f64.
-    #[inline(always)]
-    pub fn origin_of(&self, ray: usize) -> DVec3 {
-        DVec3::new(f64::from(self.ox[ray]), f64::from(self.oy[ray]), f64::from(self.oz[ray]))
-    }
-
-    /// The direction of a ray, converted to f64.
-    #[inline(always)]
-    pub fn direction_of(&self, ray: usize) -> DVec3 {
-        DVec3::new(f64::from(self.dx[ray]), f64::from(self.dy[ray]), f64::from(self.dz[ray]))
     }
 
     /// Appends a ray for each of these rows, except for rays of throughput 0.

@@ -62,7 +62,7 @@ pub fn sample_specular<B: Bsdf, const FROM_LIGHT: bool>(
             let (surface, direction) = (surfaces.get(row), rays.direction_of(row));
             let normal = mirroring_normal(shading, row, surface.normal.as_dvec3(), direction);
             let material = surface.material as usize;
-            let of_row = (materials.parameters(material), row, material);
+            let of_row = (materials.parameters[material], row, material);
             let reflectance = layers::<B>(&interface, row, -direction.dot(normal));
             let site = Site { reflectance, ..site::<B>(&materials, &interface, of_row, transport(FROM_LIGHT)) };
             let number = numbers.get(number).copied().unwrap_or_default();
@@ -90,7 +90,7 @@ pub fn split_rays<B: Bsdf>(
                 let (surface, direction) = (surfaces.get(row), rays.direction_of(row));
                 let normal = mirroring_normal(shading, row, surface.normal.as_dvec3(), direction);
                 let material = surface.material as usize;
-                let of_row = (materials.parameters(material), row, material);
+                let of_row = (materials.parameters[material], row, material);
                 let reflectance = layers::<B>(&interface, row, -direction.dot(normal));
                 let site = Site { reflectance, ..site::<B>(&materials, &interface, of_row, transport(false)) };
                 let ray = ray(paths, row, &surface, bsdf.specular_directions(&site, direction, normal)[which]);

@@ -10,6 +10,7 @@ use crate::plan::{Column, Shared, Stage, TileSystems};
 use crate::rays::{RayTimes, WorldRays};
 use crate::shade::{LightRays, ShadowHits, light_distance, shadow_evidence};
 use bevy_ecs::prelude::*;
+use glam::DVec3;
 
 /// How far from its light a shadow ray may end, as a fraction of its length and of the light's distance from the eye: more
 /// than f32 rounds its direction by.
@@ -21,7 +22,7 @@ pub fn leave_glass_at_start(
     (bodies, starts): (Res<Shared<GlassBodyTable>>, Res<Shared<GlassStartTable>>),
     mut tiles: Query<(&mut WorldRays, Option<&RayTimes>)>,
 ) {
-    let step_at = |origin: glam::DVec3| {
+    let step_at = |origin: DVec3| {
         let own = starts.row.iter().find(|start| start.position == origin);
         own.or(starts.row.first()).map_or(0.0, |start| start.step)
     };

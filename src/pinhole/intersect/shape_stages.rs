@@ -4,6 +4,7 @@ use super::rows::ShapeRows;
 use super::surface::{Surface, SurfaceUvs};
 use super::view::{SurfaceView, SurfaceViewItem};
 use super::{HitColumn, HitPrimitives, Hits, RayColumn};
+use crate::bvh::Stack;
 use crate::extract::{
     HierarchyOf, ShapeTable, ShapesOf, UvSpaceTable, hierarchy_evidence, kind_evidence, primitive_evidence,
     rasterising_camera,
@@ -20,10 +21,11 @@ use glam::DVec3;
 pub fn intersect_shapes<S: Listed, R: RayColumn, H: HitColumn>(
     shapes: Res<Shared<ShapesOf<S>>>,
     hierarchy: Option<Res<Shared<HierarchyOf<S>>>>,
+    mut stacks: Local<[Stack; 2]>,
     mut tiles: Query<(&R, &mut H)>,
 ) {
     for (rays, mut hits) in &mut tiles {
-        keep_closest(&shapes, hierarchy.as_deref(), rays.ray_components(), hits.closest_hits());
+        keep_closest(&shapes, hierarchy.as_deref(), rays.ray_components(), hits.closest_hits(), &mut stacks);
     }
 }
 
@@ -31,12 +33,13 @@ pub fn intersect_shapes<S: Listed, R: RayColumn, H: HitColumn>(
 fn intersect_primitives<S: Listed>(
     shapes: Res<Shared<ShapesOf<S>>>,
     hierarchy: Option<Res<Shared<HierarchyOf<S>>>>,
+    mut stacks: Local<[Stack; 2]>,
     mut tiles: Query<(&WorldRays, &mut Hits, &mut HitPrimitives)>,
 ) {
     for (rays, mut hits, mut primitives) in &mut tiles {
         let primitive = Some(primitives.slices_mut(rays.rows()));
         let hits = ClosestHits { primitive, ..hits.closest_hits() };
-        keep_closest(&shapes, hierarchy.as_deref(), rays.ray_components(), hits);
+        keep_closest(&shapes, hierarchy.as_deref(), rays.ray_components(), hits, &mut stacks);
     }
 }
 
@@ -45,10 +48,11 @@ fn keep_closest<S: Listed>(
     hierarchy: Option<&Shared<HierarchyOf<S>>>,
     rays: RaySlices<'_>,
     hits: ClosestHits<'_>,
+    stacks: &mut [Stack; 2],
 ) {
     let (row, shape) = shapes.opaque();
     match hierarchy.and_then(|hierarchy| hierarchy.bvh.as_ref()) {
-        Some(bvh) => keep_closest_of((row, shape, bvh), rays, hits),
+        Some(bvh) => keep_closest_of((row, shape, bvh), rays, hits, stacks),
         None => S::keep_closest(row, shape, rays, hits),
     }
 }

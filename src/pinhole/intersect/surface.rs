@@ -120,18 +120,6 @@ impl Surfaces {
 }
 
 impl WorldRays {
-    /// The direction of a row, exact in f64.
-    #[inline(always)]
-    pub fn direction_of(&self, row: usize) -> DVec3 {
-        DVec3::new(f64::from(self.dx[row]), f64::from(self.dy[row]), f64::from(self.dz[row]))
-    }
-
-    /// The origin of a row, exact in f64.
-    #[inline(always)]
-    pub fn origin_of(&self, row: usize) -> DVec3 {
-        DVec3::new(f64::from(self.ox[row]), f64::from(self.oy[row]), f64::from(self.oz[row]))
-    }
-
     // ANCHOR: point_at
     /// r(t) = O + tR of a row, in f64.
     #[inline(always)]

@@ -12,12 +12,8 @@ pub struct MaterialTable {
     pub kind: Vec<MaterialKind>,
     /// Its row in the table of its BSDF.
     pub row: Vec<u32>,
-    /// The colour of each: red, green, blue, from 0 to 1; for most kinds the albedo of diffuse reflection.
-    pub colour: Vec<[f64; 3]>,
-    /// How much of each is metal, from 0 to 1.
-    pub metallic: Vec<f64>,
-    /// The perceived roughness of each, from 0 to 1.
-    pub roughness: Vec<f64>,
+    /// The parameters of each where no texture gives another.
+    pub parameters: Vec<Parameters>,
     /// The row of what fills its shapes in the table of glass; [`NO_ROW`] for opaque materials.
     pub interior: Vec<u32>,
 }
@@ -29,22 +25,8 @@ impl MaterialTable {
         Self {
             kind,
             row: vec![0; count],
-            colour,
-            metallic: vec![0.0; count],
-            roughness: vec![0.0; count],
+            parameters: colour.into_iter().map(Parameters::coloured).collect(),
             interior: vec![NO_ROW; count],
-        }
-    }
-}
-
-impl MaterialTable {
-    /// A material's parameters where no texture gives others.
-    #[inline(always)]
-    pub fn parameters(&self, material: usize) -> Parameters {
-        Parameters {
-            colour: self.colour[material],
-            metallic: self.metallic[material],
-            roughness: self.roughness[material],
         }
     }
 }
@@ -62,10 +44,7 @@ impl Table for MaterialTable {
             table.row.push(*rows);
             *rows += 1;
             table.kind.push(kind);
-            let Parameters { colour, metallic, roughness } = written.parameters(scene, entity)?;
-            table.colour.push(colour);
-            table.metallic.push(metallic);
-            table.roughness.push(roughness);
+            table.parameters.push(written.parameters(scene, entity)?);
             let is_filled = written.interior(scene, entity)?.is_some();
             table.interior.push(if is_filled { interiors } else { NO_ROW });
             interiors += u32::from(is_filled);

@@ -70,5 +70,6 @@ pub use screen::{fill_screen, screen_from_ndc, screen_stage};
 #[doc(hidden)]
 pub use times::{RayTimes, draw_times, time_stage};
 pub use world::WorldRays;
+pub(crate) use world::ray_vectors;
 #[doc(hidden)]
 pub use world::{fill_world, world_stage};

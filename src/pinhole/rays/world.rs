@@ -30,6 +30,27 @@ impl WorldRays {
     }
 }
 
+/// The origin and the direction of a row of a column of rays.
+macro_rules! ray_vectors {
+    ($rays:ty) => {
+        impl $rays {
+            /// The origin of a row, exact in f64.
+            #[inline(always)]
+            pub fn origin_of(&self, row: usize) -> glam::DVec3 {
+                glam::DVec3::new(f64::from(self.ox[row]), f64::from(self.oy[row]), f64::from(self.oz[row]))
+            }
+
+            /// The direction of a row, exact in f64.
+            #[inline(always)]
+            pub fn direction_of(&self, row: usize) -> glam::DVec3 {
+                glam::DVec3::new(f64::from(self.dx[row]), f64::from(self.dy[row]), f64::from(self.dz[row]))
+            }
+        }
+    };
+}
+ray_vectors!(WorldRays);
+pub(crate) use ray_vectors;
+
 /// Fills a tile's world rays: directions are rotated from camera to world space, and so are origins if they differ.
 ///
 /// The camera's position does not occur, since render space has it at the origin.

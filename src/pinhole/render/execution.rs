@@ -1,4 +1,3 @@
-use bevy_ecs::schedule::Schedule;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -13,7 +12,7 @@ pub enum Worlds {
 }
 
 /// How to execute a plan; none of these settings changes a bit of the image.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Execution {
     /// The number of workers; none for one per core.
     pub threads: Option<usize>,
@@ -22,13 +21,11 @@ pub struct Execution {
     pub tile_side: u32,
     /// How many worlds hold the tiles.
     pub worlds: Worlds,
-    /// A change to each worker's schedule after it is built, for tests that shuffle the order of stages.
-    pub arrange: Option<Arc<dyn Fn(&mut Schedule) + Send + Sync>>,
 }
 
 impl Default for Execution {
     fn default() -> Self {
-        Self { threads: None, tile_side: 32, worlds: Worlds::default(), arrange: None }
+        Self { threads: None, tile_side: 32, worlds: Worlds::default() }
     }
 }
 

@@ -157,11 +157,11 @@ impl RenderInProgress {
         match &self.pool {
             Some(pool) => {
                 let tiles = Mutex::new(film_parts(&mut self.film));
-                let (plan, tables, execution, worlds) = (&self.plan, &self.tables, &self.execution, &self.worlds);
+                let (plan, tables, worlds) = (&self.plan, &self.tables, &self.worlds);
                 let next = || tiles.lock().unwrap_or_else(PoisonError::into_inner).next();
                 pool.broadcast(|context| {
                     let mut world = worlds[context.index()].lock().unwrap_or_else(PoisonError::into_inner);
-                    let world = world.get_or_insert_with(|| RenderWorld::new(plan, tables, 1, execution, &[]));
+                    let world = world.get_or_insert_with(|| RenderWorld::new(plan, tables, 1, &[]));
                     world.stop_at(stop.clone());
                     while let Some(mut part) = next().filter(|_| !watch.stopped()) {
                         if *part.done < to {
@@ -172,7 +172,7 @@ impl RenderInProgress {
             }
             None => {
                 let tiles = self.film.tiles.len();
-                let made = || RenderWorld::new(&self.plan, &self.tables, tiles, &self.execution, &[]);
+                let made = || RenderWorld::new(&self.plan, &self.tables, tiles, &[]);
                 let mut world = self.worlds[0].lock().unwrap_or_else(PoisonError::into_inner);
                 world.get_or_insert_with(made).run_all(&mut self.film, to);
             }
@@ -180,7 +180,7 @@ impl RenderInProgress {
         if let Some(light) = &self.light {
             let samples = self.film.samples_between(0, to);
             let pool = self.pool.as_ref();
-            let means = Means { plan: &self.plan, tables: &self.tables, execution: &self.execution, pool };
+            let means = Means { plan: &self.plan, tables: &self.tables, pool };
             light.advance(&mut self.film, samples, &means, watch);
         }
         self.time += started.elapsed();

@@ -97,7 +97,7 @@ pub fn probe_tiles(
     const FRACTION: u32 = 4;
     const TOO_SHORT: Duration = Duration::from_millis(2);
     let end = Instant::now() + patience;
-    let mut frame = RenderWorld::new(plan, tables, 1, &Execution::default(), hooks);
+    let mut frame = RenderWorld::new(plan, tables, 1, hooks);
     let all = (0..samples.max(1)).cycle().flat_map(|sample| tiles.iter().map(move |&tile| (tile, sample)));
     for (place, sample) in all {
         let (started, before) = (Instant::now(), thread_time());
@@ -142,7 +142,7 @@ fn inspect_film(
 ) -> Result<Inspection> {
     let (plan, tables) = prepare(scene, offer)?;
     let mut film = film_for(scene, &plan, film);
-    let mut frame = RenderWorld::new(&plan, &tables, film.tiles.len(), &Execution::default(), hooks);
+    let mut frame = RenderWorld::new(&plan, &tables, film.tiles.len(), hooks);
     for (tile, mut part) in frame.tiles.clone().into_iter().zip(film_parts(&mut film)) {
         frame.swap_part(tile, &mut part);
     }

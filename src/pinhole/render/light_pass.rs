@@ -1,4 +1,3 @@
-use super::Execution;
 use super::clock::{Lap, laps_of, thread_time};
 use super::render_world::{Hook, RenderWorld};
 use crate::extract::{FilterTable, ImageFrame, LightTracingTable, SamplingTable};
@@ -59,7 +58,6 @@ fn has_light_pass(plan: &Plan) -> bool {
 pub(super) struct Means<'a> {
     pub plan: &'a Plan,
     pub tables: &'a [ExtractedTable],
-    pub execution: &'a Execution,
     pub pool: Option<&'a ThreadPool>,
 }
 
@@ -128,7 +126,7 @@ impl LightPass {
 
     fn world(&self, means: &Means<'_>) -> RenderWorld {
         let (plan, tables) = (means.plan, means.tables);
-        let mut made = RenderWorld::of_pass(RowKind::LightPath, plan, tables, 1, means.execution, &[]);
+        let mut made = RenderWorld::of_pass(RowKind::LightPath, plan, tables, 1, &[]);
         made.world.insert_resource(Shared::new(self.sampling));
         made
     }
@@ -154,7 +152,7 @@ pub fn probe_light_paths(
         return Ok(false);
     }
     let sampling = scene.table::<SamplingTable>()?.for_light_paths();
-    let mut made = RenderWorld::of_pass(RowKind::LightPath, plan, tables, 1, &Execution::default(), hooks);
+    let mut made = RenderWorld::of_pass(RowKind::LightPath, plan, tables, 1, hooks);
     made.world.insert_resource(Shared::new(sampling));
     let before = thread_time();
     made.stop_at(Stop::at_deadline(Instant::now() + patience));

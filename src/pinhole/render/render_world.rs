@@ -1,4 +1,3 @@
-use super::Execution;
 use super::clock::{StageClock, clock_hook};
 use super::steps::Run;
 use crate::Result;
@@ -45,19 +44,12 @@ pub struct RenderWorld {
 
 impl RenderWorld {
     /// A world with room for `tiles` tiles at once.
-    pub fn new(plan: &Plan, tables: &[ExtractedTable], tiles: usize, execution: &Execution, hooks: &[Hook]) -> Self {
-        Self::of_pass(RowKind::Pixel, plan, tables, tiles, execution, hooks)
+    pub fn new(plan: &Plan, tables: &[ExtractedTable], tiles: usize, hooks: &[Hook]) -> Self {
+        Self::of_pass(RowKind::Pixel, plan, tables, tiles, hooks)
     }
 
     /// A world for the pass whose rows are of this kind.
-    pub fn of_pass(
-        row: RowKind,
-        plan: &Plan,
-        tables: &[ExtractedTable],
-        tiles: usize,
-        execution: &Execution,
-        hooks: &[Hook],
-    ) -> Self {
+    pub fn of_pass(row: RowKind, plan: &Plan, tables: &[ExtractedTable], tiles: usize, hooks: &[Hook]) -> Self {
         let mut world = World::new();
         for table in tables {
             (table.insert)(&mut world);
@@ -68,24 +60,15 @@ impl RenderWorld {
             world.insert_resource(StageClock::new(plan));
             hooks.insert(0, clock_hook());
         }
-        let arranged = |mut schedule: Schedule| {
-            if let Some(arrange) = &execution.arrange {
-                arrange(&mut schedule);
-            }
-            schedule
-        };
         let follows = plan.stages.iter().any(|stage| stage.set == TileSystems::RemainingBounces);
         if follows {
             world.insert_resource(Stop::default());
-            world.add_schedule(arranged(schedule_of(Bounce, plan, &hooks, |stage| {
-                stage.runs_in(row) && stage.on_every_bounce
-            })));
+            world.add_schedule(schedule_of(Bounce, plan, &hooks, |stage| stage.runs_in(row) && stage.on_every_bounce));
         }
         let mut schedule = schedule_of(Sample, plan, &hooks, |stage| stage.runs_first_in(row));
         if follows {
             schedule.configure_sets((TileSystems::Moments.run_if(is_whole), TileSystems::Film.run_if(is_whole)));
         }
-        let schedule = arranged(schedule);
         Self { world, schedule, tiles }
     }
 
@@ -169,20 +152,15 @@ fn schedule_of(label: impl ScheduleLabel, plan: &Plan, hooks: &[Hook], holds: im
     }
     let held: Vec<(usize, &Stage)> = plan.stages.iter().enumerate().filter(|(_, stage)| holds(stage)).collect();
     for (at, &(slot, stage)) in held.iter().enumerate() {
-        let mut system = (stage.system)().in_set(stage.set).in_set(Slot(slot));
-        if stage.set.order_free() {
-            system = system.ambiguous_with(stage.set);
-        }
-        schedule.add_systems(system);
+        schedule.add_systems((stage.system)().in_set(stage.set).in_set(Slot(slot)));
         let next = held.get(at + 1);
         for (turn, hook) in hooks.iter().enumerate() {
             let hook = hook(slot, stage, plan).in_set(stage.set).in_set(HookTurn(slot, turn));
             let before = next.map_or(slot + 1, |(next, _)| *next);
             schedule.add_systems(hook.after(Slot(slot)).before(Slot(before)).before(HookTurn(slot, turn + 1)));
         }
-        let Some(&(next, follower)) = next else { continue };
-        let ordered = follower.set == stage.set && !stage.set.order_free();
-        if ordered || !hooks.is_empty() {
+        // Also where any order gives the same bits: shapes that are listed first cost least, and leave less to the others.
+        if let Some(&(next, _)) = next {
             schedule.configure_sets(Slot(slot).before(Slot(next)));
         }
     }

@@ -4,6 +4,7 @@ use crate::extract::{
 };
 use crate::intersect::{RayColumn, Surface, falling_cosine};
 use crate::plan::{Census, Evidence, Stage, TileSystems, column};
+use crate::rays::ray_vectors;
 use crate::shapes::RaySlices;
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
@@ -55,22 +56,12 @@ impl LightPdfs {
     }
 }
 
+ray_vectors!(LightRays);
+
 impl LightRays {
     /// The direction, each component mapped from [−1, 1] to [0, 1].
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
-    }
-
-    /// The origin of a ray, converted to f64.
-    #[inline(always)]
-    pub fn origin_of(&self, ray: usize) -> DVec3 {
-        DVec3::new(f64::from(self.ox[ray]), f64::from(self.oy[ray]), f64::from(self.oz[ray]))
-    }
-
-    /// The direction of a ray, converted to f64.
-    #[inline(always)]
-    pub fn direction_of(&self, ray: usize) -> DVec3 {
-        DVec3::new(f64::from(self.dx[ray]), f64::from(self.dy[ray]), f64::from(self.dz[ray]))
     }
 
     /// Multiplies a ray's irradiance by a weight.

@@ -49,15 +49,15 @@ pub fn transformed(at: TexturePoint, transform: &Option<(DMat2, DVec2)>) -> Text
 }
 
 #[inline(always)]
-fn texel(image: &Texels, x: f64, y: f64, wrap: [WrapMode; 2]) -> [f64; 3] {
-    let (x, y) = (wrapped(x, image.width, wrap[0]), wrapped(y, image.height, wrap[1]));
+fn texel(image: &Texels, x: usize, y: usize) -> [f64; 3] {
     image.rgb[y * image.width + x].map(f64::from)
 }
 
 /// The texel that contains a point of the unit square; (0, 0) is the image's upper left corner.
 pub fn nearest_texel(image: &Texels, at: DVec2, wrap: [WrapMode; 2]) -> [f64; 3] {
     let point = texel_point(image, at, wrap);
-    texel(image, point.x.floor(), point.y.floor(), wrap)
+    let (x, y) = (wrapped(point.x.floor(), image.width, wrap[0]), wrapped(point.y.floor(), image.height, wrap[1]));
+    texel(image, x, y)
 }
 
 // ANCHOR: bilinear
@@ -67,8 +67,13 @@ pub fn nearest_texel(image: &Texels, at: DVec2, wrap: [WrapMode; 2]) -> [f64; 3]
 pub fn bilinear(image: &Texels, at: DVec2, wrap: [WrapMode; 2]) -> [f64; 3] {
     let point = texel_point(image, at, wrap) - 0.5;
     let (corner, t) = (point.floor(), point - point.floor());
-    let row = |y: f64| between(texel(image, corner.x, y, wrap), texel(image, corner.x + 1.0, y, wrap), t.x);
-    between(row(corner.y), row(corner.y + 1.0), t.y)
+    let columns = [corner.x, corner.x + 1.0].map(|x| wrapped(x, image.width, wrap[0]));
+    let rows = [corner.y, corner.y + 1.0].map(|y| wrapped(y, image.height, wrap[1]));
+    let [above, below] = rows.map(|y| {
+        let [left, right] = columns.map(|x| texel(image, x, y));
+        between(left, right, t.x)
+    });
+    between(above, below, t.y)
 }
 // ANCHOR_END: bilinear
 

@@ -89,12 +89,13 @@ pub fn evaluate_metallic_roughness(
             let material = surfaces.material[row] as usize;
             let map = maps.of_material[material];
             if map == NO_TEXTURE {
-                (metallic[row], roughness[row]) = (materials.metallic[material], materials.roughness[material]);
+                (metallic[row], roughness[row]) =
+                    (materials.parameters[material].metallic, materials.parameters[material].roughness);
                 continue;
             }
             let [_, green, blue] = looked_up(&maps.images, map as usize, at.uv_point(&spaces, &slopes, row));
-            metallic[row] = materials.metallic[material] * blue.clamp(0.0, 1.0);
-            roughness[row] = materials.roughness[material] * green.clamp(0.0, 1.0);
+            metallic[row] = materials.parameters[material].metallic * blue.clamp(0.0, 1.0);
+            roughness[row] = materials.parameters[material].roughness * green.clamp(0.0, 1.0);
         }
     }
 }

@@ -13,7 +13,8 @@ use glam::DVec3;
 
 /// How far beyond a surface that it passes a ray is continued, in error bounds of the surface along its normal.
 const BEYOND: f64 = 2.0;
-/// The lowest cosine between a ray and a normal by which that distance is divided.
+/// The lowest cosine between a ray and a normal that is taken as it is: beyond it, the step along the ray would be far
+/// longer than the surface is thick.
 const GRAZING: f64 = 1.0 / (1 << 20) as f64;
 
 /// Intersects any column of rays with all shapes that are not opaque everywhere, and keeps the closest opaque hits.
@@ -86,8 +87,8 @@ fn first_opaque_hit(
         }
 
         // It is continued along itself, so that t needs no correction, from where the same surface is certain to be behind.
-        let cosine = surface.normal.dot(direction).abs() / direction.length_squared();
-        from = (at + BEYOND * f64::from(surface.bound) / cosine.max(GRAZING)).max(at.next_up());
+        let across = surface.normal.dot(direction).abs().max(GRAZING * direction.length());
+        from = (at + BEYOND * f64::from(surface.bound) / across).max(at.next_up());
     }
     None
 }

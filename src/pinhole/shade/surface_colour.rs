@@ -16,7 +16,7 @@ pub fn colour_surfaces(
         b.fill(0.0);
         for &row in &list.row {
             let row = row as usize;
-            [r[row], g[row], b[row]] = materials.colour[surfaces.material[row] as usize];
+            [r[row], g[row], b[row]] = materials.parameters[surfaces.material[row] as usize].colour;
         }
     }
 }

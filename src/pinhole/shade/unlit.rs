@@ -15,7 +15,7 @@ pub fn shade_unlit(
         for &row in &list.row {
             let row = row as usize;
             let material = surfaces.material[row] as usize;
-            let [r, g, b] = colours.map_or_else(|| materials.colour[material], |colours| colours.get(row));
+            let [r, g, b] = colours.map_or_else(|| materials.parameters[material].colour, |colours| colours.get(row));
             (radiance.r[row], radiance.g[row], radiance.b[row]) = (r as f32, g as f32, b as f32);
         }
     }

@@ -38,24 +38,25 @@ impl<S: Shape> LeafTest for ShapeLeaves<'_, S> {
 
 /// Intersects one ray at a time with the shapes whose boxes it hits, and keeps the closest hits.
 ///
-/// The result is to the last bit that of testing all shapes: a hierarchy only says which may be left out.
+/// The result is to the last bit that of testing all shapes: a hierarchy only says which may be left out. The stacks, one
+/// for this hierarchy and one for those of the shapes, are room that is kept from tile to tile.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 pub fn keep_closest_of<S: Shape>(
     (shapes, numbers, bvh): (&[S], &[u32], &Bvh),
     rays: RaySlices<'_>,
     mut hits: ClosestHits<'_>,
+    [stack, inner]: &mut [Stack; 2],
 ) {
-    let (mut stack, mut inner) = (Stack::default(), Stack::default());
     for row in 0..hits.t.len() {
         let (ray, closest) = (rays.ray(row), hits.get(row));
         if closest.is_enough() {
             continue;
         }
-        let mut leaves = ShapeLeaves { shapes, numbers, bvh, ray, closest, inner: &mut inner };
+        let mut leaves = ShapeLeaves { shapes, numbers, bvh, ray, closest, inner };
         // Constants, so that each of the two loops asks for nothing that only the other needs.
         match closest.any {
-            true => traverse(true, bvh, ray, closest.t, &mut stack, &mut leaves),
-            false => traverse(false, bvh, ray, closest.t, &mut stack, &mut leaves),
+            true => traverse(true, bvh, ray, closest.t, stack, &mut leaves),
+            false => traverse(false, bvh, ray, closest.t, stack, &mut leaves),
         }
         hits.set(row, leaves.closest);
     }

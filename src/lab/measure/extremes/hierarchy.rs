@@ -104,9 +104,13 @@ fn check_shapes<S: Oracle>(range: Range<u64>) -> Tally {
         }
         let t_max = if draws.unit() < 0.2 { draws.power_of_ten(-1.0, 2.0) } else { f64::INFINITY };
         let all = found(ray, t_max, |rays, hits| S::keep_closest(&shapes, &numbers, rays, hits));
-        let some = found(ray, t_max, |rays, hits| keep_closest_of((&shapes, &numbers, bvh), rays, hits));
+        let some = found(ray, t_max, |rays, hits| {
+            keep_closest_of((&shapes, &numbers, bvh), rays, hits, &mut Default::default())
+        });
         tally.count(all.0 != NO_SHAPE);
-        let any = found_any(ray, t_max, |rays, hits| keep_closest_of((&shapes, &numbers, bvh), rays, hits));
+        let any = found_any(ray, t_max, |rays, hits| {
+            keep_closest_of((&shapes, &numbers, bvh), rays, hits, &mut Default::default())
+        });
         tally.scores[0].check(all == some && any == (all.0 != NO_SHAPE));
     }
     tally

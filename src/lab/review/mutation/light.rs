@@ -159,7 +159,7 @@ pub fn shadow_forgotten(
     for (surfaces, rays, mut radiance) in &mut tiles {
         for ray in 0..rays.rows() {
             let path = rays.path[ray] as usize;
-            let colour = materials.colour[surfaces.material[path] as usize];
+            let colour = materials.parameters[surfaces.material[path] as usize].colour;
             let (brdf, irradiance) = (lambertian(colour), rays.irradiance(ray));
             let [r, g, b] = [0, 1, 2].map(|part| brdf[part] * irradiance[part]);
             radiance.r[path] += r as f32;
