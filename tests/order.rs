@@ -34,6 +34,7 @@ const ORDER: &[(&str, &[&str])] = &[
             "chapter",
             "example",
             "prelude",
+            "extend",
         ],
     ),
     (

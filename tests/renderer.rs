@@ -2,6 +2,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "what a test expects may come from the platform's functions")]
 
+mod added;
 mod boxes;
 mod cameras;
 mod census;

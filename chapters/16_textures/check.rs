@@ -196,12 +196,12 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
             for (place, surfaces, list, points, mut colours) in &mut tiles {
                 for &row in &list.row {
                     let row = row as usize;
-                    let texture = checkers.0.of_material[surfaces.material[row] as usize];
+                    let texture = checkers.of_material[surfaces.material[row] as usize];
                     if texture == NO_TEXTURE {
                         continue;
                     }
-                    let texture = texture as usize;
-                    let at = if checkers.0.filter[texture] { points.get(row) } else { points.get(row).alone() };
+                    let checker = &checkers.pattern[texture as usize];
+                    let at = if checker.filter { points.get(row) } else { points.get(row).alone() };
                     let [right, down] = at.steps;
                     let mean = |axis: usize| {
                         let (x, width) = (at.point[axis], box_width(right[axis], down[axis]));
@@ -213,7 +213,7 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                         }
                     };
                     let first = 0.5 + 0.5 * mean(0) * mean(1) * mean(2);
-                    let (one, other) = (checkers.0.first[texture], checkers.0.second[texture]);
+                    let (one, other) = (checker.first.to_array(), checker.second.to_array());
                     let colour = [0, 1, 2].map(|part| first * one[part] + (1.0 - first) * other[part]);
                     (colours.r[row], colours.g[row], colours.b[row]) = colour.into();
                 }

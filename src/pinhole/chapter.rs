@@ -22,8 +22,12 @@ use std::sync::Arc;
 /// # Ok::<(), pinhole::Error>(())
 /// ```
 pub fn render_scene(scene: &World) -> Result<Rendered> {
-    let stages = Chapter::new("scene", "a scene", |_| ()).offer(stages::all()).stages();
-    render(scene, &stages, &Execution::default(), &())
+    render(scene, &every_stage_and([]), &Execution::default(), &())
+}
+
+/// All stages of the library, and those that a program adds, of which a plan keeps those that a scene needs.
+pub fn every_stage_and(own: impl IntoIterator<Item = Stage>) -> Vec<Stage> {
+    Chapter::new("scene", "a scene", |_| ()).offer(stages::all()).offer(own).stages()
 }
 
 /// A chapter of the book: a scene, and the stages taught so far, of which the plan keeps those that the scene needs.

@@ -42,6 +42,7 @@
 //!
 //! The scene is a `bevy_ecs` world of plain components; a plan decides from them which stages exist; the stages are
 //! systems that fill the columns of small tiles, one space after another, until light lands on the film.
+//! Another crate can add a shape, a material, a texture, a light or a stage: [`extend`] begins with one, whole.
 //! The modules are listed in that order, and each uses only those above it.
 //! What they make public without documenting it here serves the laboratory and may change at any time:
 //!
@@ -65,6 +66,7 @@
 //! 18. [`look`]: traces, views and statistics.
 //! 19. [`stages`]: all stages, in the order of the data.
 //! 20. [`prelude`]: what a scene or a stage of one's own begins with.
+//! 21. [`extend`]: a shape, a material, a texture, a light or a stage of one's own, from another crate.
 
 #[doc(hidden)]
 pub use pinhole_models as models;
@@ -119,6 +121,8 @@ pub mod look;
 pub mod stages;
 
 pub mod prelude;
+
+pub mod extend;
 
 mod chapter;
 mod check;

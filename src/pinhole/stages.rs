@@ -14,7 +14,11 @@
 
 mod registered;
 
+use crate::extract::Pattern;
+use crate::lights::ListedLight;
+use crate::material::Bsdf;
 use crate::plan::Stage;
+use crate::shapes::Listed;
 use crate::{film, follow, intersect, rasterise, rays, shade};
 use registered::{
     bsdf_rows, bsdf_samples, direct_light_of_bsdfs, image_masks, image_plane_rays, intersections, light_samples,
@@ -349,4 +353,32 @@ pub fn light_tracing() -> Vec<Stage> {
 /// The film: sums of samples, and the layers of each pixel.
 pub fn film() -> Vec<Stage> {
     of(Film)
+}
+
+/// The stages of a shape that a program adds: its rows are listed, it is intersected with rays and shadow rays, in space
+/// or in the pixels of its box, and its surface is computed.
+pub fn of_shape<S: Listed>() -> Vec<Stage> {
+    let boxes = (S::IS_BOUNDED && !S::IS_TRIANGULAR).then(rasterise::box_stage::<S>);
+    let stages = [
+        intersect::intersect_stage::<S>(),
+        intersect::classify_shape_stage::<S>(),
+        intersect::surface_stage::<S>(),
+        shade::shape_shadow_stage::<S>(),
+    ];
+    boxes.into_iter().chain(stages).collect()
+}
+
+/// The stages of a material that a program adds: it is lit, and paths are continued from it.
+pub fn of_material<B: Bsdf>() -> Vec<Stage> {
+    follow::stages_of::<B>().iter().map(|own| (own.stage)()).collect()
+}
+
+/// The stage of a light that a program adds.
+pub fn of_light<L: ListedLight>() -> Stage {
+    shade::light_sampling_stage::<L>()
+}
+
+/// The stage of a texture that a program adds.
+pub fn of_texture<T: Pattern>() -> Stage {
+    shade::pattern_stage::<T>()
 }

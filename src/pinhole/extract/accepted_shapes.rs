@@ -2,24 +2,25 @@
 
 use super::camera_entity::with_article;
 use super::shape_kind::{ListedKind, listed_kinds};
+use crate::plan::Census;
 
 /// The shapes that can be made of glass: `a sphere, a closed cylinder, …, or triangles that close`.
-pub fn shapes_with_inside() -> String {
+pub fn shapes_with_inside(scene: &Census<'_>) -> String {
     let named = |listed: &ListedKind| {
         let [some, all] = (listed.examples_with_inside)();
         let always = all && !listed.has_primitives && !listed.is_part;
         some.then(|| named(listed, always, " that close"))
     };
-    alternatives(listed_kinds().iter().filter_map(named))
+    alternatives(listed_kinds(scene).filter_map(named))
 }
 
 /// The shapes that can be sampled where they emit light: `a sphere, a disk, …, or triangles`.
-pub fn sampled_shapes() -> String {
+pub fn sampled_shapes(scene: &Census<'_>) -> String {
     let named = |listed: &ListedKind| {
         let [some, all] = (listed.examples_sampled)();
         some.then(|| named(listed, all, ""))
     };
-    alternatives(listed_kinds().iter().filter_map(named))
+    alternatives(listed_kinds(scene).filter_map(named))
 }
 
 /// A kind with its article, or as many where several make up a surface; closed where some of the kind are open.

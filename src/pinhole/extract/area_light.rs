@@ -206,7 +206,7 @@ impl Table for AreaLightTable {
                 meshes.push((shape, MeshLights { first: 0, mesh, radiance, one_sided }));
                 continue;
             }
-            let Some(listed) = listed_kind(shapes.kind[shape]) else { continue };
+            let Some(listed) = listed_kind(scene, shapes.kind[shape]) else { continue };
             let Some(emitter) = (listed.emitter)(scene, row)? else { continue };
             table.light_of_shape[shape] = table.emitter.len() as u32;
             table.emitter.push(emitter);

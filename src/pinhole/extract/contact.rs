@@ -214,7 +214,7 @@ fn find_pairs(scene: &Census<'_>) -> Result<ContactPairs, SceneError> {
     let mut boxed = Vec::new();
     for shape in 0..glass.len() {
         // What moves is none of the listed kinds.
-        let bounds = match listed_kind(table.kind[shape]) {
+        let bounds = match listed_kind(scene, table.kind[shape]) {
             Some(listed) => (listed.bounds)(scene, table.row[shape] as usize)?,
             None => body_of(scene, shape)?.bounds(),
         };

@@ -59,7 +59,7 @@ fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
             continue;
         }
         let value = format!("the glass {}", called(scene, material));
-        let accepted = format!("glass needs a shape with an interior: {}{SHEETS}", shapes_with_inside());
+        let accepted = format!("glass needs a shape with an interior: {}{SHEETS}", shapes_with_inside(scene));
         return Err(SceneError::new(kind_and_name(scene, listed.word, shape), "material", value, accepted));
     }
     check_meshes(scene)

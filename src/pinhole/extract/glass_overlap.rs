@@ -149,7 +149,7 @@ fn bounded_glass(scene: &Census<'_>) -> Result<Vec<BoundedGlass>, SceneError> {
     let glass: Vec<usize> = (0..shapes.kind.len()).filter(is_glass).collect();
     let entities = shape_entities(scene);
     let bounded = glass.into_iter().map(|shape| {
-        let (listed, row) = (listed_kind(shapes.kind[shape]), shapes.row[shape] as usize);
+        let (listed, row) = (listed_kind(scene, shapes.kind[shape]), shapes.row[shape] as usize);
         // A plane is infinite, and a moving shape may go anywhere.
         let anywhere = Bounds { least: DVec3::NEG_INFINITY, most: DVec3::INFINITY };
         let bounds = listed.map_or(Ok(None), |listed| (listed.bounds)(scene, row))?.unwrap_or(anywhere);

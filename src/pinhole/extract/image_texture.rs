@@ -1,7 +1,7 @@
 use super::Pyramid;
 use super::check::kind_and_name;
 use super::image_file::{check_memory_of_textures, shown_name, texture_image};
-use super::texture::{check_beside_colour, rows_of_kind};
+use super::texture::{check_beside_colour, rows_of_texture};
 use crate::plan::{Census, Table, counted};
 use crate::scene::{ImageTexture, Rgb, SceneError, Texture, TextureBy, WrapMode};
 use bevy_ecs::prelude::*;
@@ -50,7 +50,7 @@ impl Table for ImageTable {
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         check_memory(scene)?;
-        let (of_material, rows) = rows_of_kind::<ImageTexture>(scene);
+        let (of_material, rows) = rows_of_texture::<ImageTexture>(scene);
         let mut table = Self { of_material, ..Self::default() };
         for material in rows {
             let Some(texture) = scene.get::<ImageTexture>(material) else { continue };

@@ -70,7 +70,7 @@ fn named_integrator(scene: &Census<'_>) -> Option<(Entity, Integrator)> {
 
 /// Whether there is a light without an area.
 fn has_points(scene: &Census<'_>) -> bool {
-    light_kinds().iter().any(|kind| !(kind.entities)(scene).is_empty())
+    light_kinds(scene).any(|kind| !(kind.entities)(scene).is_empty())
 }
 
 /// Evidence that rays are traced beyond the first surface.

@@ -90,7 +90,7 @@ impl Table for LightPathTable {
         let targets = targets(scene)?;
         let across = targets.across();
         let is_started = |is_distant: bool| !is_distant || !targets.sphere.is_empty();
-        for kind in light_kinds().iter().filter(|kind| is_started(kind.is_distant)) {
+        for kind in light_kinds(scene).filter(|kind| is_started(kind.is_distant)) {
             for source in (kind.sources)(scene)? {
                 powers.push(luminance(source.power(across)));
                 light.push(LightSource::Delta(source));
@@ -136,7 +136,7 @@ fn find_targets(scene: &Census<'_>) -> Result<Targets, SceneError> {
     let mut bounded = true;
     for shape in 0..shapes.kind.len() {
         // What moves is none of the listed kinds, and may go anywhere.
-        let listed = listed_kind(shapes.kind[shape]);
+        let listed = listed_kind(scene, shapes.kind[shape]);
         let row = shapes.row[shape] as usize;
         if is_specular(shape) {
             let around = listed.map(|listed| (listed.bounding_sphere)(scene, row)).transpose()?.flatten();

@@ -8,7 +8,7 @@ use crate::lights::{
     AnyLight, LightVisitor, ListedLight, PlacedDirectionalLight, PlacedLight, PlacedPointLight, PlacedSpotLight,
     SceneLight, luminance, visit_lights,
 };
-use crate::plan::{Census, ComponentKind, Evidence, Table};
+use crate::plan::{Added, Census, ComponentKind, Evidence, Table, TableKind, add_kind, check_is_added, with_added};
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use std::sync::{Arc, OnceLock};
@@ -46,6 +46,9 @@ impl<L: ListedLight> Table for LightsOf<L> {
     const NAME: &'static str = L::NAMES.table;
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        if L::IS_CUSTOM {
+            check_is_added::<Self>(scene, L::Component::WORD, "add_light")?;
+        }
         let eye = eye(scene)?;
         let mut table = Self::default();
         for &entity in scene.entities::<With<L::Component>>().iter() {
@@ -119,8 +122,21 @@ impl LightKind {
     }
 }
 
-/// All registered lights without an area, in the order of the list.
-pub fn light_kinds() -> &'static [LightKind] {
+/// All registered lights without an area: those of the library, and then those that the scene adds.
+pub fn light_kinds<'s>(scene: &'s Census<'_>) -> impl Iterator<Item = &'s LightKind> + Clone {
+    with_added(library_kinds(), scene)
+}
+
+/// Adds a light of one's own to those that a scene may have, before it is planned.
+pub fn add_light<L: ListedLight>(scene: &mut World) {
+    let (table, entities) =
+        (TableKind::of::<LightsOf<L>>(), |scene: &Census<'_>| scene.entities::<With<L::Component>>());
+    let added = Added { table, word: L::Component::WORD, entities, stages: "of_light" };
+    add_kind::<L, _>(scene, LightKind::of::<L>(), added);
+}
+
+/// The lights of the library, in the order of its list.
+fn library_kinds() -> &'static [LightKind] {
     struct Collected(Vec<LightKind>);
     impl LightVisitor for Collected {
         fn visit<L: ListedLight>(&mut self) {
@@ -154,7 +170,7 @@ pub fn many_lights_evidence<L: ListedLight>(scene: &Census<'_>) -> Evidence {
 /// The greatest number of shadow rays from a surface to lights without an area.
 pub fn delta_light_rays(scene: &Census<'_>) -> usize {
     let of_kind = |lights: usize| if lights > MOST_SUMMED { 1 } else { lights };
-    light_kinds().iter().map(|kind| of_kind((kind.entities)(scene).len())).sum()
+    light_kinds(scene).map(|kind| of_kind((kind.entities)(scene).len())).sum()
 }
 
 /// Whether a light without an area is not black.
@@ -162,12 +178,12 @@ pub fn delta_light_rays(scene: &Census<'_>) -> usize {
 /// Errors: a light that is not accepted.
 pub fn delta_light_shines(scene: &Census<'_>) -> Result<bool, SceneError> {
     let present = |kind: &&LightKind| !(kind.entities)(scene).is_empty();
-    light_kinds().iter().filter(present).try_fold(false, |shines, kind| Ok(shines || (kind.shines)(scene)?))
+    light_kinds(scene).filter(present).try_fold(false, |shines, kind| Ok(shines || (kind.shines)(scene)?))
 }
 
 /// Evidence of a light without an area that passes a test.
 pub fn delta_light_evidence(scene: &Census<'_>, noun: &str, in_use: impl Fn(EntityRef<'_>) -> bool) -> Evidence {
-    let components: Vec<ComponentKind> = light_kinds().iter().map(|kind| kind.component).collect();
+    let components: Vec<ComponentKind> = light_kinds(scene).map(|kind| kind.component).collect();
     Evidence::among_any(scene, noun, &components, in_use)
 }
 
@@ -178,7 +194,7 @@ pub fn point_evidence(scene: &Census<'_>) -> Evidence {
 
 /// The evidence of lights that cast shadows, and have no position or have one.
 pub(super) fn shadowed_evidence(scene: &Census<'_>, is_distant: bool) -> Evidence {
-    let each = light_kinds().iter().filter(|kind| kind.is_distant == is_distant);
+    let each = light_kinds(scene).filter(|kind| kind.is_distant == is_distant);
     each.map(|kind| Evidence::among_any(scene, kind.word, &[kind.component], kind.casts_shadows))
         .reduce(Evidence::or)
         .unwrap_or_default()

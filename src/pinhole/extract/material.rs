@@ -2,8 +2,8 @@
 
 use super::shape_kind::shape_entities;
 use crate::material::{
-    Bsdf, BsdfClass, MaterialKind, REGISTERED, Registration, declared_materials, is_material, material_entities,
-    material_kind,
+    Bsdf, BsdfClass, MaterialKind, Registration, declared_materials, is_material, material_entities, material_kind,
+    registered_materials,
 };
 use crate::plan::{Census, Evidence};
 use crate::scene::{Disabled, UsesMaterial};
@@ -48,10 +48,12 @@ pub fn bsdf_evidence<B: Bsdf>(scene: &Census<'_>) -> Evidence {
 
 /// The evidence of each BSDF that passes a test, those in use one after another.
 fn any_evidence(scene: &Census<'_>, none: &str, such: impl Fn(&Registration) -> bool) -> Evidence {
-    let each = REGISTERED.iter().filter(|own| such(own));
+    let each = registered_materials(scene).filter(|own| such(own));
     let each = each.map(|own| materials_evidence(scene, own.noun, |kind| kind == own.kind));
     let found = each.filter(|own| own.needed).reduce(Evidence::or);
-    found.unwrap_or_else(|| materials_evidence(scene, none, |kind| such(&REGISTERED[kind as usize])))
+    found.unwrap_or_else(|| {
+        materials_evidence(scene, none, |kind| registered_materials(scene).any(|own| own.kind == kind && such(own)))
+    })
 }
 
 /// Evidence of a shape whose material is not specular: any but mirrors and smooth glass.

@@ -4,7 +4,7 @@ use super::Pyramid;
 use super::check::{kind_and_name, positive_length};
 use super::emissive::emissive_entities;
 use super::image_file::{alpha_image, emission_image, factor_image};
-use super::texture::{NO_TEXTURE, rows_of_kind, texture_of_kind};
+use super::texture::{NO_TEXTURE, rows_of_texture, texture_of_kind};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{
     EmissionMap, Emissive, MetallicRoughnessMap, OpacityChannel, OpacityMap, SceneError, Texture, UvTransform, Wrap,
@@ -99,7 +99,7 @@ impl Table for MetallicRoughnessTable {
     const NAME: &'static str = "metallic–roughness maps";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let (of_material, rows) = rows_of_kind::<MetallicRoughnessMap>(scene);
+        let (of_material, rows) = rows_of_texture::<MetallicRoughnessMap>(scene);
         let mut table = Self { of_material, ..Self::default() };
         for material in rows {
             let Some(map) = scene.get::<MetallicRoughnessMap>(material) else { continue };

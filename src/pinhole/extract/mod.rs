@@ -59,6 +59,7 @@ mod moving;
 mod non_opaque;
 mod normal_map;
 mod on_camera;
+mod pattern;
 mod pixel_steps;
 mod pose;
 mod pyramid;
@@ -76,7 +77,6 @@ mod texel_range;
 mod texels;
 mod texture;
 mod tint;
-mod two_colours;
 mod uv_slope;
 mod uv_space;
 mod velocity;
@@ -123,7 +123,7 @@ pub use light_tracing::{
     started_on_evidence, traced_evidence,
 };
 pub use lights_of::{
-    DirectionalLightTable, LightKind, LightsOf, PointLightTable, SpotLightTable, delta_light_evidence,
+    DirectionalLightTable, LightKind, LightsOf, PointLightTable, SpotLightTable, add_light, delta_light_evidence,
     delta_light_rays, delta_light_shines, light_kinds, lights_evidence, many_lights_evidence, point_evidence,
 };
 pub use material::{
@@ -138,6 +138,7 @@ pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_ev
 pub use moving::{MovingTable, shape_bodies};
 pub use non_opaque::{Coverage, NonOpaqueTable, non_opaque_evidence};
 pub use normal_map::{NormalMapTable, normal_map_evidence};
+pub use pattern::{CheckerTable, Pattern, PatternTable, StripesTable, TexturePoint};
 pub use pixel_steps::PixelSteps;
 pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, upward, world_from_entity};
 pub use pyramid::{Pyramid, halved};
@@ -146,8 +147,8 @@ pub use ray_origins::{RayOrigins, ray_origins_evidence};
 pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::ShapeTable;
 pub use shape_kind::{
-    ListedKind, kind_evidence, listed_kind, listed_kinds, primitive_evidence, shape_entities, shape_evidence,
-    shape_name, shape_names,
+    ListedKind, add_shape, kind_evidence, listed_kind, listed_kinds, primitive_evidence, shape_entities,
+    shape_evidence, shape_name, shape_names,
 };
 pub use shapes_of::{
     CuboidTable, DiskTable, EllipsoidTable, MeshTable, PlaneTable, RectangleTable, ShapesOf, SphereTable,
@@ -160,11 +161,10 @@ pub use starts_on_glass::{
 };
 pub use texels::Texels;
 pub use texture::{
-    NO_TEXTURE, ShapeSpaces, TextureMap, TextureMapping, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,
-    filtered_evidence, texture_evidence, texture_of_kind,
+    NO_TEXTURE, ShapeSpaces, TextureMap, TextureMapping, TextureMaps, add_texture, by_uv_evidence,
+    filtered_by_uv_evidence, filtered_evidence, texture_evidence, texture_of_kind,
 };
 pub use tint::{TintTable, surface_colour_evidence, tint_evidence, vertex_colour_evidence};
-pub use two_colours::{CheckerTable, StripesTable, TwoColours};
 pub use uv_slope::UvSlopes;
 pub use uv_space::UvSpaceTable;
 pub use velocity::{moves_while_open, velocity_of};
@@ -195,11 +195,13 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<MaterialTable>,
     answer::<GlassTable>,
     answer::<EmissiveTable>,
-    |scene| listed_kinds().iter().try_for_each(|listed| (listed.check)(scene)),
+    shape_kind::check_kinds,
+    crate::material::check_kinds,
+    |scene| listed_kinds(scene).try_for_each(|listed| (listed.check)(scene)),
     answer::<MovingTable>,
     answer::<NonOpaqueTable>,
     spacing::check_spacing,
-    |scene| light_kinds().iter().try_for_each(|kind| (kind.check)(scene)),
+    |scene| light_kinds(scene).try_for_each(|kind| (kind.check)(scene)),
     answer::<TextureMaps>,
     answer::<CheckerTable>,
     answer::<StripesTable>,

@@ -2,7 +2,7 @@ use super::camera_entity::camera_of;
 use super::check::{finite_point, kind_and_name, number};
 use super::lights_of::light_kinds;
 use super::shape_kind::moving_shapes;
-use super::texture::TEXTURES;
+use super::texture::textures;
 use super::velocity::{moves_while_open, shutter_has_duration, shutter_of, velocity_of};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Motion, SceneError, Shutter, UsesMaterial, called};
@@ -102,7 +102,7 @@ fn check_movers(scene: &Census<'_>) -> Result<(), SceneError> {
     let refused = |entity: Entity, kind: &str, value: &str, accepted: &str| {
         Err(SceneError::new(kind_and_name(scene, kind, entity), "motion", value, accepted))
     };
-    for kind in light_kinds() {
+    for kind in light_kinds(scene) {
         let lights = (kind.entities)(scene);
         if let Some(&light) = lights.iter().find(|&&light| moves(light)) {
             let accepted = "while the shutter is open only shapes and the camera may move, no light";
@@ -112,7 +112,7 @@ fn check_movers(scene: &Census<'_>) -> Result<(), SceneError> {
     for &(_, shape) in moving_shapes(scene).iter() {
         let own = scene.entity(shape);
         let used = scene.get::<UsesMaterial>(shape).and_then(|used| scene.get_entity(used.0).ok());
-        let texture = |own: EntityRef<'_>| TEXTURES.iter().any(|texture| (texture.is_on)(own));
+        let texture = |own: EntityRef<'_>| textures(scene).any(|texture| (texture.is_on)(own));
         if texture(own) || used.is_some_and(texture) {
             let accepted = "while the shutter is open nothing with a texture may move";
             return refused(shape, "shape", "given to one with a texture", accepted);

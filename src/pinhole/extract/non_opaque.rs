@@ -66,7 +66,8 @@ fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
     for &owner in owners(scene).iter().flat_map(|list| list.iter()) {
         let word = if scene.get::<SingleSided>(owner).is_some() { "single sided" } else { Opacity::WORD };
         let who = kind_and_name(scene, word, owner);
-        let of_opaque = || format!("it belongs on a {}", components_in_words("", |material| !material.transmits));
+        let of_opaque =
+            || format!("it belongs on a {}", components_in_words(scene, "", |material| !material.transmits));
         if !is_material(scene, owner) {
             return Err(SceneError::new(who, "material", "missing", of_opaque()));
         }

@@ -1,7 +1,7 @@
 use super::check::{kind_and_name, number, positive_length};
 use super::image_file::{RemarkedTexels, normal_map_image};
 use super::material::material_kind_evidence;
-use super::texture::rows_of_kind;
+use super::texture::rows_of_texture;
 use crate::material::material_entities;
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{NormalMap, SceneError, WrapMode};
@@ -40,7 +40,7 @@ impl Table for NormalMapTable {
                 return Err(SceneError::new(kind_and_name(scene, WORD, owner), "material", "missing", accepted));
             }
         }
-        let (of_material, rows) = rows_of_kind::<NormalMap>(scene);
+        let (of_material, rows) = rows_of_texture::<NormalMap>(scene);
         let mut table = Self { of_material, ..Self::default() };
         for material in rows {
             let Some(map) = scene.get::<NormalMap>(material) else { continue };

@@ -8,6 +8,7 @@ use crate::plan::{Census, Table};
 use crate::scene::{SceneError, UsesMaterial, called};
 use crate::shapes::ShapeKind;
 use bevy_ecs::prelude::*;
+use std::collections::HashMap;
 
 /// All shapes in spawn order; a shape's index here is the shape number in hits.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,7 +34,7 @@ impl Table for ShapeTable {
         let non_specular =
             |row: u32| kinds.get(row as usize).copied().flatten().is_some_and(|kind| !kind.is_specular());
         let mut table = Self::default();
-        let (mut rows_of_kind, moves) = ([0; ShapeKind::Moving as usize + 1], moves_while_open(scene));
+        let (mut rows_of_kind, moves) = (HashMap::<ShapeKind, u32>::new(), moves_while_open(scene));
         let (is_non_opaque, mut last) = (is_non_opaque(scene), Vec::new());
         for &entity in shape_entities(scene).iter() {
             let listed = one_shape(scene, entity)?;
@@ -43,8 +44,9 @@ impl Table for ShapeTable {
                 last.push(table.row.len());
                 table.row.push(0);
             } else {
-                table.row.push(rows_of_kind[kind as usize]);
-                rows_of_kind[kind as usize] += 1;
+                let rows = rows_of_kind.entry(kind).or_default();
+                table.row.push(*rows);
+                *rows += 1;
             }
             table.kind.push(kind);
             let used = scene.get::<UsesMaterial>(entity).map(|used| used.0);
@@ -61,7 +63,7 @@ impl Table for ShapeTable {
             table.emissive.push(if emits == NO_ROW { used_emits } else { emits });
         }
         for shape in last {
-            let rows = &mut rows_of_kind[table.kind[shape] as usize];
+            let rows = rows_of_kind.entry(table.kind[shape]).or_default();
             table.row[shape] = *rows;
             *rows += 1;
         }
@@ -84,13 +86,15 @@ fn wrong_material(scene: &Census<'_>, who: &str, has_own: bool, used: Option<Ent
             let value = format!("used from {}", called(scene, used));
             let accepted = format!(
                 "that entity must carry a {} or an Emissive and not be disabled",
-                components_in_words("", |_| true)
+                components_in_words(scene, "", |_| true)
             );
             SceneError::new(who, "material", value, accepted)
         }
         (_, None) => {
-            let accepted =
-                format!("a shape must carry a {}, a UsesMaterial or an Emissive", components_in_words("", |_| true));
+            let accepted = format!(
+                "a shape must carry a {}, a UsesMaterial or an Emissive",
+                components_in_words(scene, "", |_| true)
+            );
             SceneError::new(who, "material", "missing", accepted)
         }
     }

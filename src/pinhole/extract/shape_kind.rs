@@ -4,7 +4,8 @@ use super::check::kind_and_name;
 use super::pose::unevenly_scaled;
 use super::shapes_of::{ShapesOf, placed_shape};
 use super::velocity::moves_while_open;
-use crate::plan::{Census, Evidence, TableKind, united};
+use crate::material::NUMBERS;
+use crate::plan::{Added, Census, Evidence, TableKind, add_kind, united, with_added};
 use crate::scene::SceneError;
 use crate::shapes::{Body, Bounds, Emitter, Listed, SceneShape, ShapeKind, ShapeVisitor, UvSlope, visit_shapes};
 use bevy_ecs::prelude::*;
@@ -118,8 +119,8 @@ fn some_and_all<C>(components: &[C], is: fn(&C) -> bool) -> [bool; 2] {
     [components.iter().any(is), components.iter().all(is)]
 }
 
-/// All registered shapes, in the order of the list.
-pub fn listed_kinds() -> &'static [ListedKind] {
+/// The shapes of the library, in the order of its list.
+fn library_kinds() -> &'static [ListedKind] {
     struct Collected(Vec<ListedKind>);
     impl ShapeVisitor for Collected {
         fn visit<S: Listed>(&mut self) {
@@ -134,9 +135,34 @@ pub fn listed_kinds() -> &'static [ListedKind] {
     })
 }
 
+/// All registered shapes: those of the library, and then those that the scene adds.
+pub fn listed_kinds<'s>(scene: &'s Census<'_>) -> impl Iterator<Item = &'s ListedKind> + Clone {
+    with_added(library_kinds(), scene)
+}
+
+/// Adds a shape of one's own to those that a scene may have, before it is planned.
+pub fn add_shape<S: Listed>(scene: &mut World) {
+    let (table, entities) =
+        (TableKind::of::<ShapesOf<S>>(), |scene: &Census<'_>| scene.entities::<With<S::Component>>());
+    let added = Added { table, word: S::Component::WORD, entities, stages: "of_shape" };
+    add_kind::<S, _>(scene, ListedKind::of::<S>(), added);
+}
+
+/// Checks that no two shapes have the same kind.
+///
+/// Errors: one that a program adds with the number of another.
+pub(super) fn check_kinds(scene: &Census<'_>) -> Result<(), SceneError> {
+    for (at, own) in listed_kinds(scene).enumerate() {
+        if let Some(other) = listed_kinds(scene).skip(at + 1).find(|other| other.kind == own.kind) {
+            return Err(SceneError::new(other.component, "number", format!("that of {}", own.component), NUMBERS));
+        }
+    }
+    Ok(())
+}
+
 /// A registered shape by its kind; none for moving shapes, which are of any.
-pub fn listed_kind(kind: ShapeKind) -> Option<&'static ListedKind> {
-    listed_kinds().iter().find(|listed| listed.kind == kind)
+pub fn listed_kind<'s>(scene: &'s Census<'_>, kind: ShapeKind) -> Option<&'s ListedKind> {
+    listed_kinds(scene).find(|listed| listed.kind == kind)
 }
 
 /// Evidence that the scene contains a shape of one kind that keeps still.
@@ -149,7 +175,7 @@ pub fn kind_evidence<S: Listed>(scene: &Census<'_>) -> Evidence {
 
 /// Evidence that the scene contains a shape of any kind.
 pub fn shape_evidence(scene: &Census<'_>) -> Evidence {
-    let each = || listed_kinds().iter().filter(|listed| listed.is_first());
+    let each = || listed_kinds(scene).filter(|listed| listed.is_first());
     let found = each().map(|listed| (listed.component_evidence)(scene)).reduce(Evidence::or).unwrap_or_default();
     if found.needed {
         return found;
@@ -160,14 +186,16 @@ pub fn shape_evidence(scene: &Census<'_>) -> Evidence {
 
 /// Evidence that the scene contains a shape that consists of several primitives, whether it moves or not.
 pub fn primitive_evidence(scene: &Census<'_>) -> Evidence {
-    let with_primitives = listed_kinds().iter().filter(|listed| listed.has_primitives);
+    let with_primitives = listed_kinds(scene).filter(|listed| listed.has_primitives);
     with_primitives.map(|listed| (listed.component_evidence)(scene)).reduce(Evidence::or).unwrap_or_default()
 }
 
 /// The enabled entities that are a shape, in spawn order; the place of one is its number.
 pub fn shape_entities(scene: &Census<'_>) -> Arc<[Entity]> {
-    let each = || listed_kinds().iter().filter(|listed| listed.is_first());
-    scene.once(move |scene| united(&mut each().map(|listed| (listed.entities)(scene))).into())
+    scene.once(|scene| {
+        let each = listed_kinds(scene).filter(|listed| listed.is_first());
+        united(&mut each.map(|listed| (listed.entities)(scene))).into()
+    })
 }
 
 /// The shapes of one kind, moving ones among them, with their numbers.
@@ -190,7 +218,7 @@ pub(super) fn moving_shapes(scene: &Census<'_>) -> Arc<[(usize, Entity)]> {
 /// The name of a shape in messages, by its number: its kind and its entity's name.
 pub fn shape_name(scene: &Census<'_>, shape: usize) -> String {
     let entity = shape_entities(scene).get(shape).copied();
-    let listed = entity.and_then(|entity| listed_kinds().iter().find(|listed| (listed.carries)(scene, entity)));
+    let listed = entity.and_then(|entity| listed_kinds(scene).find(|listed| (listed.carries)(scene, entity)));
     entity.zip(listed).map_or_else(String::new, |(entity, listed)| kind_and_name(scene, listed.word, entity))
 }
 
@@ -201,19 +229,19 @@ pub fn shape_names(scene: &Census<'_>) -> Vec<String> {
 
 /// Whether an entity, enabled or not, carries a shape.
 pub(super) fn is_shape(scene: &Census<'_>, entity: Entity) -> bool {
-    listed_kinds().iter().any(|listed| (listed.carries)(scene, entity))
+    listed_kinds(scene).any(|listed| (listed.carries)(scene, entity))
 }
 
 /// The kind of an entity that carries one shape component.
 ///
 /// Errors: an entity with several.
-pub(super) fn one_shape(scene: &Census<'_>, entity: Entity) -> Result<&'static ListedKind, SceneError> {
-    let carried = || listed_kinds().iter().filter(|listed| (listed.carries)(scene, entity));
+pub(super) fn one_shape(scene: &Census<'_>, entity: Entity) -> Result<ListedKind, SceneError> {
+    let carried = || listed_kinds(scene).filter(|listed| (listed.carries)(scene, entity));
     let components: Vec<&ListedKind> = carried().filter(|listed| listed.is_first()).collect();
     if let [one] = components[..] {
         let is_this =
             |listed: &&ListedKind| listed.uneven.is_none_or(|uneven| uneven == unevenly_scaled(scene, entity));
-        return Ok(carried().find(is_this).unwrap_or(one));
+        return Ok(*carried().find(is_this).unwrap_or(one));
     }
     let names: Vec<&str> = components.iter().map(|listed| listed.component).collect();
     let value = format!("{} at once", names.join(" and "));

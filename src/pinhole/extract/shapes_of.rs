@@ -4,11 +4,11 @@ use super::non_opaque::is_non_opaque;
 use super::pose::pose;
 use super::shape_kind::{moving_shapes, numbered, shape_entities};
 use super::velocity::moves_while_open;
-use crate::plan::{Census, Table};
+use crate::plan::{Census, Table, check_is_added};
 use crate::scene::{ChildOf, Placement, SceneError, Triangle};
 use crate::shapes::{
-    Ellipsoid, Listed, Placed, PlacedDisk, PlacedMesh, PlacedPlane, PlacedRectangle, PlacedSphere, SceneShape, Slabs,
-    TriangleRow, placed_normals,
+    Ellipsoid, Listed, Placed, PlacedDisk, PlacedMesh, PlacedPlane, PlacedRectangle, PlacedSphere, SceneShape,
+    ShapeKind, Slabs, TriangleRow, placed_normals,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -95,6 +95,9 @@ impl<S: Listed> Table for ShapesOf<S> {
     const NAME: &'static str = S::NAMES.table;
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        if matches!(S::KIND, ShapeKind::Custom(_)) {
+            check_is_added::<Self>(scene, S::Component::WORD, "add_shape")?;
+        }
         let moves = moves_while_open(scene);
         Self::that(scene, |entity| !moves(entity))
     }

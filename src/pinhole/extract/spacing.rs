@@ -86,7 +86,7 @@ fn check_shape(
 /// The greatest extent of the box around a shape that keeps still; infinite for others.
 fn size_of_shape(scene: &Census<'_>, number: usize) -> Result<f64, SceneError> {
     let shapes = scene.table::<ShapeTable>()?;
-    let Some(listed) = listed_kind(shapes.kind[number]) else { return Ok(f64::INFINITY) };
+    let Some(listed) = listed_kind(scene, shapes.kind[number]) else { return Ok(f64::INFINITY) };
     let bounds = (listed.bounds)(scene, shapes.row[number] as usize)?;
     Ok(bounds.map_or(f64::INFINITY, |bounds| (bounds.most - bounds.least).max_element()))
 }

@@ -77,7 +77,7 @@ fn find_starts(scene: &Census<'_>) -> Result<Vec<(String, GlassStart)>, SceneErr
     let from_origin = eye(scene)?.abs().max_element();
     let camera = camera_entity(scene).map_or("camera".into(), |camera| format!("camera {}", called(scene, camera)));
     let mut found: Vec<_> = place(camera, DVec3::ZERO, from_origin).into_iter().collect();
-    for kind in light_kinds().iter().filter(|kind| !kind.is_distant) {
+    for kind in light_kinds(scene).filter(|kind| !kind.is_distant) {
         // Those that cast shadows, as the sources.
         let entities = (kind.entities)(scene);
         let shadowed = entities.iter().filter(|light| (kind.casts_shadows)(scene.entity(**light)));

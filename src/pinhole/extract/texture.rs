@@ -1,11 +1,12 @@
 use super::camera::eye;
-use super::check::{kind_and_name, positive_length, triple};
+use super::check::{kind_and_name, triple};
 use super::material::in_use;
+use super::pattern::{Pattern, PatternTable};
 use super::pose::pose;
 use super::shape_kind::shape_entities;
-use crate::material::{REGISTERED, components_in_words, is_material, material_entities, one_material};
-use crate::plan::{Census, Evidence, Table};
-use crate::scene::{Checker, Feeds, ImageTexture, Rgb, SceneError, Stripes, Texture, TextureBy, for_each_texture};
+use crate::material::{components_in_words, is_material, material_entities, one_material, registered_materials};
+use crate::plan::{Added, Census, Evidence, Table, TableKind, add_kind, with_added};
+use crate::scene::{Feeds, Rgb, SceneError, Texture, TextureBy, for_each_texture};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
@@ -22,6 +23,7 @@ pub(super) struct Registered {
     owners: fn(&Census<'_>) -> Arc<[Entity]>,
     pub is_on: fn(EntityRef<'_>) -> bool,
     evidence: fn(&Census<'_>, &str, &dyn Fn(TextureBy, bool) -> bool) -> Evidence,
+    map: fn(&Census<'_>, Entity) -> Option<Result<TextureMap, SceneError>>,
 }
 
 impl Registered {
@@ -36,17 +38,32 @@ impl Registered {
             evidence: |scene, noun, such| {
                 texture_of_kind(scene, noun, |texture: &T| such(texture.by(), texture.is_filtered()))
             },
+            map: |scene, material| {
+                scene.get::<T>(material).map(|own| map_of(own, &kind_and_name(scene, T::WORD, material)))
+            },
         }
     }
 }
 
 macro_rules! registered {
     ($($texture:ident),+) => {
-        /// All textures.
-        pub(super) const TEXTURES: &[Registered] = &[$(Registered::of::<crate::scene::$texture>()),+];
+        /// The textures of the library.
+        const TEXTURES: &[Registered] = &[$(Registered::of::<crate::scene::$texture>()),+];
     };
 }
 for_each_texture!(registered);
+
+/// All textures: those of the library, and then those that the scene adds.
+pub(super) fn textures<'s>(scene: &'s Census<'_>) -> impl Iterator<Item = &'s Registered> + Clone {
+    with_added(TEXTURES, scene)
+}
+
+/// Adds a texture of one's own to those that a scene may have, before it is planned.
+pub fn add_texture<T: Pattern>(scene: &mut World) {
+    let (table, entities) = (TableKind::of::<PatternTable<T>>(), |scene: &Census<'_>| scene.entities::<With<T>>());
+    let added = Added { table, word: T::WORD, entities, stages: "of_texture" };
+    add_kind::<T, _>(scene, Registered::of::<T>(), added);
+}
 
 /// Evidence that a shape is made of a material with such a texture.
 pub fn texture_of_kind<T: Texture>(scene: &Census<'_>, noun: &str, such: impl Fn(&T) -> bool) -> Evidence {
@@ -62,7 +79,7 @@ fn colours_evidence(
     noun: impl Fn(&Registered) -> String,
     such: impl Fn(TextureBy, bool) -> bool,
 ) -> Evidence {
-    let of_colours = TEXTURES.iter().filter(|own| own.feeds == Feeds::Colour);
+    let of_colours = textures(scene).filter(|own| own.feeds == Feeds::Colour);
     of_colours.map(|own| (own.evidence)(scene, &noun(own), &such)).reduce(Evidence::or).unwrap_or_default()
 }
 
@@ -76,7 +93,7 @@ pub fn filtered_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
         let noun = |own: &Registered| format!("filtered {}", own.pattern);
         let colours = colours_evidence(scene, noun, |_, is_filtered| is_filtered);
-        let others = TEXTURES.iter().filter(|own| own.feeds != Feeds::Colour);
+        let others = textures(scene).filter(|own| own.feeds != Feeds::Colour);
         let others = others.map(|own| (own.evidence)(scene, &noun(own), &|_, is_filtered| is_filtered));
         others.filter(|other| other.needed).fold(colours, Evidence::or)
     })
@@ -142,50 +159,20 @@ impl Table for TextureMaps {
 
 /// The texture mapping of a material's entity.
 fn texture_map(scene: &Census<'_>, material: Entity) -> Result<TextureMap, SceneError> {
-    if let Some(checker) = scene.get::<Checker>(material) {
-        let size = size_of_texture::<Checker>(scene, material, checker.size)?;
-        return Ok(mapping_by(checker.by, DMat3::from_diagonal(DVec3::splat(1.0 / size))));
-    }
-    if let Some(stripes) = scene.get::<Stripes>(material) {
-        let size = size_of_texture::<Stripes>(scene, material, stripes.size)?;
-        let mut across = stripes.across;
-        if stripes.by == TextureBy::Uv {
-            across.z = 0.0;
-        }
-        let longest = across.abs().max_element();
-        if !(longest > 0.0 && across.is_finite()) {
-            let accepted = match stripes.by {
-                TextureBy::Uv => "its x and y, along u and v, must be a finite direction other than 0",
-                TextureBy::Space => "it must be a finite direction other than 0",
-            };
-            let who = kind_and_name(scene, Stripes::WORD, material);
-            return Err(SceneError::new(who, "across", triple(stripes.across), accepted));
-        }
-        let row = (across / longest).normalize() / size;
-        return Ok(mapping_by(stripes.by, DMat3::from_cols(row, DVec3::ZERO, DVec3::ZERO).transpose()));
-    }
-    if let Some(image) = scene.get::<ImageTexture>(material) {
-        let size = size_of_texture::<ImageTexture>(scene, material, image.size)?;
-        let map = mapping_by(image.by, DMat3::from_diagonal(DVec3::splat(1.0 / size)));
-        return Ok(if image.by == TextureBy::Space {
-            TextureMap { mapping: TextureMapping::OnFaces, ..map }
-        } else {
-            map
-        });
-    }
-    Ok(TextureMap::default())
+    let of_colours = textures(scene).filter(|own| own.feeds == Feeds::Colour);
+    let map = of_colours.filter_map(|own| (own.map)(scene, material)).next();
+    map.unwrap_or_else(|| Ok(TextureMap::default()))
 }
 
-/// In object space the origin is the centre of a cell or image; in uv it is a corner.
-fn mapping_by(by: TextureBy, matrix: DMat3) -> TextureMap {
-    match by {
-        TextureBy::Uv => TextureMap { mapping: TextureMapping::AlongUv, matrix, shift: DVec3::ZERO },
-        TextureBy::Space => TextureMap { mapping: TextureMapping::InSpace, matrix, shift: DVec3::splat(0.5) },
-    }
-}
-
-fn size_of_texture<T: Texture>(scene: &Census<'_>, material: Entity, size: f64) -> Result<f64, SceneError> {
-    positive_length(&kind_and_name(scene, T::WORD, material), "size", size)
+/// The mapping of a texture of this kind: in object space the origin is the centre of a cell or image; in uv it is a corner.
+fn map_of<T: Texture>(texture: &T, who: &str) -> Result<TextureMap, SceneError> {
+    let matrix = texture.texture_from_surface(who)?;
+    let (mapping, shift) = match (texture.by(), T::ON_FACES) {
+        (TextureBy::Uv, _) => (TextureMapping::AlongUv, DVec3::ZERO),
+        (TextureBy::Space, false) => (TextureMapping::InSpace, DVec3::splat(0.5)),
+        (TextureBy::Space, true) => (TextureMapping::OnFaces, DVec3::splat(0.5)),
+    };
+    Ok(TextureMap { mapping, matrix, shift })
 }
 
 /// Checks that an entity with such a component is a material whose BSDF takes what it gives.
@@ -197,12 +184,13 @@ pub(super) fn check_owner(
     let refused =
         |value, accepted| Err(SceneError::new(kind_and_name(scene, word, owner), "material", value, accepted));
     if !is_material(scene, owner) {
-        let first = REGISTERED.iter().find(|material| material.takes(feeds)).map_or("Matte", |first| first.component);
+        let first =
+            registered_materials(scene).find(|material| material.takes(feeds)).map_or("Matte", |first| first.component);
         return refused("missing", format!("it belongs on an entity that is a material, such as one with a {first}"));
     }
     let material = one_material(scene, owner)?;
     if !material.takes(feeds) {
-        let takers = components_in_words("a ", |material| material.takes(feeds));
+        let takers = components_in_words(scene, "a ", |material| material.takes(feeds));
         return refused(material.word, format!("{given}, as of {takers}"));
     }
     Ok(())
@@ -211,7 +199,7 @@ pub(super) fn check_owner(
 /// Checks that every texture of a material belongs to one, that its BSDF takes what the texture gives, and that it has one
 /// texture of colours at most.
 fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
-    let of_materials = TEXTURES.iter().filter(|own| !matches!(own.feeds, Feeds::Emission | Feeds::Opacity));
+    let of_materials = textures(scene).filter(|own| !matches!(own.feeds, Feeds::Emission | Feeds::Opacity));
     let mut owned: Vec<(Entity, &Registered)> = of_materials
         .flat_map(|own| (own.owners)(scene).iter().map(move |&owner| (owner, own)).collect::<Vec<_>>())
         .collect();
@@ -257,7 +245,7 @@ pub(super) fn check_beside_colour(
 }
 
 /// The row of each material among those with such a component, and the entities of these rows.
-pub(super) fn rows_of_kind<T: Component>(scene: &Census<'_>) -> (Vec<u32>, Vec<Entity>) {
+pub fn rows_of_texture<T: Component>(scene: &Census<'_>) -> (Vec<u32>, Vec<Entity>) {
     let (mut of_material, mut rows) = (Vec::new(), Vec::new());
     for &material in material_entities(scene).iter() {
         let carries = scene.get::<T>(material).is_some();

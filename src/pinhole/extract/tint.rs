@@ -1,6 +1,6 @@
 use super::check::{kind_and_name, reflectance};
 use super::material::material_kind_evidence;
-use super::texture::{NO_TEXTURE, check_owner, rows_of_kind, texture_evidence};
+use super::texture::{NO_TEXTURE, check_owner, rows_of_texture, texture_evidence};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Feeds, MeshInstance, SceneError, Tint};
 use bevy_ecs::prelude::*;
@@ -29,7 +29,7 @@ impl Table for TintTable {
     const NAME: &'static str = "tints";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let (of_material, rows) = rows_of_kind::<Tint>(scene);
+        let (of_material, rows) = rows_of_texture::<Tint>(scene);
         let mut table = Self { of_material, ..Self::default() };
         for &owner in scene.entities::<With<Tint>>().iter() {
             check_owner(scene, ("tint", owner), (Feeds::Colour, "a tint multiplies the colour of diffuse reflection"))?;

@@ -17,7 +17,7 @@ impl Table for UvSlopes {
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let spaces = scene.table::<UvSpaceTable>()?;
         let mut slope = vec![UvSlope::Nowhere; shape_entities(scene).len()];
-        for listed in listed_kinds() {
+        for listed in listed_kinds(scene) {
             (listed.fill_uv_slopes)(scene, &spaces.uv_from_world, &mut slope)?;
         }
         Ok(Self { slope })

@@ -71,7 +71,7 @@ pub use media::{Media, carry_media, carry_media_stage, media_evidence, start_med
 pub use medium_stack::{Crossing, MediumStack};
 pub use occlusion::{SkyLists, SkyView, sample_sky, sample_sky_with, show_occlusion, sky_rays_stage, sky_stage};
 pub use paths::{start_paths, start_paths_stage};
-pub use registered::{BsdfRole, BsdfStage, bsdf_stages};
+pub use registered::{BsdfRole, BsdfStage, bsdf_stages, stages_of};
 pub use roulette::{play_roulette, roulette_stage, survival_probability};
 pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_stage};
 pub use shading_adjoint::{correct_for_shading_normals, shading_adjoint, shading_adjoint_stage};

@@ -39,7 +39,7 @@ pub struct BsdfStage {
 }
 
 /// The stages of a BSDF.
-fn stages_of<B: Bsdf>() -> Vec<BsdfStage> {
+pub fn stages_of<B: Bsdf>() -> Vec<BsdfStage> {
     use BsdfRole::*;
     let of = |role, stage| BsdfStage { role, kind: B::KIND, class: B::CLASS, transmits: B::TRANSMITS, stage };
     let mut stages: Vec<BsdfStage> = Vec::new();

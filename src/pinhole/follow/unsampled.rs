@@ -2,7 +2,7 @@
 
 use super::emission::mis_emission_evidence;
 use crate::extract::{camera_entity, emissive_evidence, followed_evidence, integrator_of, shape_entities, shape_name};
-use crate::material::{BsdfClass, REGISTERED, material_kind};
+use crate::material::{BsdfClass, material_kind, registered_materials};
 use crate::plan::{Census, Stage, TileSystems};
 use crate::scene::{SceneError, UsesMaterial, called};
 use crate::shade::emissive_stage;
@@ -17,7 +17,7 @@ pub fn check_materials_are_followed(scene: &Census<'_>, offer: &[Stage]) -> Resu
     check_sky_is_followed(scene, offer)?;
     check_emission_is_added(scene, offer)?;
     let shapes = shape_entities(scene);
-    for own in REGISTERED.iter().filter(|own| own.class != BsdfClass::Diffuse) {
+    for own in registered_materials(scene).filter(|own| own.class != BsdfClass::Diffuse) {
         let table = (own.table)();
         let scatters = |stage: &Stage| stage.set == TileSystems::SampleBsdfs && stage.tables.contains(&table);
         let goes_on = |stage: &Stage| stage.set == TileSystems::RemainingBounces;

@@ -1,8 +1,8 @@
 use super::rows::{EmissiveRows, MaterialRows, ShapeRows};
 use super::{Hits, NO_SHAPE, SurfaceSides, SurfaceUvs, Surfaces};
-use crate::extract::{NO_ROW, ShapeTable, shape_evidence};
+use crate::extract::{NO_ROW, ShapeTable, kind_evidence, shape_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems};
-use crate::shapes::{ShapeKind, with_shapes};
+use crate::shapes::{Listed, ShapeKind, with_shapes};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 
@@ -86,6 +86,18 @@ fn clear_misses(hits: &Hits, surfaces: &mut Surfaces) {
         (nx[row], ny[row], nz[row]) = (0.0, 0.0, 0.0);
         (bound[row], material[row]) = (0.0, 0);
     }
+}
+
+/// Lists the rows that hit one kind of shape, one that a program adds.
+pub fn classify_shape<S: Listed>(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(&Hits, &mut ShapeRows<S>)>) {
+    for (hits, mut list) in &mut tiles {
+        list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == S::KIND);
+    }
+}
+
+/// The stage that runs [`classify_shape`].
+pub fn classify_shape_stage<S: Listed>() -> Stage {
+    Stage::new(S::NAMES.classify, TileSystems::Classify, classify_shape::<S>).when(kind_evidence::<S>)
 }
 
 /// The stage that runs this system.

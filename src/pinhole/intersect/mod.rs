@@ -32,7 +32,7 @@ mod view;
 #[doc(hidden)]
 pub use crate::extract::shape_evidence;
 #[doc(hidden)]
-pub use classify::{classify_hits, classify_stage};
+pub use classify::{classify_hits, classify_shape, classify_shape_stage, classify_stage};
 #[doc(hidden)]
 pub use contact::{Contacts, GlassCrossing, contact_bound_stage, contact_stage, merge_contacts, widen_bounds};
 #[doc(hidden)]

@@ -45,7 +45,9 @@ pub use light::{Light, LightSample, PlacedLight, SceneLight};
 pub use light_bounds::LightBounds;
 pub use light_hierarchy::LightHierarchy;
 pub use point::PlacedPointLight;
-pub use registry::{AnyLight, LightNames, LightVisitor, ListedLight, visit_lights};
+pub use registry::{
+    AnyLight, CustomLight, LightNames, LightVisitor, ListedLight, custom_light, light_names, visit_lights,
+};
 pub use spot::{PlacedSpotLight, spot_falloff, versine, versine_of_half};
 pub use start::{LightStart, StartDraws};
 pub use targets::{MAX_TARGETS_SOLID_ANGLE, MOST_TARGETS, Target, Targets, direction_to_targets};

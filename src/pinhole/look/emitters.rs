@@ -45,7 +45,7 @@ fn unsampled(scene: &Census<'_>) -> Result<Option<String>> {
         format!(
             "light sampling cannot sample {which}, so BSDF sampling finds their light, as with LightStrategy::Bsdf; \
              more samples, or {} instead, lessen its noise",
-            sampled_shapes()
+            sampled_shapes(scene)
         )
     } else {
         format!(

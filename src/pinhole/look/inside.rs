@@ -15,7 +15,7 @@ const ALL_ROUND: f64 = 4.0 * PI * (1.0 - 1e-6);
 pub fn shape_around_camera(scene: &Census<'_>, shapes: &ShapeTable) -> Result<Option<String>> {
     // The camera is the origin of render space.
     let mut around = None;
-    for listed in listed_kinds() {
+    for listed in listed_kinds(scene) {
         around = around.or((listed.around)(scene, DVec3::ZERO)?);
     }
     let mesh = triangles_around(&*scene.table::<TriangleTable>()?, shapes);

@@ -39,7 +39,7 @@ pub fn tiny_shapes(scene: &Census<'_>, pilot: &Pilot, shapes: &ShapeTable) -> Re
     };
     let (mut tiny, mut others): (Vec<(usize, f64)>, usize) = (Vec::new(), pilot.shapes.len());
     for shape in (0..shapes.kind.len().min(MOST)).filter(|&shape| !pilot.shapes.contains(&(shape as u32))) {
-        let Some(listed) = listed_kind(shapes.kind[shape]).filter(|listed| !listed.is_part) else { continue };
+        let Some(listed) = listed_kind(scene, shapes.kind[shape]).filter(|listed| !listed.is_part) else { continue };
         let around = (listed.bounding_sphere)(scene, shapes.row[shape] as usize)?;
         let width = around.and_then(|(centre, radius)| width_in_pixels(centre, radius));
         match width {

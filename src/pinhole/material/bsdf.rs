@@ -5,7 +5,7 @@ use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
 /// How concentrated the light is that a BSDF scatters, which decides how integrators treat it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BsdfClass {
     /// Broad enough to be lit by light sampling alone; only path tracing continues paths from it.
     Diffuse,

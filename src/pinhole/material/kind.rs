@@ -1,32 +1,42 @@
-use super::{Bsdf, BsdfClass, Named, StageNames, for_each_bsdf};
+use super::{Bsdf, BsdfClass, for_each_bsdf, named_bsdf};
 
 macro_rules! kinds {
     ($($kind:ident($table:ident, $name:literal),)+) => {
         /// The kinds of material: one for each BSDF.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum MaterialKind {
             $(#[doc = concat!("A row of [`", stringify!($table), "`](crate::material::", stringify!($table), ").")] $kind,)+
+            /// A row of the table of a BSDF that a program adds.
+            Custom {
+                /// A number of its own among these.
+                number: u8,
+                /// How it scatters.
+                class: BsdfClass,
+                /// Whether light passes through its surface.
+                transmits: bool,
+            },
         }
 
-        $(impl Named for crate::material::$table {
-            const KIND: MaterialKind = MaterialKind::$kind;
-            const NAMES: StageNames = StageNames {
-                sample: concat!("Sample BSDFs: ", $name),
-                sample_from_lights: concat!("Sample BSDFs: ", $name, ", from lights"),
-                split: concat!("Split rays at ", $name),
-                direct_light: concat!("Evaluate direct light: ", $name),
-                connections: concat!("Evaluate connections to the camera: ", $name),
-                mis: concat!("Compute MIS weights: ", $name),
-                classify: concat!("List rows: ", $name),
-                rows: concat!($name, " rows"),
-            };
-        })+
+        $(named_bsdf!(crate::material::$table, MaterialKind::$kind, $name);)+
 
         impl MaterialKind {
-            /// The number of kinds.
-            pub const COUNT: usize = [$(MaterialKind::$kind),+].len();
-            const CLASSES: [BsdfClass; Self::COUNT] = [$(<crate::material::$table>::CLASS),+];
-            const TRANSMITS: [bool; Self::COUNT] = [$(<crate::material::$table>::TRANSMITS),+];
+            /// How its BSDF scatters.
+            #[inline(always)]
+            const fn class(self) -> BsdfClass {
+                match self {
+                    $(Self::$kind => <crate::material::$table>::CLASS,)+
+                    Self::Custom { class, .. } => class,
+                }
+            }
+
+            /// Whether light passes through its surface.
+            #[inline(always)]
+            pub const fn transmits(self) -> bool {
+                match self {
+                    $(Self::$kind => <crate::material::$table>::TRANSMITS,)+
+                    Self::Custom { transmits, .. } => transmits,
+                }
+            }
         }
     };
 }
@@ -37,12 +47,6 @@ impl MaterialKind {
     /// Whether its BSDF is a delta distribution.
     #[inline(always)]
     pub const fn is_specular(self) -> bool {
-        matches!(Self::CLASSES[self as usize], BsdfClass::Specular)
-    }
-
-    /// Whether light passes through its surface.
-    #[inline(always)]
-    pub const fn transmits(self) -> bool {
-        Self::TRANSMITS[self as usize]
+        matches!(self.class(), BsdfClass::Specular)
     }
 }

@@ -59,6 +59,46 @@ macro_rules! for_each_bsdf {
 // ANCHOR_END: bsdf_list
 pub(crate) use for_each_bsdf;
 
+/// Gives a BSDF its kind, and its stages and its column the names that are made from its own.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! named_bsdf {
+    ($table:ty, $kind:expr, $name:literal) => {
+        impl $crate::material::Named for $table {
+            const KIND: $crate::material::MaterialKind = $kind;
+            const NAMES: $crate::material::StageNames = $crate::material::StageNames {
+                sample: concat!("Sample BSDFs: ", $name),
+                sample_from_lights: concat!("Sample BSDFs: ", $name, ", from lights"),
+                split: concat!("Split rays at ", $name),
+                direct_light: concat!("Evaluate direct light: ", $name),
+                connections: concat!("Evaluate connections to the camera: ", $name),
+                mis: concat!("Compute MIS weights: ", $name),
+                classify: concat!("List rows: ", $name),
+                rows: concat!($name, " rows"),
+            };
+        }
+    };
+}
+pub use named_bsdf;
+
+/// Makes a BSDF one that a scene can have by [`add_material`]: its number among those that a program adds, and its name in
+/// the names of its stages.
+#[macro_export]
+macro_rules! custom_bsdf {
+    ($table:ty, $number:literal, $name:literal) => {
+        $crate::material::named_bsdf!(
+            $table,
+            $crate::material::MaterialKind::Custom {
+                number: $number,
+                class: <$table as $crate::material::Bsdf>::CLASS,
+                transmits: <$table as $crate::material::Bsdf>::TRANSMITS,
+            },
+            $name
+        );
+    };
+}
+pub use custom_bsdf;
+
 pub use blinn_phong::{BlinnPhongLobe, BlinnPhongTable, blinn_phong_peak, half_vector_cosine};
 pub use bsdf::{
     Bsdf, BsdfClass, BsdfSample, Example, Interior, Named, Parameters, Site, SpecularSample, StageNames, Transport,
@@ -78,10 +118,11 @@ pub use mirror::MirrorTable;
 pub use multiple_scattering::{ByCosine, MultipleScattering, multiple_scattering_albedo, single_scattering};
 pub use phong::{PhongLobe, PhongTable, mirror_cosine, phong_peak};
 pub use principled::PrincipledTable;
+pub(crate) use registered::{NUMBERS, check_kinds, components_in_words, interior_of, one_material};
 pub use registered::{
-    REGISTERED, Registration, Spawn, declared_materials, is_material, material_entities, material_kind,
+    REGISTERED, Registration, Spawn, add_material, declared_materials, entities_of_kind, is_material,
+    material_entities, material_kind, registered_materials,
 };
-pub(crate) use registered::{components_in_words, interior_of, one_material};
 pub use rough_glass::RoughGlassTable;
 pub use table::{MaterialTable, NO_ROW};
 pub use thin_glass::{ThinGlassTable, pane_reflectance};

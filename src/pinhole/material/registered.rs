@@ -2,7 +2,7 @@
 
 use super::{Bsdf, BsdfClass, ErasedBsdf, Interior, MaterialKind, Parameters, for_each_bsdf};
 use crate::check::kind_and_name;
-use crate::plan::{Census, TableKind, united};
+use crate::plan::{Added, Census, TableKind, add_kind, united, with_added};
 use crate::scene::{Feeds, Rgb, SceneError};
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
@@ -11,6 +11,7 @@ use std::sync::Arc;
 pub type Spawn = Box<dyn Fn(&mut EntityWorldMut<'_>) + Send + Sync>;
 
 /// A BSDF without its type.
+#[derive(Clone, Copy)]
 pub struct Registration {
     /// Its kind.
     pub kind: MaterialKind,
@@ -106,26 +107,54 @@ impl Registration {
 
 macro_rules! registered {
     ($($kind:ident($table:ident, $name:literal),)+) => {
-        /// All BSDFs, in the order of their kinds.
+        /// The BSDFs of the library, in the order of their kinds.
         pub static REGISTERED: &[Registration] = &[$(Registration::of::<crate::material::$table>()),+];
     };
 }
 
 for_each_bsdf!(registered);
 
+/// All BSDFs: those of the library, and then those that the scene adds.
+pub fn registered_materials<'s>(scene: &'s Census<'_>) -> impl Iterator<Item = &'s Registration> + Clone {
+    with_added(REGISTERED, scene)
+}
+
+/// Adds a material of one's own to those that a scene may have, before it is planned.
+pub fn add_material<B: Bsdf>(scene: &mut World) {
+    let (table, entities) = (TableKind::of::<B>(), |scene: &Census<'_>| scene.entities::<With<B::Component>>());
+    let added = Added { table, word: B::WORD, entities, stages: "of_material" };
+    add_kind::<B, _>(scene, Registration::of::<B>(), added);
+}
+
+/// Checks that no two BSDFs have the same kind.
+///
+/// Errors: one that a program adds with the number of another.
+pub(crate) fn check_kinds(scene: &Census<'_>) -> Result<(), SceneError> {
+    for (at, own) in registered_materials(scene).enumerate() {
+        if let Some(other) = registered_materials(scene).skip(at + 1).find(|other| other.kind == own.kind) {
+            let value = format!("that of {}", own.component);
+            return Err(SceneError::new(other.component, "number", value, NUMBERS));
+        }
+    }
+    Ok(())
+}
+
+/// What is asked of the numbers that a program gives to what it adds.
+pub(crate) const NUMBERS: &str = "each shape, and each material, that a program adds needs one of its own";
+
 /// The enabled entities that carry a material, in spawn order, one for each row of the table.
 pub fn material_entities(scene: &Census<'_>) -> Arc<[Entity]> {
-    scene.once(|scene| united(&mut REGISTERED.iter().map(|own| (own.entities)(scene))).into())
+    scene.once(|scene| united(&mut registered_materials(scene).map(|own| (own.entities)(scene))).into())
 }
 
 /// The same with the disabled ones.
 pub fn declared_materials(scene: &Census<'_>) -> Arc<[Entity]> {
-    scene.once(|scene| united(&mut REGISTERED.iter().map(|own| (own.declared)(scene))).into())
+    scene.once(|scene| united(&mut registered_materials(scene).map(|own| (own.declared)(scene))).into())
 }
 
 /// The first BSDF whose component an entity carries.
-fn registration(scene: &Census<'_>, entity: Entity) -> Option<&'static Registration> {
-    REGISTERED.iter().find(|own| (own.carries)(scene, entity))
+fn registration<'s>(scene: &'s Census<'_>, entity: Entity) -> Option<&'s Registration> {
+    registered_materials(scene).find(|own| (own.carries)(scene, entity))
 }
 
 /// The kind of an entity's material; none where it has none.
@@ -134,7 +163,7 @@ pub fn material_kind(scene: &Census<'_>, entity: Entity) -> Option<MaterialKind>
 }
 
 /// The enabled entities whose material is of one kind, in spawn order, one for each row of its table.
-pub(super) fn entities_of_kind(scene: &Census<'_>, kind: MaterialKind) -> Vec<Entity> {
+pub fn entities_of_kind(scene: &Census<'_>, kind: MaterialKind) -> Vec<Entity> {
     material_entities(scene).iter().copied().filter(|&entity| material_kind(scene, entity) == Some(kind)).collect()
 }
 
@@ -149,9 +178,9 @@ pub(crate) fn interior_of(scene: &Census<'_>, entity: Entity) -> Result<Option<I
 }
 
 /// Some of the components that are materials, in words: `Matte, Phong … or Metal`.
-pub(crate) fn components_in_words(article: &str, such: impl Fn(&Registration) -> bool) -> String {
-    let names: Vec<String> =
-        REGISTERED.iter().filter(|own| such(own)).map(|own| format!("{article}{}", own.component)).collect();
+pub(crate) fn components_in_words(scene: &Census<'_>, article: &str, such: impl Fn(&Registration) -> bool) -> String {
+    let each = registered_materials(scene).filter(|own| such(own));
+    let names: Vec<String> = each.map(|own| format!("{article}{}", own.component)).collect();
     match &names[..] {
         [] => String::new(),
         [one] => one.clone(),
@@ -160,8 +189,8 @@ pub(crate) fn components_in_words(article: &str, such: impl Fn(&Registration) ->
 }
 
 /// The one material component of an entity.
-pub(crate) fn one_material(scene: &Census<'_>, entity: Entity) -> Result<&'static Registration, SceneError> {
-    let present: Vec<&Registration> = REGISTERED.iter().filter(|own| (own.carries)(scene, entity)).collect();
+pub(crate) fn one_material<'s>(scene: &'s Census<'_>, entity: Entity) -> Result<&'s Registration, SceneError> {
+    let present: Vec<&Registration> = registered_materials(scene).filter(|own| (own.carries)(scene, entity)).collect();
     match present[..] {
         [one] => Ok(one),
         _ => {

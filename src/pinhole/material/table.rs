@@ -1,6 +1,7 @@
 use super::{MaterialKind, Parameters, material_entities, one_material};
 use crate::plan::{Census, Table};
 use crate::scene::SceneError;
+use std::collections::HashMap;
 
 /// Stands for no row, in a column of row numbers.
 pub const NO_ROW: u32 = u32::MAX;
@@ -36,11 +37,11 @@ impl Table for MaterialTable {
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        let (mut rows_of_kind, mut interiors) = ([0; MaterialKind::COUNT], 0);
+        let (mut rows_of_kind, mut interiors) = (HashMap::<MaterialKind, u32>::new(), 0);
         for &entity in material_entities(scene).iter() {
             let written = one_material(scene, entity)?;
             let kind = written.kind(scene, entity);
-            let rows = &mut rows_of_kind[kind as usize];
+            let rows = rows_of_kind.entry(kind).or_default();
             table.row.push(*rows);
             *rows += 1;
             table.kind.push(kind);

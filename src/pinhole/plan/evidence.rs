@@ -105,20 +105,27 @@ impl Evidence {
         if !other.needed {
             return other;
         }
-        Self { reason: format!("{}; {}", self.reason, other.reason), count: self.count + other.count, ..self }
+        Self { reason: joined(&self.reason, "; ", &other.reason), count: self.count + other.count, ..self }
     }
 
     /// Needed if either is.
     pub fn or(self, other: Self) -> Self {
         match (self.needed, other.needed) {
             (true, true) => {
-                Self { reason: format!("{}; {}", self.reason, other.reason), count: self.count + other.count, ..self }
+                Self { reason: joined(&self.reason, "; ", &other.reason), count: self.count + other.count, ..self }
             }
-            (false, false) => Self { reason: format!("{}, {}", self.reason, other.reason), ..self },
+            (false, false) => Self { reason: joined(&self.reason, ", ", &other.reason), ..self },
             (true, false) => self,
             (false, true) => other,
         }
     }
+}
+
+/// Two lists of reasons in one, each reason once.
+fn joined(one: &str, between: &str, other: &str) -> String {
+    let is_new = |reason: &&str| !one.split(between).any(|own| own == *reason);
+    let new = other.split(between).filter(is_new);
+    new.fold(one.to_string(), |list, reason| format!("{list}{between}{reason}"))
 }
 
 type Find = fn(&Census<'_>) -> Arc<[Entity]>;

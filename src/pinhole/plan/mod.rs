@@ -23,6 +23,7 @@
 mod access;
 mod census;
 mod column;
+mod custom;
 mod decide;
 mod evidence;
 mod print;
@@ -40,6 +41,7 @@ pub use column::{Column, Lifetime};
 pub use column::{
     ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, column, column_component,
 };
+pub(crate) use custom::{Added, add_kind, check_added, check_is_added, with_added};
 #[doc(hidden)]
 pub use decide::{Pass, PlanRow, view_names};
 pub use decide::{Plan, PlanError, plan};

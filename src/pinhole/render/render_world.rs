@@ -4,7 +4,9 @@ use crate::Result;
 use crate::extract::validate;
 use crate::film::FilmTile;
 use crate::follow::{Stop, check_materials_are_followed, is_whole};
-use crate::plan::{Bounce, Census, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Slot, Stage, TileSystems, plan};
+use crate::plan::{
+    Bounce, Census, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Slot, Stage, TileSystems, check_added, plan,
+};
 use crate::rays::{ActivePixels, Depth, PixelSamples, SampleNumber, Tile};
 use crate::shade::check_shapes_are_intersected;
 use bevy_ecs::prelude::*;
@@ -25,6 +27,7 @@ struct HookTurn(usize, usize);
 /// Errors: the reason why the scene is invalid, or why there is no plan.
 pub fn prepare(scene: &Census<'_>, offer: &[Stage]) -> Result<(Plan, Vec<ExtractedTable>)> {
     validate(scene)?;
+    check_added(scene, offer)?;
     let plan = plan(scene, offer)?;
     check_shapes_are_intersected(scene, offer, &plan)?;
     check_materials_are_followed(scene, offer)?;

@@ -1,5 +1,7 @@
-use super::{Feeds, Rgb, Texture, TextureBy};
+use super::texture::scaled_by;
+use super::{Feeds, Rgb, SceneError, Texture, TextureBy, positive_length};
 use bevy_ecs::prelude::*;
+use glam::DMat3;
 use serde::{Deserialize, Serialize};
 
 /// On a material: a checkerboard of two colours, in squares of uv or cubes of space, in place of the material's own
@@ -36,6 +38,9 @@ impl Texture for Checker {
     const FEEDS: Feeds = Feeds::Colour;
     fn by(&self) -> TextureBy {
         self.by
+    }
+    fn texture_from_surface(&self, who: &str) -> Result<DMat3, SceneError> {
+        positive_length(who, "size", self.size).map(scaled_by)
     }
     fn is_filtered(&self) -> bool {
         self.filter

@@ -1,5 +1,7 @@
-use super::{Feeds, FileKind, Texture, TextureBy, UvTransform, Wrap};
+use super::texture::scaled_by;
+use super::{Feeds, FileKind, SceneError, Texture, TextureBy, UvTransform, Wrap, positive_length};
 use bevy_ecs::prelude::*;
+use glam::DMat3;
 use serde::{Deserialize, Serialize};
 
 /// The kind of file that a texture or an environment names.
@@ -49,8 +51,12 @@ impl Texture for ImageTexture {
     const NOUN: &'static str = "image texture";
     const PATTERN: &'static str = "image";
     const FEEDS: Feeds = Feeds::Colour;
+    const ON_FACES: bool = true;
     fn by(&self) -> TextureBy {
         self.by
+    }
+    fn texture_from_surface(&self, who: &str) -> Result<DMat3, SceneError> {
+        positive_length(who, "size", self.size).map(scaled_by)
     }
     fn is_filtered(&self) -> bool {
         self.filter

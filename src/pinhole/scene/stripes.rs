@@ -1,6 +1,6 @@
-use super::{Feeds, Rgb, Texture, TextureBy};
+use super::{Feeds, Rgb, SceneError, Texture, TextureBy, positive_length, triple};
 use bevy_ecs::prelude::*;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
 /// On a material: stripes of two colours, alternating along one direction, in place of the material's own colour.
@@ -37,6 +37,23 @@ impl Texture for Stripes {
     const FEEDS: Feeds = Feeds::Colour;
     fn by(&self) -> TextureBy {
         self.by
+    }
+    fn texture_from_surface(&self, who: &str) -> Result<DMat3, SceneError> {
+        let size = positive_length(who, "size", self.size)?;
+        let mut across = self.across;
+        if self.by == TextureBy::Uv {
+            across.z = 0.0;
+        }
+        let longest = across.abs().max_element();
+        if !(longest > 0.0 && across.is_finite()) {
+            let accepted = match self.by {
+                TextureBy::Uv => "its x and y, along u and v, must be a finite direction other than 0",
+                TextureBy::Space => "it must be a finite direction other than 0",
+            };
+            return Err(SceneError::new(who, "across", triple(self.across), accepted));
+        }
+        let row = (across / longest).normalize() / size;
+        Ok(DMat3::from_cols(row, DVec3::ZERO, DVec3::ZERO).transpose())
     }
     fn is_filtered(&self) -> bool {
         self.filter

@@ -1,7 +1,7 @@
 use super::{Degrees, SceneError, number};
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
-use glam::{DMat2, DVec2};
+use glam::{DMat2, DMat3, DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 /// What a texture gives a surface, in place of what its material or its emission has everywhere.
@@ -34,12 +34,25 @@ pub trait Texture: Component<Mutability = Mutable> {
     fn by(&self) -> TextureBy {
         TextureBy::Uv
     }
+    /// Whether in space it is projected along the axis that the surface faces most.
+    const ON_FACES: bool = false;
+    /// The linear map from these to its own coordinates, in which its pattern repeats by whole numbers.
+    ///
+    /// Errors: a value that is not accepted.
+    fn texture_from_surface(&self, _who: &str) -> Result<DMat3, SceneError> {
+        Ok(DMat3::IDENTITY)
+    }
     /// Whether it is filtered over a pixel's footprint.
     fn is_filtered(&self) -> bool;
     /// The file of its image, if it has one.
     fn file(&mut self) -> Option<&mut String> {
         None
     }
+}
+
+/// The map to the coordinates of a texture whose pattern has this size.
+pub(super) fn scaled_by(size: f64) -> DMat3 {
+    DMat3::from_diagonal(DVec3::splat(1.0 / size))
 }
 
 /// The coordinates at which a texture is evaluated.

@@ -1,8 +1,8 @@
-use super::{SurfaceColours, TexturePoint, TexturePoints};
-use crate::extract::{CheckerTable, NO_TEXTURE, StripesTable, TwoColours, texture_of_kind};
+use super::{SurfaceColours, TexturePoints};
+use crate::extract::{NO_TEXTURE, Pattern, PatternTable, TexturePoint, texture_of_kind};
 use crate::intersect::{MaterialRows, Surfaces};
 use crate::plan::{Shared, Stage, TileSystems};
-use crate::scene::{Checker, Stripes};
+use crate::scene::{Checker, Rgb, Stripes};
 use bevy_ecs::prelude::*;
 
 /// A square wave: 1 where x is in an even cell, −1 in an odd one.
@@ -64,59 +64,75 @@ pub fn stripes_fraction(at: &TexturePoint) -> f64 {
     0.5 + 0.5 * wave_mean(at.point.x, box_width(right.x, down.x))
 }
 
-/// Evaluates the colours of checkered materials.
-pub fn evaluate_checkers(
-    checkers: Res<Shared<CheckerTable>>,
-    mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
-) {
-    for (surfaces, list, points, mut colours) in &mut tiles {
-        colour_rows(&checkers.0, surfaces, &list.row, points, &mut colours, checker_fraction);
+impl Pattern for Checker {
+    const TABLE: &'static str = "checkers";
+    const STAGE: &'static str = "Evaluate textures: checkers";
+    const IS_CUSTOM: bool = false;
+
+    fn albedos(&self) -> Vec<(&'static str, Rgb)> {
+        vec![("first", self.first), ("second", self.second)]
+    }
+
+    #[inline(always)]
+    fn colour(&self, at: &TexturePoint) -> [f64; 3] {
+        mixed(checker_fraction(at), self.first, self.second)
     }
 }
 
-/// Evaluates the colours of striped materials.
-pub fn evaluate_stripes(
-    stripes: Res<Shared<StripesTable>>,
-    mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
-) {
-    for (surfaces, list, points, mut colours) in &mut tiles {
-        colour_rows(&stripes.0, surfaces, &list.row, points, &mut colours, stripes_fraction);
+impl Pattern for Stripes {
+    const TABLE: &'static str = "stripes";
+    const STAGE: &'static str = "Evaluate textures: stripes";
+    const IS_CUSTOM: bool = false;
+
+    fn albedos(&self) -> Vec<(&'static str, Rgb)> {
+        vec![("first", self.first), ("second", self.second)]
+    }
+
+    #[inline(always)]
+    fn colour(&self, at: &TexturePoint) -> [f64; 3] {
+        mixed(stripes_fraction(at), self.first, self.second)
     }
 }
 
+/// A fraction of the first colour, and of the second what is left.
 #[inline(always)]
-fn colour_rows(
-    table: &TwoColours,
-    surfaces: &Surfaces,
-    rows: &[u32],
-    points: &TexturePoints,
-    colours: &mut SurfaceColours,
-    fraction_of: impl Fn(&TexturePoint) -> f64,
+fn mixed(fraction: f64, first: Rgb, second: Rgb) -> [f64; 3] {
+    let (first, second) = (first.to_array(), second.to_array());
+    [0, 1, 2].map(|part| fraction * first[part] + (1.0 - fraction) * second[part])
+}
+
+/// Evaluates the colours of materials with one kind of pattern.
+pub fn evaluate_pattern<T: Pattern>(
+    table: Res<Shared<PatternTable<T>>>,
+    mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
 ) {
-    for &row in rows {
-        let row = row as usize;
-        let texture = table.of_material[surfaces.material[row] as usize];
-        if texture == NO_TEXTURE {
-            continue;
+    for (surfaces, list, points, mut colours) in &mut tiles {
+        for &row in &list.row {
+            let row = row as usize;
+            let texture = table.of_material[surfaces.material[row] as usize];
+            if texture == NO_TEXTURE {
+                continue;
+            }
+            let (pattern, at) = (&table.pattern[texture as usize], points.get(row));
+            colours.set(row, pattern.colour(&if pattern.is_filtered() { at } else { at.alone() }));
         }
-        let texture = texture as usize;
-        let at = points.get(row);
-        let fraction = fraction_of(&if table.filter[texture] { at } else { at.alone() });
-        let (first, second) = (table.first[texture], table.second[texture]);
-        colours.set(row, [0, 1, 2].map(|part| fraction * first[part] + (1.0 - fraction) * second[part]));
     }
+}
+
+/// The stage for one kind of pattern.
+pub fn pattern_stage<T: Pattern>() -> Stage {
+    Stage::new(T::STAGE, TileSystems::Texture, evaluate_pattern::<T>)
+        .when(|scene| texture_of_kind::<T>(scene, T::NOUN, |_| true))
 }
 
 /// The stage for checkers.
 pub fn checker_stage() -> Stage {
-    Stage::new("Evaluate textures: checkers", TileSystems::Texture, evaluate_checkers)
-        .when(|scene| texture_of_kind::<Checker>(scene, "checkered material", |_| true))
+    pattern_stage::<Checker>()
 }
 
 /// The stage for stripes.
 pub fn stripes_stage() -> Stage {
-    Stage::new("Evaluate textures: stripes", TileSystems::Texture, evaluate_stripes)
-        .when(|scene| texture_of_kind::<Stripes>(scene, "striped material", |_| true))
+    pattern_stage::<Stripes>()
 }
 
 #[cfg(test)]

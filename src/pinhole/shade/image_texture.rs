@@ -1,5 +1,6 @@
 use super::lookup::{image_mean, nearest_texel, transformed};
-use super::{SurfaceColours, TexturePoint, TexturePoints};
+use super::{SurfaceColours, TexturePoints};
+use crate::extract::TexturePoint;
 use crate::extract::{ImageTable, NO_TEXTURE, texture_of_kind};
 use crate::intersect::{MaterialRows, Surfaces};
 use crate::plan::{Shared, Stage, TileSystems};

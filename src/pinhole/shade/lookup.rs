@@ -1,6 +1,6 @@
 //! Points of an image → a colour.
 
-use super::TexturePoint;
+use crate::extract::TexturePoint;
 use crate::extract::{Pyramid, Texels};
 use crate::scene::WrapMode;
 use glam::{DMat2, DVec2, DVec3};

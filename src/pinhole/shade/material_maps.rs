@@ -1,9 +1,9 @@
 //! Maps: metallic and roughness, and emission, from images over uv.
 
-use super::TexturePoint;
 use super::lookup::{image_mean, nearest_texel, transformed};
 use super::row_slopes::{RowSlopes, with_mesh_slopes};
 use super::texture_point::{UvPointView, UvPointViewItem};
+use crate::extract::TexturePoint;
 use crate::extract::{
     EmissionMapTable, MaterialTable, MetallicRoughnessTable, NO_TEXTURE, ShapeSpaces, UvImages, UvSlopes,
     emission_map_evidence, filtered_emission_evidence, filtered_roughness_evidence, metallic_roughness_evidence,

@@ -55,8 +55,8 @@ pub use camera_join::{
 };
 #[doc(hidden)]
 pub use checker::{
-    box_width, checker_fraction, checker_stage, evaluate_checkers, evaluate_stripes, stripes_fraction, stripes_stage,
-    wave, wave_mean,
+    box_width, checker_fraction, checker_stage, evaluate_pattern, pattern_stage, stripes_fraction, stripes_stage, wave,
+    wave_mean,
 };
 #[doc(hidden)]
 pub use colour::SurfaceColours;
@@ -110,7 +110,7 @@ pub use shadow::{
 #[doc(hidden)]
 pub use surface_colour::{colour_stage, colour_surfaces};
 #[doc(hidden)]
-pub use texture_point::{TexturePoint, TexturePoints, compute_texture_points, face_from_space, texture_point_stage};
+pub use texture_point::{TexturePoints, compute_texture_points, face_from_space, texture_point_stage};
 #[doc(hidden)]
 pub use tint::{tint_stage, tint_surfaces};
 #[doc(hidden)]

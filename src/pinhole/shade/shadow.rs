@@ -96,7 +96,7 @@ pub fn moving_shadow_stage() -> Stage {
 /// Evidence that a light casts shadows on a material.
 pub fn shadow_evidence(scene: &Census<'_>) -> Evidence {
     let points = delta_light_evidence(scene, "shadow-casting light", |entity| {
-        light_kinds().iter().any(|kind| (kind.casts_shadows)(entity))
+        light_kinds(scene).any(|kind| (kind.casts_shadows)(entity))
     });
     let receiving = or_light(scene, points).and(|| material_evidence(scene));
     either(either(unless_occlusion(scene, receiving), traced_evidence(scene)), occlusion_evidence(scene))

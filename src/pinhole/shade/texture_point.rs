@@ -1,8 +1,8 @@
 use super::Footprints;
 use super::row_slopes::{RowSlopes, with_mesh_slopes};
 use crate::extract::{
-    ShapeSpaces, TextureMap, TextureMapping, TextureMaps, UvSlopes, by_uv_evidence, filtered_by_uv_evidence,
-    texture_evidence,
+    ShapeSpaces, TextureMap, TextureMapping, TextureMaps, TexturePoint, UvSlopes, by_uv_evidence,
+    filtered_by_uv_evidence, texture_evidence,
 };
 use crate::intersect::{HitPrimitives, Hits, MaterialRows, SurfaceUvs, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
@@ -33,23 +33,6 @@ column! {
         dy: f64,
         /// The offset down, z.
         dz: f64,
-    }
-}
-
-/// One row of [`TexturePoints`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct TexturePoint {
-    /// The texture coordinates, in units of the texture.
-    pub point: DVec3,
-    /// The pixel's offsets to the right and down.
-    pub steps: [DVec3; 2],
-}
-
-impl TexturePoint {
-    /// The same point without a footprint.
-    #[inline(always)]
-    pub fn alone(self) -> Self {
-        Self { steps: [DVec3::ZERO; 2], ..self }
     }
 }
 

@@ -32,7 +32,7 @@ pub fn check_shapes_are_intersected(scene: &Census<'_>, offer: &[Stage], plan: &
         let tables = shapes
             .kind
             .iter()
-            .map(|&kind| listed_kind(kind).map_or_else(TableKind::of::<MovingTable>, |listed| listed.table));
+            .map(|&kind| listed_kind(scene, kind).map_or_else(TableKind::of::<MovingTable>, |listed| listed.table));
         let non_opaque = scene.table::<NonOpaqueTable>()?;
         let also = non_opaque.shape.iter().map(|&shape| (shape as usize, TableKind::of::<NonOpaqueTable>()));
         // The tables of the kinds have their surfaces.

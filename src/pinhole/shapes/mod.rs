@@ -110,7 +110,8 @@ pub(crate) use ray_block::{LANES, RayBlock, vector};
 pub use ray_hit::{HITS, HitBlock, RayHit, SurfacePoint};
 pub use rectangle::{PlacedRectangle, rectangle_intersection, rectangle_t};
 pub use registry::{
-    Body, Emitter, LeavingPoint, Listed, ShapeVisitor, distance_to, leaving_point, pdf_towards, point_on, visit_shapes,
+    Body, CustomBody, Emitter, LeavingPoint, Listed, ShapeVisitor, custom_shape, distance_to, leaving_point,
+    pdf_towards, point_on, shape_names, visit_shapes,
 };
 pub use shape::{Placed, SceneShape, Shape, ShapeNames};
 pub use space::{Pose, direction_object_from_world, normal_world_from_object, point_object_from_world};

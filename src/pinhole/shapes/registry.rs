@@ -10,6 +10,8 @@ use super::uv::face_axes;
 use super::uv_slope::{UvSlope, most_of, round_step};
 use crate::bvh::{Stack, TestCounts};
 use glam::DVec3;
+use std::fmt::Debug;
+use std::sync::Arc;
 
 /// A shape of the list.
 pub trait Listed: Shape {
@@ -47,20 +49,31 @@ pub struct LeavingPoint {
     pub size: f64,
 }
 
+/// The names of what exists once for a shape.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! shape_names {
+    ($rows:expr, $plural:literal) => {
+        $crate::shapes::ShapeNames {
+            table: $plural,
+            hierarchy: concat!("hierarchy of ", $plural),
+            rows: $rows,
+            classify: concat!("List rows: ", $plural),
+            intersect: concat!("Intersect ", $plural),
+            raster_boxes: concat!("raster boxes of ", $plural),
+            rasterise: concat!("Rasterise boxes: ", $plural),
+            surface: concat!("Compute surfaces: ", $plural),
+            shadow: concat!("Trace shadow rays: ", $plural),
+        }
+    };
+}
+pub use shape_names;
+
 macro_rules! registry {
     ($($kind:ident($shape:ty) $field:ident $plural:literal,)+) => {
         $(impl Listed for $shape {
             const KIND: ShapeKind = ShapeKind::$kind;
-            const NAMES: ShapeNames = ShapeNames {
-                table: $plural,
-                hierarchy: concat!("hierarchy of ", $plural),
-                rows: concat!(stringify!($field), " rows"),
-                intersect: concat!("Intersect ", $plural),
-                raster_boxes: concat!("raster boxes of ", $plural),
-                rasterise: concat!("Rasterise boxes: ", $plural),
-                surface: concat!("Compute surfaces: ", $plural),
-                shadow: concat!("Trace shadow rays: ", $plural),
-            };
+            const NAMES: ShapeNames = shape_names!(concat!(stringify!($field), " rows"), $plural);
 
             fn into_body(self, beside: Self::Beside) -> Body {
                 Body::$kind(self, beside)
@@ -81,23 +94,34 @@ macro_rules! registry {
         #[allow(clippy::large_enum_variant, reason = "few shapes move, and each is read where it stands")]
         pub enum Body {
             $(#[doc = concat!("One of the ", $plural, ".")] $kind($shape, <$shape as Shape>::Beside),)+
+            /// A shape that a program adds.
+            Custom(CustomBody),
         }
 
         impl Body {
             /// The smallest t > 0 at which O + tR intersects it, or infinity.
             pub fn t(&self, origin: DVec3, direction: DVec3) -> f64 {
-                match self { $(Self::$kind(shape, _) => shape.t(origin, direction),)+ }
+                match self {
+                    $(Self::$kind(shape, _) => shape.t(origin, direction),)+
+                    Self::Custom(body) => body.0.t(origin, direction),
+                }
             }
 
             /// Which of its primitives a ray hits at this t.
             pub fn primitive_at(&self, origin: DVec3, direction: DVec3, t: f64) -> u32 {
-                match self { $(Self::$kind(shape, _) => shape.primitive_at(origin, direction, t),)+ }
+                match self {
+                    $(Self::$kind(shape, _) => shape.primitive_at(origin, direction, t),)+
+                    Self::Custom(body) => body.0.primitive_at(origin, direction, t),
+                }
             }
 
             /// Intersects a block of rays with it and keeps the closest hits.
             #[inline(always)]
             pub(crate) fn keep_closest(&self, rays: &RayBlock, number: u32, hits: ClosestHits<'_>) {
-                match self { $(Self::$kind(one, _) => keep_closest_of_one(rays, one, number, hits),)+ }
+                match self {
+                    $(Self::$kind(one, _) => keep_closest_of_one(rays, one, number, hits),)+
+                    Self::Custom(body) => body.0.keep_closest(rays, number, hits),
+                }
             }
 
             /// Intersects one ray with it, keeps the closest hit, and counts what the ray is tested against.
@@ -108,32 +132,50 @@ macro_rules! registry {
                 closest: ClosestHit,
                 counts: &mut TestCounts,
             ) -> ClosestHit {
-                match self { $(Self::$kind(one, _) => one.keep_closest_counted(ray, number, closest, 0, counts),)+ }
+                match self {
+                    $(Self::$kind(one, _) => one.keep_closest_counted(ray, number, closest, 0, counts),)+
+                    Self::Custom(body) => body.0.keep_closest_counted(ray, number, closest, counts),
+                }
             }
 
             /// The surface where a ray hits it.
             pub fn surface(&self, hit: &RayHit) -> SurfacePoint {
-                match self { $(Self::$kind(shape, beside) => shape.surface(beside, hit),)+ }
+                match self {
+                    $(Self::$kind(shape, beside) => shape.surface(beside, hit),)+
+                    Self::Custom(body) => body.0.surface(hit),
+                }
             }
 
             /// u and v where a ray hits it; `at` is what its surface has, `own` the hit in its uv space.
             pub fn uv(&self, hit: &RayHit, at: DVec3, own: DVec3) -> [f64; 2] {
-                match self { $(Self::$kind(shape, beside) => shape.uv(beside, hit, at, own),)+ }
+                match self {
+                    $(Self::$kind(shape, beside) => shape.uv(beside, hit, at, own),)+
+                    Self::Custom(body) => body.0.uv(hit, at, own),
+                }
             }
 
             /// How many times it contains a point.
             pub fn windings(&self, point: DVec3) -> u32 {
-                match self { $(Self::$kind(shape, _) => shape.windings(point),)+ }
+                match self {
+                    $(Self::$kind(shape, _) => shape.windings(point),)+
+                    Self::Custom(body) => body.0.windings(point),
+                }
             }
 
             /// A length that its inside is nowhere thinner than, but for edges and tips.
             pub fn thickness(&self) -> f64 {
-                match self { $(Self::$kind(shape, _) => shape.thickness(),)+ }
+                match self {
+                    $(Self::$kind(shape, _) => shape.thickness(),)+
+                    Self::Custom(body) => body.0.thickness(),
+                }
             }
 
             /// A box around it; none where it is infinite.
             pub fn bounds(&self) -> Option<Bounds> {
-                match self { $(Self::$kind(shape, _) => shape.bounds(),)+ }
+                match self {
+                    $(Self::$kind(shape, _) => shape.bounds(),)+
+                    Self::Custom(body) => body.0.bounds(),
+                }
             }
         }
 
@@ -191,12 +233,108 @@ macro_rules! registry {
         fn own_uv_step(kind: ShapeKind, numbers: [f64; 2], own: DVec3, step: DVec3) -> DVec3 {
             match kind {
                 $(ShapeKind::$kind => <$shape as Shape>::uv_step(numbers, own, step),)+
-                ShapeKind::Moving => DVec3::ZERO,
+                ShapeKind::Moving | ShapeKind::Custom(_) => DVec3::ZERO,
             }
         }
     };
 }
 with_shapes!(registry);
+
+/// Makes a shape one that a scene can have by `add_shape`: its number among those that a program
+/// adds, and its plural in the names of its stages.
+///
+/// Its emission is found by BSDF sampling only.
+#[macro_export]
+macro_rules! custom_shape {
+    ($shape:ty, $number:literal, $plural:literal) => {
+        impl $crate::shapes::Listed for $shape {
+            const KIND: $crate::shapes::ShapeKind = $crate::shapes::ShapeKind::Custom($number);
+            const NAMES: $crate::shapes::ShapeNames =
+                $crate::shapes::shape_names!(concat!("rows of ", $plural), $plural);
+
+            fn into_body(self, beside: <Self as $crate::shapes::Shape>::Beside) -> $crate::shapes::Body {
+                $crate::shapes::Body::custom(self, beside)
+            }
+
+            fn listed_emitter(&self, _: &<Self as $crate::shapes::Shape>::Beside) -> Option<$crate::shapes::Emitter> {
+                None
+            }
+        }
+    };
+}
+pub use custom_shape;
+
+/// A shape that a program adds where a shape may be of any kind: that of a few shapes, each of which is tested alone.
+#[derive(Clone, Debug)]
+pub struct CustomBody(Arc<dyn AnyShape>);
+
+impl PartialEq for CustomBody {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Body {
+    /// A shape that a program adds.
+    pub fn custom<S: Shape>(shape: S, beside: S::Beside) -> Self {
+        Self::Custom(CustomBody(Arc::new((shape, beside))))
+    }
+}
+
+/// What is asked of [`Body`], of a shape without its type.
+trait AnyShape: Debug + Send + Sync {
+    fn t(&self, origin: DVec3, direction: DVec3) -> f64;
+    fn primitive_at(&self, origin: DVec3, direction: DVec3, t: f64) -> u32;
+    fn keep_closest(&self, rays: &RayBlock, number: u32, hits: ClosestHits<'_>);
+    fn keep_closest_counted(
+        &self,
+        ray: [DVec3; 2],
+        number: u32,
+        closest: ClosestHit,
+        counts: &mut TestCounts,
+    ) -> ClosestHit;
+    fn surface(&self, hit: &RayHit) -> SurfacePoint;
+    fn uv(&self, hit: &RayHit, at: DVec3, own: DVec3) -> [f64; 2];
+    fn windings(&self, point: DVec3) -> u32;
+    fn thickness(&self) -> f64;
+    fn bounds(&self) -> Option<Bounds>;
+}
+
+impl<S: Shape> AnyShape for (S, S::Beside) {
+    fn t(&self, origin: DVec3, direction: DVec3) -> f64 {
+        self.0.t(origin, direction)
+    }
+    fn primitive_at(&self, origin: DVec3, direction: DVec3, t: f64) -> u32 {
+        self.0.primitive_at(origin, direction, t)
+    }
+    fn keep_closest(&self, rays: &RayBlock, number: u32, hits: ClosestHits<'_>) {
+        keep_closest_of_one(rays, &self.0, number, hits);
+    }
+    fn keep_closest_counted(
+        &self,
+        ray: [DVec3; 2],
+        number: u32,
+        closest: ClosestHit,
+        counts: &mut TestCounts,
+    ) -> ClosestHit {
+        self.0.keep_closest_counted(ray, number, closest, 0, counts)
+    }
+    fn surface(&self, hit: &RayHit) -> SurfacePoint {
+        self.0.surface(&self.1, hit)
+    }
+    fn uv(&self, hit: &RayHit, at: DVec3, own: DVec3) -> [f64; 2] {
+        self.0.uv(&self.1, hit, at, own)
+    }
+    fn windings(&self, point: DVec3) -> u32 {
+        self.0.windings(point)
+    }
+    fn thickness(&self) -> f64 {
+        self.0.thickness()
+    }
+    fn bounds(&self) -> Option<Bounds> {
+        self.0.bounds()
+    }
+}
 
 #[inline(always)]
 fn keep_closest_of_one<S: Shape>(rays: &RayBlock, one: &S, number: u32, mut hits: ClosestHits<'_>) {

@@ -222,6 +222,8 @@ pub struct ShapeNames {
     pub hierarchy: &'static str,
     /// The column that lists the rows which hit it.
     pub rows: &'static str,
+    /// The stage that lists them, of a shape that a program adds.
+    pub classify: &'static str,
     /// The stage that intersects rays with it.
     pub intersect: &'static str,
     /// The table of the pixels that each of them may cover.

@@ -1,15 +1,15 @@
 //! Mistakes in textures and environments.
 
 use bevy_ecs::prelude::*;
-use pinhole::extract::{CheckerTable, EnvironmentTable, ImageTable, NO_TEXTURE, StripesTable, TwoColours};
+use pinhole::extract::{
+    CheckerTable, EnvironmentTable, ImageTable, NO_TEXTURE, Pattern, PatternTable, StripesTable, TexturePoint,
+};
 use pinhole::film::srgb_from_linear;
 use pinhole::intersect::{Hits, MaterialRows, NO_SHAPE, Surfaces};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
-use pinhole::shade::{
-    Footprints, Radiance, SurfaceColours, TexturePoint, TexturePoints, checker_fraction, environment_radiance,
-    stripes_fraction,
-};
+use pinhole::scene::Checker;
+use pinhole::shade::{Footprints, Radiance, SurfaceColours, TexturePoints, environment_radiance};
 
 /// The step across two pixels for that across one.
 pub fn two_pixels(mut tiles: Query<&mut Footprints>) {
@@ -42,7 +42,9 @@ pub fn colours_exchanged(
     mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
 ) {
     for (surfaces, list, points, mut colours) in &mut tiles {
-        recolour(&checkers.0, surfaces, list, points, &mut colours, |at| 1.0 - checker_fraction(&at));
+        recolour(&checkers, surfaces, list, points, &mut colours, |own, at| {
+            Checker { first: own.second, second: own.first, ..*own }.colour(&at)
+        });
     }
 }
 
@@ -52,17 +54,17 @@ pub fn stripes_at_a_point(
     mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
 ) {
     for (surfaces, list, points, mut colours) in &mut tiles {
-        recolour(&stripes.0, surfaces, list, points, &mut colours, |at| stripes_fraction(&at.alone()));
+        recolour(&stripes, surfaces, list, points, &mut colours, |own, at| own.colour(&at.alone()));
     }
 }
 
-fn recolour(
-    table: &TwoColours,
+fn recolour<T: Pattern>(
+    table: &PatternTable<T>,
     surfaces: &Surfaces,
     list: &MaterialRows,
     points: &TexturePoints,
     colours: &mut SurfaceColours,
-    first_fraction: impl Fn(TexturePoint) -> f64,
+    colour: impl Fn(&T, TexturePoint) -> [f64; 3],
 ) {
     for &row in &list.row {
         let row = row as usize;
@@ -70,10 +72,7 @@ fn recolour(
         if texture == NO_TEXTURE {
             continue;
         }
-        let (first, second) = (table.first[texture as usize], table.second[texture as usize]);
-        let fraction = first_fraction(points.get(row));
-        let mixed = |part: usize| fraction * first[part] + (1.0 - fraction) * second[part];
-        (colours.r[row], colours.g[row], colours.b[row]) = (mixed(0), mixed(1), mixed(2));
+        [colours.r[row], colours.g[row], colours.b[row]] = colour(&table.pattern[texture as usize], points.get(row));
     }
 }
 
