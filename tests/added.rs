@@ -200,7 +200,7 @@ fn chalk_is_matte_without_sigma_and_agrees_with_itself_with_it() {
     let scene = floor_from_above(1, Chalk { colour, sigma: Degrees(35.0) });
     let census = Census::of(&scene);
     let table = census.table::<ChalkTable>().expect("chalk");
-    let site = Site::opaque(0, Parameters::coloured([1.0; 3]));
+    let context = ShadingContext::opaque(0, Parameters::coloured([1.0; 3]));
     for index in 0..2000 {
         let mut draws = Draws::new(9, index);
         let mut above = || {
@@ -208,7 +208,7 @@ fn chalk_is_matte_without_sigma_and_agrees_with_itself_with_it() {
             DVec3::new(direction.x, direction.y, direction.z.abs())
         };
         let (one, other) = (above(), above());
-        assert_eq!(table.eval(&site, one, other), table.eval(&site, other, one));
+        assert_eq!(table.eval(&context, one, other), table.eval(&context, other, one));
     }
     let by = |lights: LightStrategy| {
         let mut scene = floor_from_above(4096, Chalk { colour, sigma: Degrees(35.0) });
@@ -290,7 +290,7 @@ fn a_bowl_moves_and_is_found_in_a_hierarchy() {
     let mut apart = vec![f64::INFINITY; together.len()];
     for part in 0..10 {
         let some = t_of(&scene_of(&mut (part * 20..part * 20 + 20)));
-        apart.iter_mut().zip(some).for_each(|(least, t)| *least = least.min(t));
+        apart.iter_mut().zip(some).for_each(|(min, t)| *min = min.min(t));
     }
     let hits = together.iter().filter(|t| **t < f64::INFINITY).count();
     assert_eq!(together, apart);

@@ -183,7 +183,7 @@ fn bad_views_and_pixels() {
     lines.push(scene_error(&scene, "an unknown column"));
     let shapes = ["ball", "floor", "sail", "glossy", "satin", "glow"];
     let lights = ["lamp", "sun", "spot", "glow"];
-    for (word, gone) in [("surface", shapes.as_slice()), ("shadow", &lights), ("light", &lights)] {
+    for (word, gone) in [("surface", shapes.as_slice()), ("shadow hit", &lights), ("shadow ray", &lights)] {
         let mut scene = view(word);
         for name in gone {
             put(&mut scene, name, Disabled);
@@ -345,7 +345,7 @@ fn shapes_that_no_stage_on_offer_intersects() {
     let census = &Census::of(&scene);
     prepare(census, &offer()).map(|_| ()).expect("all can be hit");
     let mut refused = 0;
-    for column in ["hit", "surface", "shadow"] {
+    for column in ["hit", "surface", "shadow hit"] {
         for (table, name) in [
             ("spheres", "sphere \"ball\""),
             ("planes", "plane \"floor\""),

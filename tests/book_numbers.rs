@@ -9,7 +9,7 @@ use pinhole::plan::{Census, plan};
 use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::*;
-use pinhole::shade::{LightRays, ShadowHits};
+use pinhole::shade::{ShadowHits, ShadowRays};
 use pinhole::{Chapter, Overrides};
 use pinhole_lab::naive::euler::{pitch_yaw_roll, yaw_pitch_roll};
 use std::path::Path;
@@ -188,9 +188,9 @@ fn lit_from(place: [f64; 3]) -> [bool; 2] {
     let mut lit = [false; 2];
     for &tile in &inspection.tiles {
         let tile = inspection.world.entity(tile);
-        let (rays, shadows) = (tile.get::<LightRays>().expect("rays"), tile.get::<ShadowHits>().expect("shadows"));
+        let (rays, shadows) = (tile.get::<ShadowRays>().expect("rays"), tile.get::<ShadowHits>().expect("shadows"));
         let surfaces = tile.get::<Surfaces>().expect("surfaces");
-        for (ray, &path) in rays.path.iter().enumerate().filter(|(ray, _)| shadows.shape[*ray] == NO_SHAPE) {
+        for (ray, &path) in rays.row.iter().enumerate().filter(|(ray, _)| shadows.shape[*ray] == NO_SHAPE) {
             assert!(rays.r[ray] > 0.0);
             let slope = surfaces.get(path as usize).normal == slope_normal();
             lit[usize::from(!slope)] = true;

@@ -85,13 +85,13 @@ fn many_shapes_are_not() {
     let boxes = counts::<BoxTests>(scene(300), |column| &column.boxes);
     let primitives = counts::<PrimitiveTests>(scene(300), |column| &column.primitives);
     let depths = counts::<TraversalDepths>(scene(300), |column| &column.depth);
-    let most = |counts: &[u32]| counts.iter().copied().max().unwrap_or(0);
-    eprintln!("600 shapes: at most {} boxes, {} primitives, {} nodes", most(&boxes), most(&primitives), most(&depths));
+    let max = |counts: &[u32]| counts.iter().copied().max().unwrap_or(0);
+    eprintln!("600 shapes: at most {} boxes, {} primitives, {} nodes", max(&boxes), max(&primitives), max(&depths));
     // The plane is tested by every ray; an instance is no primitive, and each has 640 triangles.
-    assert!(primitives.iter().all(|&count| (1..300).contains(&count)) && most(&primitives) > 8);
+    assert!(primitives.iter().all(|&count| (1..300).contains(&count)) && max(&primitives) > 8);
     assert!(boxes.iter().all(|&count| count > 0 && count < 900));
     // Two levels over the shapes at least, and one in an instance.
-    assert!(most(&depths) >= 3 && most(&depths) < 20);
+    assert!(max(&depths) >= 3 && max(&depths) < 20);
     assert_eq!(boxes.len(), 48 * 32);
 }
 

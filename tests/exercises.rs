@@ -203,10 +203,10 @@ fn a_mismatch_names_input_answer_and_expected() {
 fn hints_grow_and_progress_is_kept() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("out/check.json");
-    let most = right().check(PATIENCE).hints.len();
-    for time in 1..=most + 2 {
+    let max = right().check(PATIENCE).hints.len();
+    for time in 1..=max + 2 {
         let (said, ended) = turn(&wrong(), &file);
-        assert_eq!(hints(&said), time.min(most), "{said}");
+        assert_eq!(hints(&said), time.min(max), "{said}");
         assert!(ended.is_some_and(|ended| ended.contains("is wrong for")), "{said}");
         assert_eq!(Progress::read(&file).0.of("05_pinhole").wrong as usize, time);
     }
@@ -215,7 +215,7 @@ fn hints_grow_and_progress_is_kept() {
         list_exercises(&[("05_pinhole", wrong())], file, &mut out).expect("printed");
         String::from_utf8(out).expect("UTF-8")
     };
-    assert!(list(&file).contains(&format!("tried {} times", most + 2)), "{}", list(&file));
+    assert!(list(&file).contains(&format!("tried {} times", max + 2)), "{}", list(&file));
     let (said, ended) = turn(&right(), &file);
     assert!(ended.is_none() && said.contains("is right for all") && hints(&said) == 0, "{said}");
     assert!(list(&file).contains("done"), "{}", list(&file));

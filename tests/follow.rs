@@ -120,9 +120,9 @@ fn assert_agree(what: &str, one: &[Numbers], other: &[Numbers], side: u32) -> Ag
     assert!(whole.agrees(), "{what}: the means of whole images differ, {whole:?}");
     assert!(whole.resolution < 0.1, "{what}: a whole image is known to {:.1} % only", 100.0 * whole.resolution);
     let found = agreement(one, other, side).expect("one size");
-    let Agreement { tests, apart, least, limit, resolution } = found;
+    let Agreement { tests, apart, min, limit, resolution } = found;
     eprintln!(
-        "{what}: {apart} of {tests} blocks apart, least likely {least:.1e} (limit {limit:.1e}), resolution {:.1} %",
+        "{what}: {apart} of {tests} blocks apart, least likely {min:.1e} (limit {limit:.1e}), resolution {:.1} %",
         100.0 * resolution
     );
     assert!(found.agrees(), "{what}");

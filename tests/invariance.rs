@@ -117,12 +117,12 @@ fn with_statistics(mut scene: World) -> World {
 fn pictures_show_something() {
     for (name, scene) in pictures() {
         let film = film(&scene);
-        let least = match name {
+        let min = match name {
             "ties" | "the sky" => 2,
             "unlit" => 5,
             _ => 500,
         };
-        assert!(film.colours() >= least, "{name} has only {} colours", film.colours());
+        assert!(film.colours() >= min, "{name} has only {} colours", film.colours());
         assert_eq!(film.rejected, 0, "{name}");
     }
 }
@@ -429,17 +429,19 @@ fn nearly_even_scales() {
     };
     let ellipsoids = |scene: &World| EllipsoidTable::extract(&Census::of(scene)).expect("extracts").shape.len();
     let even = film(&scene(0.0));
-    for (by, uneven) in [(1e-12, 0), (9e-10, 0), (1.1e-9, 2), (1e-8, 2)] {
+    for (by, non_uniform) in [(1e-12, 0), (9e-10, 0), (1.1e-9, 2), (1e-8, 2)] {
         let scene = scene(by);
-        assert_eq!(ellipsoids(&scene), uneven, "1 + {by:e}");
+        assert_eq!(ellipsoids(&scene), non_uniform, "1 + {by:e}");
         let film = film(&scene);
-        if uneven == 0 {
+        if non_uniform == 0 {
             film.assert_is(&even, &format!("scaled by 1 + {by:e} along z"));
         }
         let parts = |film: &FilmBits| film.pixels.iter().flat_map(|p| [p[0], p[1], p[2]]).map(f64::from_bits).collect();
         let (own, other): (Vec<f64>, Vec<f64>) = (parts(&film), parts(&even));
         let off = own.iter().zip(&other).map(|(a, b)| (a - b).abs() / b.max(0.01)).fold(0.0, f64::max);
-        eprintln!("scaled by 1 + {by:e} along z: {uneven} ellipsoids, pixels off by {off:.1e} of themselves at most");
+        eprintln!(
+            "scaled by 1 + {by:e} along z: {non_uniform} ellipsoids, pixels off by {off:.1e} of themselves at most"
+        );
         // A few rounding steps of f32, for the numbers that a pixel is made of.
         assert!(off <= 1e-6, "1 + {by:e}: a pixel is off by {off:e} of itself");
     }

@@ -181,10 +181,10 @@ fn circles_of_confusion() {
         assert!(error / truth < 0.01, "SE {} of {truth}", error / truth);
         assert!(off.abs() < 4.0, "{lens:?} at {depth}: second moment {squared}, truth {truth}, {off} SE");
         // Few points come near a corner.
-        let least = if blades == 0 { 0.95 } else { 0.9 };
+        let min = if blades == 0 { 0.95 } else { 0.9 };
         let of_mean = (squared / 2.0 / count).sqrt();
         assert!(x.abs() < 4.0 * of_mean && y.abs() < 4.0 * of_mean, "centre ({x}, {y})");
-        assert!(farthest <= radius * (1.0 + 1e-6) && farthest > least * radius, "edge {farthest}, truth {radius}");
+        assert!(farthest <= radius * (1.0 + 1e-6) && farthest > min * radius, "edge {farthest}, truth {radius}");
         told.push(format!(
             "R {radius:.1e} f {focus} z {depth} blades {blades}: {hits} hits, moment {off:+.2} SE of {:.2} %, edge {:.4}",
             100.0 * error / truth,

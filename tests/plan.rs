@@ -309,7 +309,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
     let mut scene = toggled(&[Toggle::Light, Toggle::Shadow]);
     scene.spawn((Name::new("spare"), Matte::default()));
     let plan = plan_of(&scene);
-    for stage in ["Clear light rays", "Sample point lights", "Evaluate direct light: matte"] {
+    for stage in ["Clear shadow rays", "Sample point lights", "Evaluate direct light: matte"] {
         let row = row(&plan, stage);
         assert!(!row.kept && row.reason.contains("\"spare\"") && row.reason.contains("unused"), "{row:?}");
     }

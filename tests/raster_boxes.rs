@@ -136,8 +136,7 @@ fn what_only_the_rounded_ray_hits_is_in_its_box() {
             // The image of most boxes, as such, does not reach the sample.
             let outermost = |bounds: Bounds| {
                 let axis = usize::from(is_upright);
-                bounds.least[axis].abs().max(bounds.most[axis].abs())
-                    / if is_perspective { -bounds.most.z } else { 1.0 }
+                bounds.min[axis].abs().max(bounds.max[axis].abs()) / if is_perspective { -bounds.max.z } else { 1.0 }
             };
             let bounds = cubes.row.iter().map(|cube| cube.bounds().expect("a box"));
             let beside = bounds.zip(&passed_by).filter(|&(bounds, &sample)| outermost(bounds) < sample).count();

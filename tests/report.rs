@@ -88,9 +88,9 @@ fn stated_variances_are_those_of_many_repetitions() {
             // A variance of so many repetitions is known to √(2 / 2500), 3 %; its parts are kept from falling below 0,
             // so that with few runs it is stated too large, most so for bias². Counting twice what runs and reference
             // vary together makes the first 1.29.
-            let most = if which == 0 { 1.2 } else { 1.6 };
+            let max = if which == 0 { 1.2 } else { 1.6 };
             eprintln!("{name} of {runs} runs of {samples} samples: stated {ratio:.3} of the true variance");
-            assert!((0.88..most).contains(&ratio), "{name} of {runs} runs: stated {ratio} of the true variance");
+            assert!((0.88..max).contains(&ratio), "{name} of {runs} runs: stated {ratio} of the true variance");
             tried += REPETITIONS;
         }
     }

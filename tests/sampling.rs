@@ -247,11 +247,11 @@ fn slopes_are_those_of_theory() {
         (Sampler::Sobol, 2, -1.7, -1.3),
         (Sampler::Sobol, 3, -1.7, -1.3),
     ];
-    for (sampler, which, least, greatest) in asked {
+    for (sampler, which, min, greatest) in asked {
         let (slope, half) = fitted(sampler, INTEGRANDS[which]);
         eprintln!("slope of {sampler:?}, {}: {slope:.3} ± {half:.3}", INTEGRANDS[which].name);
-        let touches = slope + 1.5 * half >= least && slope - 1.5 * half <= greatest;
-        assert!(touches, "{sampler:?}: {slope:.3} ± {half:.3}, asked {least} to {greatest}");
+        let touches = slope + 1.5 * half >= min && slope - 1.5 * half <= greatest;
+        assert!(touches, "{sampler:?}: {slope:.3} ± {half:.3}, asked {min} to {greatest}");
         if sampler == Sampler::Sobol {
             assert!(slope + half < -1.0, "not steeper than −1");
         }

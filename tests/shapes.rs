@@ -54,7 +54,7 @@ fn some_hits<S: Oracle>(seed: u64, tried: u64, mut see: impl FnMut(&Specimen<S>,
 fn check_bounds<S: Oracle>(name: &str) {
     let mut points = 0;
     some_hits::<S>(3003, 2000, |specimen, hit, _| {
-        let surface = specimen.shape.surface(&specimen.beside, hit);
+        let surface = specimen.shape.surface(&specimen.surface_data, hit);
         assert!((surface.normal.length() - 1.0).abs() < 1e-6, "{name}: {}", surface.normal);
         assert!(surface.normal.dot(hit.direction) <= 1e-6, "{name}: the normal faces the ray");
         assert!((surface.point - hit.point()).length() < 1e-6 * hit.t, "{name}: {hit:?}");
@@ -69,7 +69,7 @@ fn check_bounds<S: Oracle>(name: &str) {
         }
         let Some(bounds) = specimen.shape.bounds() else { return };
         let point = surface.point;
-        assert!(point.cmpge(bounds.least).all() && point.cmple(bounds.most).all(), "{name}: {point} in {bounds:?}");
+        assert!(point.cmpge(bounds.min).all() && point.cmple(bounds.max).all(), "{name}: {point} in {bounds:?}");
         let (centre, radius) = specimen.shape.bounding_sphere().expect("as finite as its box");
         assert!((point - centre).length() <= radius * (1.0 + 1e-9), "{name}: {point}");
     });
@@ -88,7 +88,7 @@ fn check_tightness<S: Oracle>(name: &str) {
         let (Some(bounds), Some((centre, radius))) = (specimen.shape.bounds(), specimen.shape.bounding_sphere()) else {
             continue;
         };
-        let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         // The points that come nearest to the six sides; half the rays are aimed close to one of them, so that tips are
         // found.
         let mut nearest = [centre; 6];
@@ -96,19 +96,19 @@ fn check_tightness<S: Oracle>(name: &str) {
             let origin = centre + draws.unit_vector() * (2.0 * radius);
             let at = DVec3::new(draws.unit(), draws.unit(), draws.unit());
             let around = draws.unit_vector() * (radius * draws.power_of_ten(-3.0, -0.5));
-            let anywhere = bounds.least + at * (bounds.most - bounds.least);
+            let anywhere = bounds.min + at * (bounds.max - bounds.min);
             let aim = if ray % 2 == 0 { anywhere } else { nearest[ray as usize / 2 % 6] + around };
             let direction = (aim - origin).normalize();
             if let Some(hit) = specimen.hit(origin, direction) {
                 for (side, nearest) in nearest.iter_mut().enumerate() {
                     let (axis, point) = (side / 2, hit.point());
-                    let further = if side % 2 == 0 { point[axis] < least[axis] } else { point[axis] > most[axis] };
+                    let further = if side % 2 == 0 { point[axis] < min[axis] } else { point[axis] > max[axis] };
                     *nearest = if further { point } else { *nearest };
                 }
-                (least, most) = (least.min(hit.point()), most.max(hit.point()));
+                (min, max) = (min.min(hit.point()), max.max(hit.point()));
             }
         }
-        let loose = (least - bounds.least).max_element().max((bounds.most - most).max_element());
+        let loose = (min - bounds.min).max_element().max((bounds.max - max).max_element());
         assert!(loose < 0.1 * radius, "{name}: {bounds:?} is loose by {loose}");
     }
     eprintln!("bounds of {name}: {RAYS} rays each come near all sides");
@@ -122,7 +122,7 @@ fn check_error_bounds<S: Oracle>(name: &str) {
         let Some(specimen) = Specimen::<S>::drawn(&mut draws, [0.0, 0.0], 0.02) else { continue };
         let (origin, direction) = (draws.unit_vector() * 0.001, draws.unit_vector());
         let Some(hit) = specimen.hit(origin, direction) else { continue };
-        let surface = specimen.shape.surface(&specimen.beside, &hit);
+        let surface = specimen.shape.surface(&specimen.surface_data, &hit);
         let rounding = (surface.point.as_vec3().as_dvec3() - surface.point).length();
         assert!(rounding <= f64::from(surface.bound), "{name}: {} for {rounding:e} at {hit:?}", surface.bound);
         points += 1;
@@ -166,13 +166,13 @@ fn check_motion<S: Oracle>(name: &str) {
         let displacement = draws.unit_vector() * 0.1;
         let placement = Placement { position: specimen.placement.position + displacement, ..specimen.placement };
         let there = Specimen::<S>::of(specimen.component.clone(), placement).expect("an accepted shape");
-        let moved = specimen.shape.clone().into_body(specimen.beside.clone());
+        let moved = specimen.shape.clone().into_any_shape(specimen.surface_data.clone());
         let rest = hit.origin - displacement;
         let (t, standing) = (moved.t(rest, hit.direction), there.shape.t(hit.origin, hit.direction));
         assert!(t == standing || (t - standing).abs() < 1e-6 * standing, "{name}: {t} for {standing}");
         let Some(hit) = there.hit(hit.origin, hit.direction) else { return };
         let surface = moved.surface(&RayHit { origin: rest, displacement, ..hit });
-        let still = there.shape.surface(&there.beside, &hit);
+        let still = there.shape.surface(&there.surface_data, &hit);
         assert!((surface.point + displacement - still.point).length() < 1e-9 * hit.t, "{name}");
         assert!((surface.normal - still.normal).length() < 1e-6 && surface.outside == still.outside, "{name}");
         rays += 1;
@@ -195,17 +195,17 @@ fn check_uv_slopes<S: Oracle>(name: &str) {
         let entity = pinhole::extract::shape_entities(&census)[0];
         let own_from_world = pose(&census, "", entity).expect("a pose").entity_from_world;
         let uv_from_world = S::uv_from_world(&specimen.component, own_from_world);
-        let (at, origin) = (specimen.shape.surface(&specimen.beside, hit), specimen.placement.position);
+        let (at, origin) = (specimen.shape.surface(&specimen.surface_data, hit), specimen.placement.position);
         let across = draws.unit_vector_across(at.normal.normalize()) * STEP;
         let Some(next) = specimen.hit(hit.origin + across, hit.direction) else { return };
-        let after = specimen.shape.surface(&specimen.beside, &next);
+        let after = specimen.shape.surface(&specimen.surface_data, &next);
         let step = after.point - at.point;
         let uv = |hit: &RayHit, at: DVec3| {
-            specimen.shape.uv(&specimen.beside, hit, at, uv_from_world * (hit.point() - origin))
+            specimen.shape.uv(&specimen.surface_data, hit, at, uv_from_world * (hit.point() - origin))
         };
         let (before, after_uv) = (uv(hit, at.at), uv(&next, after.at));
-        let slope = match specimen.shape.uv_slope(&specimen.beside, uv_from_world) {
-            UvSlope::OfPrimitive => specimen.shape.uv_slope_of(&specimen.beside, hit.primitive),
+        let slope = match specimen.shape.uv_slope(&specimen.surface_data, uv_from_world) {
+            UvSlope::OfPrimitive => specimen.shape.uv_slope_of(&specimen.surface_data, hit.primitive),
             slope => slope,
         };
         let own = own_from_world * (at.point - origin);
@@ -235,13 +235,14 @@ fn check_light<S: Oracle>(name: &str) {
     for index in 0..6 {
         let mut draws = Draws::new(3007, index);
         let Some(specimen) = Specimen::<S>::drawn(&mut draws, [0.0, 0.0], 2.0) else { continue };
-        let (Some(light), Some(bounds)) = (specimen.shape.emitter(&specimen.beside), specimen.shape.bounds()) else {
+        let (Some(light), Some(bounds)) = (specimen.shape.emitter(&specimen.surface_data), specimen.shape.bounds())
+        else {
             continue;
         };
         let (centre, radius) = specimen.shape.bounding_sphere().expect("as finite as its box");
         let from = centre + draws.unit_vector() * (radius * [1.1, 1.5, 8.0][index as usize % 3]);
         let cell = |point: DVec3| {
-            let at = (point - bounds.least) / (bounds.most - bounds.least) * CELLS as f64;
+            let at = (point - bounds.min) / (bounds.max - bounds.min) * CELLS as f64;
             at.to_array().into_iter().fold(0, |cell, part| cell * CELLS + (part.max(0.0) as usize).min(CELLS - 1))
         };
         let visible = |to: DVec3| specimen.shape.t(from, to) > 1.0 - 1e-6;
@@ -293,8 +294,8 @@ fn points_of_lights_fall_as_their_pdfs_say() {
 /// How flat a cylinder and a cone may be scaled: the longest half axis, √2 long, over the shortest and over 3.
 #[test]
 fn a_shape_is_refused_only_where_it_is_too_thin() {
-    fn is_placed<S: Oracle>(least: f64) -> bool {
-        let placement = Placement { scale: DVec3::new(1.0, least, 1.0), ..Placement::default() };
+    fn is_placed<S: Oracle>(min: f64) -> bool {
+        let placement = Placement { scale: DVec3::new(1.0, min, 1.0), ..Placement::default() };
         Specimen::<S>::of(S::Component::default(), placement).is_some()
     }
     let limit = 2.0_f64.sqrt() / 3.0 / 1e6;

@@ -65,9 +65,9 @@ pub fn drawn(course: &Course) -> String {
 fn depths(course: &Course) -> Vec<usize> {
     let (mut depths, mut taken): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
     for chapter in &course.chapters {
-        let least = chapter.needs.iter().map(|&need| depths[need] + 1).max().unwrap_or(0);
-        taken.resize(taken.len().max(least + 1), 0);
-        let depth = (least..taken.len()).find(|&depth| taken[depth] < BESIDE).unwrap_or(taken.len());
+        let min = chapter.needs.iter().map(|&need| depths[need] + 1).max().unwrap_or(0);
+        taken.resize(taken.len().max(min + 1), 0);
+        let depth = (min..taken.len()).find(|&depth| taken[depth] < BESIDE).unwrap_or(taken.len());
         taken.resize(taken.len().max(depth + 1), 0);
         taken[depth] += 1;
         depths.push(depth);

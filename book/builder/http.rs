@@ -42,7 +42,7 @@ pub fn show(
 #[cfg(test)]
 pub mod tests {
     use super::*;
-    use pinhole_live::{LONGEST_HEAD, MOST_CONNECTIONS, PATIENCE};
+    use pinhole_live::{LONGEST_HEAD, MAX_CONNECTIONS, PATIENCE};
     use std::fs;
     use std::io::{Read, Write};
     use std::thread::sleep;
@@ -125,7 +125,7 @@ pub mod tests {
         let start = Instant::now();
         let silent: Vec<_> = (0..300).map(|_| connect(port)).collect();
         assert!(asked(port, "GET /page.txt").starts_with("HTTP/1.1 200"));
-        for old in &silent[..300 - MOST_CONNECTIONS] {
+        for old in &silent[..300 - MAX_CONNECTIONS] {
             assert_eq!(rest(old), 0, "the oldest make room");
         }
         assert!(start.elapsed() < PATIENCE / 2, "{:?}", start.elapsed());

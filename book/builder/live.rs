@@ -16,7 +16,7 @@ use tokio::sync::oneshot::{self, Receiver, Sender};
 const PATIENCE: Duration = Duration::from_secs(8);
 
 /// The most frames that are waited for at once.
-const MOST_WAITING: usize = 32;
+const MAX_WAITING: usize = 32;
 
 /// Who waits for which number, until the program ends.
 type Waiting = Arc<Mutex<Option<BTreeMap<u64, Sender<Answer>>>>>;
@@ -109,7 +109,7 @@ impl State {
         let Some(running) = &mut self.running else { return Err(io::ErrorKind::NotConnected.into()) };
         let (sender, receiver) = oneshot::channel();
         if let Some(waiting) = lock(&running.waiting).as_mut() {
-            if waiting.len() >= MOST_WAITING {
+            if waiting.len() >= MAX_WAITING {
                 return Err(io::Error::other("too many frames are asked for at once"));
             }
             waiting.insert(self.number, sender);

@@ -171,8 +171,9 @@ fn questions_of(page: &Page) -> Vec<Question> {
     scan.prose().filter_map(of_line).collect()
 }
 
+/// The words of a command as a shell reads them: those within quotes are one.
 fn words_of(command: &str) -> Vec<String> {
-    command.split_whitespace().map(str::to_owned).collect()
+    shlex::split(command).unwrap_or_else(|| command.split_whitespace().map(str::to_owned).collect())
 }
 
 fn printed(run: &Run, command: &str, words: &[String]) -> Result<Vec<u8>, String> {

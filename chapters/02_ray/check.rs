@@ -129,7 +129,7 @@ fn question() -> Question<Vector, Option<Vector>> {
             .when(|&v| unit(v).map(|_| scaled(v, v[0].max(v[1]).max(v[2]))))
             .when(|&v| unit(v).map(|_| scaled(v, v[0].max(v[1]).max(v[2]))).filter(|&v| finite(v)))
             .say("the vector is divided by its smallest part, which may be 0; the largest is meant")
-            .when(|&v| unit(v).map(|_| scaled(v, v.iter().fold(f64::MAX, |least, part| part.abs().min(least)))))
+            .when(|&v| unit(v).map(|_| scaled(v, v.iter().fold(f64::MAX, |min, part| part.abs().min(min)))))
             .say("the vector is handed back as it is")
             .when(|&v| unit(v).map(|_| v))
             .say("the direction is turned about")

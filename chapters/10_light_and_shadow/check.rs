@@ -9,7 +9,7 @@ use pinhole::lights;
 use pinhole::lights::PlacedPointLight;
 use pinhole::material::{MatteTable, lambertian};
 use pinhole::plan::{Column, Shared};
-use pinhole::shade::{LightRays, Radiance, ShadowHits};
+use pinhole::shade::{Radiance, ShadowHits, ShadowRays};
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes,
@@ -223,10 +223,10 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
         direct_light_stage::<MatteTable>,
         move |materials: Res<Shared<MaterialTable>>,
               lights: Res<Shared<PointLightTable>>,
-              mut tiles: Query<(RowPlaces, &Surfaces, &LightRays, Option<&ShadowHits>, &mut Radiance)>| {
+              mut tiles: Query<(RowPlaces, &Surfaces, &ShadowRays, Option<&ShadowHits>, &mut Radiance)>| {
             for (place, surfaces, rays, shadows, mut radiance) in &mut tiles {
                 for ray in (0..rays.rows()).filter(|&ray| shadows.is_none_or(|hits| hits.shape[ray] == NO_SHAPE)) {
-                    let row = rays.path[ray] as usize;
+                    let row = rays.row[ray] as usize;
                     let surface = surfaces.get(row);
                     let (position, normal) = (surface.position.as_dvec3(), surface.normal.as_dvec3());
                     let Some(light) = in_direction(&lights.row, position, rays.direction_of(ray)) else {

@@ -5,8 +5,9 @@
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
 use pinhole::{Chapter, follow, shade, stages};
+use std::process::ExitCode;
 
-fn main() -> pinhole::Result {
+fn main() -> ExitCode {
     pinhole::run(chapter())
 }
 
@@ -19,7 +20,7 @@ pub fn chapter() -> Chapter {
         .offer(stages::surfaces())
         .offer(shade::start_stage())
         .offer(shade::background_stage())
-        .offer(shade::start_light_stage())
+        .offer(shade::start_shadow_rays_stage())
         .offer(shade::point_light_stage())
         .offer(shade::start_shadow_stage())
         .offer(shade::sphere_shadow_stage())

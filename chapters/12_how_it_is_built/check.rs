@@ -181,8 +181,8 @@ fn words(name: &str, needed: bool, reads: &str, writes: &str) -> StageWords {
 /// Stages that read and write anything; the plan refuses those in which a reader finds no writer before it.
 fn made_up(seed: u64, index: u64, count: usize) -> Input {
     let mut draws = Draws::new(seed, index);
-    let mut some = |most: f64| -> Vec<String> {
-        let count = draws.between(0.0, most) as usize;
+    let mut some = |max: f64| -> Vec<String> {
+        let count = draws.between(0.0, max) as usize;
         let mut columns: Vec<String> =
             (0..count).map(|_| COLUMNS[draws.between(0.0, COLUMNS.len() as f64) as usize].into()).collect();
         columns.dedup();

@@ -8,8 +8,9 @@ use pinhole::plan::{Stage, TileSystems, column};
 use pinhole::rays::WorldRays;
 use pinhole::scene::*;
 use pinhole::{Chapter, stages};
+use std::process::ExitCode;
 
-fn main() -> pinhole::Result {
+fn main() -> ExitCode {
     pinhole::run(chapter())
 }
 

@@ -27,18 +27,18 @@ pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], [f64; 3]) -> Answer;
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::rendered("nearest_box_t", question, move |&(o, d, least, most)| yours(o, d, least, most), mine)
+    Exercise::rendered("nearest_box_t", question, move |&(o, d, min, max)| yours(o, d, min, max), mine)
 }
 
 fn question() -> Question<Input, Answer> {
     Question {
         pinhole_has: ("src/pinhole/shapes/cuboid.rs", "fn slab"),
         probes: asked(),
-        tell: |(origin, direction, least, most)| {
-            let [origin, direction, least, most] = [origin, direction, least, most].map(Shown::shown);
-            format!("origin {origin}, direction {direction}, least {least}, most {most}")
+        tell: |(origin, direction, min, max)| {
+            let [origin, direction, min, max] = [origin, direction, min, max].map(Shown::shown);
+            format!("origin {origin}, direction {direction}, least {min}, most {max}")
         },
-        right: |&(o, d, least, most)| cuboid_hit(single(o), single(d), &slabs(least, most)).map(|(t, _)| t.to_f64()),
+        right: |&(o, d, min, max)| cuboid_hit(single(o), single(d), &slabs(min, max)).map(|(t, _)| t.to_f64()),
         apart: |yours, right| option(yours, right, |yours, right| relative(&[*yours], &[*right])),
         allowed: 1e-12,
         measured: "of t",
@@ -117,8 +117,8 @@ fn mistakes() -> Mistakes<Input, Answer> {
         .say("the faces are put a whole size from the centre; half the size is meant")
         .when(|&(o, d, l, m)| {
             let half = (DVec3::from(m) - DVec3::from(l)) / 2.0;
-            let (least, most) = ((DVec3::from(l) - half).into(), (DVec3::from(m) + half).into());
-            by_slabs(&(o, d, least, most), Zero::Checked, &sorted, &common)
+            let (min, max) = ((DVec3::from(l) - half).into(), (DVec3::from(m) + half).into());
+            by_slabs(&(o, d, min, max), Zero::Checked, &sorted, &common)
         });
     let hit = Part::<[Span; 1], Answer>::new(|&[span]| ahead(span))
         .say("what lies behind the origin is hit too: only t above 0 counts")
@@ -136,7 +136,7 @@ fn mistakes() -> Mistakes<Input, Answer> {
         .when(|&[span]| span?.into_iter().find(|&t| t >= 0.0));
     Mistakes::<Input, Answer>::new()
         .say("a ray through an edge or in a face is lost: they belong to the box, so compare with ≤")
-        .when(|i| faces_hit(i, |least, at, most| least < at && at < most).reduce(f64::min))
+        .when(|i| faces_hit(i, |min, at, max| min < at && at < max).reduce(f64::min))
         .say(
             "the direction is brought to length 1 and t is left so; t counts in lengths of the direction as it \
                  was given",
@@ -144,9 +144,9 @@ fn mistakes() -> Mistakes<Input, Answer> {
         .when(|i| ahead(span(i)).map(|t| t * DVec3::from(i.1).length()))
         .say("the ray is not yet inside where it enters the first slab, only where it enters the last slab")
         .when(|input| {
-            let &(o, d, least, most) = input;
+            let &(o, d, min, max) = input;
             span(input)?;
-            let near = |axis: usize| f64::min((least[axis] - o[axis]) / d[axis], (most[axis] - o[axis]) / d[axis]);
+            let near = |axis: usize| f64::min((min[axis] - o[axis]) / d[axis], (max[axis] - o[axis]) / d[axis]);
             (0..3).filter(|&axis| d[axis] != 0.0).map(near).filter(|&t| t > 0.0).reduce(f64::min)
         })
         .say("the nearest of the six planes counts, though the ray may hit it beside the box")
@@ -155,8 +155,8 @@ fn mistakes() -> Mistakes<Input, Answer> {
             (0..3).flat_map(of_axis).filter(|t| *t > 0.0 && t.is_finite()).reduce(f64::min)
         })
         .say("the first or last face that is found counts; the ray hits two of them, and the nearer one is meant")
-        .when(|i| faces_hit(i, |least, at, most| least <= at && at <= most).last())
-        .when(|i| faces_hit(i, |least, at, most| least <= at && at <= most).next())
+        .when(|i| faces_hit(i, |min, at, max| min <= at && at <= max).last())
+        .when(|i| faces_hit(i, |min, at, max| min <= at && at <= max).next())
         .of_parts([inside], hit)
 }
 
@@ -177,7 +177,7 @@ enum Zero {
 
 /// From where to where a ray is inside: of each slab's quotients, and of the slabs together.
 fn spans(
-    &(o, d, least, most): &Input,
+    &(o, d, min, max): &Input,
     zero: Zero,
     of_slab: &dyn Fn([f64; 2], f64) -> [f64; 2],
     together: &dyn Fn([f64; 2], [f64; 2]) -> [f64; 2],
@@ -185,8 +185,8 @@ fn spans(
     let mut span: Span = None;
     for axis in 0..3 {
         if d[axis] == 0.0 && !matches!(zero, Zero::Divided | Zero::Lost) {
-            let outside = o[axis] < least[axis] || o[axis] > most[axis];
-            let in_face = o[axis] == least[axis] || o[axis] == most[axis];
+            let outside = o[axis] < min[axis] || o[axis] > max[axis];
+            let in_face = o[axis] == min[axis] || o[axis] == max[axis];
             match zero {
                 Zero::Missed => return None,
                 Zero::Checked | Zero::Within if outside => return None,
@@ -194,7 +194,7 @@ fn spans(
                 _ => continue,
             }
         }
-        let quotients = [least, most].map(|face| (face[axis] - o[axis]) / d[axis]);
+        let quotients = [min, max].map(|face| (face[axis] - o[axis]) / d[axis]);
         if zero == Zero::Lost && quotients.iter().any(|t| t.is_nan()) {
             return None;
         }
@@ -231,18 +231,18 @@ fn ahead(span: Span) -> Answer {
 }
 
 /// Where the ray hits a face, face by face: whether a coordinate is between the other faces is told by a function.
-fn faces_hit(&(o, d, least, most): &Input, between: fn(f64, f64, f64) -> bool) -> impl Iterator<Item = f64> {
-    let faces = (0..3).flat_map(move |axis| [least, most].map(|face| (axis, (face[axis] - o[axis]) / d[axis])));
+fn faces_hit(&(o, d, min, max): &Input, between: fn(f64, f64, f64) -> bool) -> impl Iterator<Item = f64> {
+    let faces = (0..3).flat_map(move |axis| [min, max].map(|face| (axis, (face[axis] - o[axis]) / d[axis])));
     let is_hit = move |&(axis, t): &(usize, f64)| {
-        let is_within = |other| other == axis || between(least[other], o[other] + t * d[other], most[other]);
+        let is_within = |other| other == axis || between(min[other], o[other] + t * d[other], max[other]);
         t > 0.0 && t.is_finite() && (0..3).all(is_within)
     };
     faces.filter(is_hit).map(|(_, t)| t)
 }
 
 fn asked() -> Vec<Probe<Input>> {
-    let (least, most) = ([-1.0, -2.0, -4.0], [1.0, 2.0, -2.0]);
-    let at = |origin, direction| (origin, direction, least, most);
+    let (min, max) = ([-1.0, -2.0, -4.0], [1.0, 2.0, -2.0]);
+    let at = |origin, direction| (origin, direction, min, max);
     let mut asked: Vec<_> = probes("straight at a face", [at([0.25, 0.5, 0.0], [0.0, 0.0, -1.0])]).collect();
     asked.extend(probes("past the box", [at([3.0, 0.0, 0.0], [0.0, 0.0, -1.0])]));
     asked.extend(probes(
@@ -280,15 +280,15 @@ fn asked() -> Vec<Probe<Input>> {
 }
 
 /// Whether the ray runs in the plane of a face, where the textbook's formula divides 0 by 0.
-fn is_in_face(&(o, d, least, most): &Input) -> bool {
-    (0..3).any(|axis| d[axis] == 0.0 && (o[axis] == least[axis] || o[axis] == most[axis]))
+fn is_in_face(&(o, d, min, max): &Input) -> bool {
+    (0..3).any(|axis| d[axis] == 0.0 && (o[axis] == min[axis] || o[axis] == max[axis]))
 }
 
 /// A box and a ray of numbers with few digits, mostly at it; directions are powers of two or 0, so that no quotient rounds.
 fn drawn(index: u64) -> Input {
     let mut draws = Draws::new(313, index);
     let mut step = |range: f64| (draws.unit() * range * 2.0 - range).round() / 8.0;
-    let least = [step(32.0), step(32.0), step(32.0)];
+    let min = [step(32.0), step(32.0), step(32.0)];
     let size = [step(16.0), step(16.0), step(16.0)].map(|part| part.abs() + 0.125);
     let origin = [step(64.0), step(64.0), step(64.0)];
     let direction = [step(20.0), step(20.0), step(20.0)].map(|part: f64| match part.abs() {
@@ -297,7 +297,7 @@ fn drawn(index: u64) -> Input {
         _ => 2.0 * part.signum(),
     });
     let direction = if direction == [0.0; 3] { [0.0, 0.0, -1.0] } else { direction };
-    (origin, direction, least, [0, 1, 2].map(|axis| least[axis] + size[axis]))
+    (origin, direction, min, [0, 1, 2].map(|axis| min[axis] + size[axis]))
 }
 
 fn single(v: [f64; 3]) -> Vec3 {
@@ -305,10 +305,10 @@ fn single(v: [f64; 3]) -> Vec3 {
 }
 
 /// Exact: all these numbers have few digits.
-fn slabs(least: [f64; 3], most: [f64; 3]) -> Slabs {
-    let (least, most) = (DVec3::from(least), DVec3::from(most));
-    let half = (most - least) / 2.0;
-    Slabs::new((least + most) / 2.0, DVec3::AXES, [DVec3::X * half.x, DVec3::Y * half.y, DVec3::Z * half.z])
+fn slabs(min: [f64; 3], max: [f64; 3]) -> Slabs {
+    let (min, max) = (DVec3::from(min), DVec3::from(max));
+    let half = (max - min) / 2.0;
+    Slabs::new((min + max) / 2.0, DVec3::AXES, [DVec3::X * half.x, DVec3::Y * half.y, DVec3::Z * half.z])
 }
 
 /// The nearest cuboid of each ray, each asked in its own axes about its own centre.

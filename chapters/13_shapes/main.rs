@@ -6,8 +6,9 @@ use bevy_ecs::prelude::*;
 use pinhole::scene::*;
 use pinhole::{Chapter, intersect, stages};
 use std::f64::consts::FRAC_1_SQRT_2;
+use std::process::ExitCode;
 
-fn main() -> pinhole::Result {
+fn main() -> ExitCode {
     pinhole::run(chapter())
 }
 

@@ -7,7 +7,7 @@ use pinhole::intersect::{Hits, ShadingNormals, Surfaces, falling_cosine};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole::shade;
-use pinhole::shade::LightRays;
+use pinhole::shade::ShadowRays;
 use pinhole::shapes::{ShapeKind, TriangleHit};
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{
@@ -239,10 +239,10 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
             Res<Shared<VertexNormalTable>>,
             Res<Shared<ShapeTable>>,
         ),
-              mut tiles: Query<(RowPlaces, &WorldRays, &Hits, &Surfaces, &ShadingNormals, &mut LightRays)>| {
+              mut tiles: Query<(RowPlaces, &WorldRays, &Hits, &Surfaces, &ShadingNormals, &mut ShadowRays)>| {
             for (place, eye, hits, surfaces, shading, mut rays) in &mut tiles {
                 for ray in 0..rays.rows() {
-                    let row = rays.path[ray] as usize;
+                    let row = rays.row[ray] as usize;
                     let (shape, to_light) = (hits.shape[row] as usize, rays.direction_of(ray));
                     if shapes.kind[shape] != ShapeKind::Triangle {
                         continue;

@@ -8,7 +8,7 @@ use pinhole::intersect::{NO_SHAPE, Surfaces};
 use pinhole::material::{PhongTable, half_vector_cosine, highlight, lambertian, mirror_cosine, phong_peak};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
-use pinhole::shade::{LightRays, Radiance, ShadowHits};
+use pinhole::shade::{Radiance, ShadowHits, ShadowRays};
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, extremes, probes,
@@ -180,9 +180,9 @@ fn asked() -> Vec<Probe<Input>> {
             let colour = draws.unit();
             let material = [colour, (1.0 - colour) * draws.unit(), draws.power_of_ten(low, high)];
             let normal = draws.unit_vector();
-            let direction = |draws: &mut Draws, least: f64| {
+            let direction = |draws: &mut Draws, min: f64| {
                 let along = draws.unit_vector_across(normal);
-                (along + normal * draws.between(least, 2.0)).normalize()
+                (along + normal * draws.between(min, 2.0)).normalize()
             };
             let (to_light, mut to_eye) = (direction(&mut draws, -0.3), direction(&mut draws, 0.05));
             if at % 2 == 0 {
@@ -266,10 +266,10 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::instead(
         direct_light_stage::<PhongTable>,
         move |(materials, phong): (Res<Shared<MaterialTable>>, Res<Shared<PhongTable>>),
-              mut tiles: Query<(RowPlaces, &WorldRays, &Surfaces, &LightRays, Option<&ShadowHits>, &mut Radiance)>| {
+              mut tiles: Query<(RowPlaces, &WorldRays, &Surfaces, &ShadowRays, Option<&ShadowHits>, &mut Radiance)>| {
             for (place, eye, surfaces, rays, shadows, mut radiance) in &mut tiles {
                 for ray in (0..rays.rows()).filter(|&ray| shadows.is_none_or(|hits| hits.shape[ray] == NO_SHAPE)) {
-                    let row = rays.path[ray] as usize;
+                    let row = rays.row[ray] as usize;
                     let surface = surfaces.get(row);
                     let material = surface.material as usize;
                     if materials.kind[material] != MaterialKind::Phong {

@@ -129,10 +129,10 @@ fn question() -> Question<Input, f64> {
 }
 
 fn asked() -> Vec<Probe<Input>> {
-    let anywhere = |seed, most: f64| {
+    let anywhere = |seed, max: f64| {
         (0..40).map(move |at| {
             let mut draws = Draws::new(seed, at);
-            (draws.between(-most, most), draws.between(0.01, 8.0))
+            (draws.between(-max, max), draws.between(0.01, 8.0))
         })
     };
     let mut asked: Vec<_> = probes("inside a stripe", [(0.5, 0.5), (1.5, 0.25), (2.25, 0.125)]).collect();
@@ -165,11 +165,11 @@ fn sampling() -> impl Iterator<Item = fn(&Input) -> f64> {
         [sampled::<100, 0>, sampled::<100, 1>, sampled::<100, 2>, sampled::<256, 0>, sampled::<256, 1>];
     let many: [fn(&Input) -> f64; 5] =
         [sampled::<1000, 0>, sampled::<1000, 1>, sampled::<1000, 2>, sampled::<1024, 0>, sampled::<1001, 2>];
-    let most: [fn(&Input) -> f64; 5] =
+    let max: [fn(&Input) -> f64; 5] =
         [sampled::<10_000, 0>, sampled::<10_000, 1>, sampled::<10_000, 2>, sampled::<4096, 0>, sampled::<101, 2>];
     let others: [fn(&Input) -> f64; 5] =
         [sampled::<20, 0>, sampled::<32, 0>, sampled::<50, 0>, sampled::<200, 0>, sampled::<500, 0>];
-    [few, some, many, most, others].into_iter().flatten()
+    [few, some, many, max, others].into_iter().flatten()
 }
 
 /// By the area under the stripes from 0, and by whether the stripe at x is an even one where there is no width.
@@ -185,7 +185,7 @@ fn zigzag(x: f64) -> f64 {
 }
 
 /// A width that rounding makes of none, in stripes.
-const LEAST: f64 = 1e-6;
+const MIN: f64 = 1e-6;
 
 /// Colours of checkers: a checker is the product of stripes along its three axes.
 fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
@@ -206,7 +206,7 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                     let mean = |axis: usize| {
                         let (x, width) = (at.point[axis], box_width(right[axis], down[axis]));
                         // Along the floor's normal a pixel covers nothing but rounding, which no mean can be taken over.
-                        if width < LEAST {
+                        if width < MIN {
                             wave_mean(x, width)
                         } else {
                             ask.at(place, row, (x, width)).unwrap_or_default()

@@ -5,8 +5,9 @@
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
 use pinhole::{Chapter, stages};
+use std::process::ExitCode;
 
-fn main() -> pinhole::Result {
+fn main() -> ExitCode {
     pinhole::run(chapter())
 }
 

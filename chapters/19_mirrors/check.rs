@@ -137,7 +137,7 @@ fn mine(ask: Ask<Input, Vector>, _: &Setting<'_>) -> StandIn {
                 // Rough metal has a pdf, a mirror has none.
                 for ray in (0..scattered.rows()).filter(|&ray| scattered.pdf[ray] == f64::INFINITY).collect::<Vec<_>>()
                 {
-                    let row = scattered.path[ray] as usize;
+                    let row = scattered.row[ray] as usize;
                     let normal = surfaces.get(row).normal.as_dvec3();
                     if let Some(direction) = ask.at(place, row, (rays.direction_of(row).into(), normal.into())) {
                         let direction = DVec3::from(direction).as_vec3();

@@ -189,7 +189,7 @@ fn mine(ask: Ask<Input, Option<Vector>>, _: &Setting<'_>) -> StandIn {
         move |glass: Res<Shared<GlassTable>>, mut tiles: Query<(RowPlaces, &WorldRays, &Surfaces, &mut Scattered)>| {
             for (place, rays, surfaces, mut scattered) in &mut tiles {
                 for ray in 0..scattered.rows() {
-                    let row = scattered.path[ray] as usize;
+                    let row = scattered.row[ray] as usize;
                     let (direction, normal) = (rays.direction_of(row), surfaces.get(row).normal.as_dvec3());
                     let bent = DVec3::new(
                         f64::from(scattered.dx[ray]),

@@ -7,7 +7,7 @@ use pinhole::intersect::Surfaces;
 use pinhole::plan::Shared;
 use pinhole::rays::{Depth, SampleNumber, draws_of_two};
 use pinhole::sample::Purpose;
-use pinhole::shade::{LightRays, irradiance_from_area, shadow_t_max};
+use pinhole::shade::{ShadowRays, irradiance_from_area, shadow_t_max};
 use pinhole::shapes::Emitter;
 use pinhole::shapes::emitter::{Parallelogram, parallelogram_area_point, pdf_from_area};
 use pinhole::{rays, shade};
@@ -176,13 +176,13 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
         shade::area_light_stage,
         move |(lights, sampling): (Res<Shared<AreaLightTable>>, Res<Shared<SamplingTable>>),
               mut points: Local<Vec<[f64; 2]>>,
-              mut tiles: Query<(RowPlaces, Option<&SampleNumber>, Option<&Depth>, &Surfaces, &mut LightRays)>| {
+              mut tiles: Query<(RowPlaces, Option<&SampleNumber>, Option<&Depth>, &Surfaces, &mut ShadowRays)>| {
             for (place, number, depth, surfaces, mut rays) in &mut tiles {
                 let ((tile, samples, paths), depth) = (place, depth.copied().unwrap_or_default());
                 let draws = rays::Draws { sampling: &sampling, tile, number, samples, paths, depth };
-                draws_of_two(&draws, Purpose::LightPoint, &rays.path, &mut points);
+                draws_of_two(&draws, Purpose::LightPoint, &rays.row, &mut points);
                 for (ray, &u) in points.iter().enumerate() {
-                    let row = rays.path[ray] as usize;
+                    let row = rays.row[ray] as usize;
                     let from = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));
                     let direction = rays.direction_of(ray);
                     let rectangles = lights.emitter.iter().enumerate().filter_map(rectangle);

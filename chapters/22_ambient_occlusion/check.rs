@@ -8,7 +8,7 @@ use pinhole::material::{cosine_direction, frame_of};
 use pinhole::plan::Shared;
 use pinhole::rays::{Depth, SampleNumber, draws_of_two};
 use pinhole::sample::Purpose;
-use pinhole::shade::LightRays;
+use pinhole::shade::ShadowRays;
 use pinhole::{follow, rays};
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{
@@ -151,13 +151,13 @@ fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
         follow::sky_rays_stage,
         move |sampling: Res<Shared<SamplingTable>>,
               mut points: Local<Vec<[f64; 2]>>,
-              mut tiles: Query<(RowPlaces, Option<&SampleNumber>, &Surfaces, &mut LightRays)>| {
+              mut tiles: Query<(RowPlaces, Option<&SampleNumber>, &Surfaces, &mut ShadowRays)>| {
             for (place, number, surfaces, mut rays) in &mut tiles {
                 let (tile, samples, _) = place;
                 let draws = rays::Draws { sampling: &sampling, tile, number, samples, paths: None, depth: Depth(0) };
-                draws_of_two(&draws, Purpose::Direction, &rays.path, &mut points);
+                draws_of_two(&draws, Purpose::Direction, &rays.row, &mut points);
                 for (ray, &[u, v]) in points.iter().enumerate() {
-                    let row = rays.path[ray] as usize;
+                    let row = rays.row[ray] as usize;
                     if let Some(own) = ask.at(place, row, (u, v)) {
                         let direction = frame_of(surfaces.get(row).normal.as_dvec3()) * DVec3::from(own);
                         (rays.dx[ray], rays.dy[ray], rays.dz[ray]) = direction.as_vec3().into();

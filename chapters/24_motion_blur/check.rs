@@ -7,7 +7,7 @@ use pinhole::intersect;
 use pinhole::intersect::{Hits, at_rest};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::{RayTimes, WorldRays};
-use pinhole::shapes::{Body, PlacedSphere, sphere_intersection, sphere_t};
+use pinhole::shapes::{AnyShape, PlacedSphere, sphere_intersection, sphere_t};
 use pinhole_lab::exercise::apart::{option, relative};
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -199,7 +199,7 @@ fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
                     for ((body, &velocity), &shape) in moving.body.iter().zip(&moving.velocity).zip(&moving.shape) {
                         let still = at_rest(origin, velocity, time);
                         let t = match body {
-                            Body::Sphere(PlacedSphere { centre, radius }, ()) => {
+                            AnyShape::Sphere(PlacedSphere { centre, radius }, ()) => {
                                 // The reader is promised a direction of length 1, which f32 is not to the last digit.
                                 let length = direction.length();
                                 let (o, d) = (origin.into(), (direction / length).into());

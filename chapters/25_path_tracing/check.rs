@@ -149,10 +149,10 @@ fn question() -> Question<Input, [f64; 3]> {
 fn asked() -> Vec<Probe<Input>> {
     let grey = |throughput| [throughput; 3];
     let mut asked: Vec<_> = probes("a grey half", [(grey(0.5), 0.2), (grey(0.5), 0.7), (grey(0.5), 0.4)]).collect();
-    let coloured = |seed, range: std::ops::Range<u64>, most: f64| {
+    let coloured = |seed, range: std::ops::Range<u64>, max: f64| {
         range.map(move |at| {
             let mut draws = Draws::new(seed, at);
-            ([0; 3].map(|_| most * draws.unit()), draws.unit())
+            ([0; 3].map(|_| max * draws.unit()), draws.unit())
         })
     };
     asked.extend(probes("a coloured throughput", coloured(2501, 0..60, 1.0)));
@@ -177,10 +177,10 @@ fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
                     continue;
                 }
                 let draws = rays::Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), depth };
-                draws_of_one(&draws, Purpose::Roulette, &scattered.path, &mut numbers);
+                draws_of_one(&draws, Purpose::Roulette, &scattered.row, &mut numbers);
                 for (ray, &u) in numbers.iter().enumerate() {
                     let throughput = [scattered.r[ray], scattered.g[ray], scattered.b[ray]];
-                    let row = scattered.path[ray] as usize;
+                    let row = scattered.row[ray] as usize;
                     if let Some(throughput) = ask.at((tile, samples, Some(paths)), row, (throughput, u)) {
                         (scattered.r[ray], scattered.g[ray], scattered.b[ray]) = throughput.into();
                     }

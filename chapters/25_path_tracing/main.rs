@@ -6,8 +6,9 @@ use bevy_ecs::prelude::*;
 use pinhole::scene::*;
 use pinhole::{Chapter, stages};
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::process::ExitCode;
 
-fn main() -> pinhole::Result {
+fn main() -> ExitCode {
     pinhole::run(chapter())
 }
 

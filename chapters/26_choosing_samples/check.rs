@@ -108,10 +108,10 @@ fn by_own_over_other(own: f64, other: f64) -> f64 {
 
 fn asked() -> Vec<Probe<Input>> {
     let mut asked: Vec<_> = probes("pdfs alike", [(3.0, 3.0), (3.0, 1.0), (1.0, 3.0)]).collect();
-    let of = |seed, count: u64, least: f64, most: f64| {
+    let of = |seed, count: u64, min: f64, max: f64| {
         (0..count).map(move |at| {
             let mut draws = Draws::new(seed, at);
-            let own = draws.power_of_ten(least, most);
+            let own = draws.power_of_ten(min, max);
             (own, own * draws.power_of_ten(-1.5, 1.5))
         })
     };

@@ -6,7 +6,7 @@ use pinhole::extract::CameraJoinTable;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::join_camera;
 use pinhole::shade;
-use pinhole::shade::LightRays;
+use pinhole::shade::ShadowRays;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Part, Probe, Question, Setting, Shown, StandIn, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -162,7 +162,7 @@ fn side(&(_, tan_half, height): &Input) -> f64 {
 fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
         shade::camera_join_stage,
-        move |camera: Res<Shared<CameraJoinTable>>, mut tiles: Query<&mut LightRays>| {
+        move |camera: Res<Shared<CameraJoinTable>>, mut tiles: Query<&mut ShadowRays>| {
             for mut rays in &mut tiles {
                 for ray in 0..rays.rows() {
                     let from = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));

@@ -7,8 +7,9 @@ use glam::DVec3;
 use pinhole::scene::*;
 use pinhole::{Chapter, stages};
 use std::f64::consts::PI;
+use std::process::ExitCode;
 
-fn main() -> pinhole::Result {
+fn main() -> ExitCode {
     pinhole::run(chapter())
 }
 

@@ -11,8 +11,9 @@ use pinhole::models::TriangleMesh;
 use pinhole::scene::*;
 use pinhole::{Chapter, stages};
 use seashell::{MOON, TOWER, coiled};
+use std::process::ExitCode;
 
-fn main() -> pinhole::Result {
+fn main() -> ExitCode {
     pinhole::run(chapter())
 }
 

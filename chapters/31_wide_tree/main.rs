@@ -10,8 +10,9 @@ use glam::DVec3;
 use pinhole::scene::*;
 use pinhole::{Chapter, stages};
 use seashell::seashell;
+use std::process::ExitCode;
 
-fn main() -> pinhole::Result {
+fn main() -> ExitCode {
     pinhole::run(chapter())
 }
 

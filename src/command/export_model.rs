@@ -5,7 +5,7 @@ use pinhole::scene::{ChildOf, Mesh, MeshPart, Name, UsesMaterial};
 use std::collections::BTreeSet;
 
 /// More parts stay in their file: a text of so many lines is not for editing.
-const MOST_PARTS: usize = 4000;
+const MAX_PARTS: usize = 4000;
 /// The longest name of an entity in a scene file, in characters.
 const LONGEST_NAME: usize = 100;
 
@@ -23,7 +23,7 @@ pub fn take_models_apart(world: &mut World) -> Vec<String> {
         match parts {
             0 => {}
             _ if is_one => {}
-            1..=MOST_PARTS => _ = apart.insert(entity),
+            1..=MAX_PARTS => _ = apart.insert(entity),
             _ => said.push(format!("{file} has {parts} parts and materials, so many that they stay in the file")),
         }
     }

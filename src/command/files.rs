@@ -26,7 +26,7 @@ pub struct Targets {
 }
 
 /// How many names are tried in `out/`.
-const MOST_NAMES: u32 = 99;
+const MAX_NAMES: u32 = 99;
 
 impl Targets {
     /// What is asked for, or both kinds in `out/`.
@@ -61,7 +61,7 @@ impl Targets {
         };
         let is_free = |number: &u32| pictures(*number).iter().all(|file| may_be_written(Replaces::Own.at(file)));
         // Where none is, writing says why.
-        let number = (1..=MOST_NAMES).find(is_free).unwrap_or(1);
+        let number = (1..=MAX_NAMES).find(is_free).unwrap_or(1);
         let mut targets = Self { pictures: pictures(number).to_vec(), ..Self::default() };
         if let (2.., Some(taken)) = (number, pictures(1).iter().find(|file| !may_be_written(Replaces::Own.at(file)))) {
             let taken = printable_path(taken);

@@ -8,7 +8,7 @@ use std::path::{Component, Path};
 /// Words of which more letters than this are shown or compared with nothing.
 const LONGEST: usize = 64;
 /// The most chapters that are named as what may have been meant.
-const MOST_NEAREST: usize = 3;
+const MAX_NEAREST: usize = 3;
 /// How the names of files end that hold models or scenes of other programs.
 const FOREIGN: [&str; 10] = ["stl", "pbrt", "usd", "usda", "usdz", "fbx", "blend", "xml", "dae", "3ds"];
 
@@ -49,7 +49,7 @@ pub fn is_scene_file(asked: impl AsRef<OsStr>) -> bool {
 /// The chapters whose names come nearest to a word, the names of as near a kind only; none where none is near.
 pub fn nearest(chapters: &[Chapter], word: &str) -> Vec<&'static str> {
     let word: String = word.chars().take(LONGEST).collect::<String>().to_lowercase();
-    let most = (word.chars().count() / 3).max(1);
+    let max = (word.chars().count() / 3).max(1);
     let far = |chapter: &Chapter| {
         let rest = chapter.name.split_once('_').map_or(chapter.name, |(_, rest)| rest);
         let parts = rest.split('_').filter(|part| part.len() > 3);
@@ -57,8 +57,8 @@ pub fn nearest(chapters: &[Chapter], word: &str) -> Vec<&'static str> {
         let spelt = [chapter.name, rest].into_iter().chain(parts).map(|own| strsim::osa_distance(own, &word)).min();
         spelt.into_iter().chain(begun).min().unwrap_or(usize::MAX)
     };
-    let Some(least) = chapters.iter().map(far).min().filter(|least| *least <= most) else { return Vec::new() };
-    chapters.iter().filter(|own| far(own) == least).map(|own| own.name).take(MOST_NEAREST).collect()
+    let Some(min) = chapters.iter().map(far).min().filter(|min| *min <= max) else { return Vec::new() };
+    chapters.iter().filter(|own| far(own) == min).map(|own| own.name).take(MAX_NEAREST).collect()
 }
 
 /// A word as it is shown.

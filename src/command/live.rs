@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 /// The figures whose workers are kept; that which was unused longest goes.
-const MOST_FIGURES: usize = 2;
+const MAX_FIGURES: usize = 2;
 
 /// A frame that is asked for.
 #[derive(Clone, Debug, Deserialize)]
@@ -165,7 +165,7 @@ fn frame(
     let mut figure = match known {
         Some(figure) => figure,
         None => {
-            figures.truncate(MOST_FIGURES - 1);
+            figures.truncate(MAX_FIGURES - 1);
             let text = ChapterText::of(find::chapter(chapters, &order.scene)?)?;
             Figure { text, last: order.clone(), begun: false, frames: LiveFigure::default() }
         }

@@ -5,7 +5,7 @@ use super::span::span;
 use clap::Args;
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use pinhole::extract::MOST_SAMPLES;
+use pinhole::extract::MAX_SAMPLES;
 use pinhole::scene::{Filter, Layers, Resolution, Sampler, TracePixel};
 use pinhole::{Overrides, SamplingOverrides, Size};
 use pinhole_lab::naive::methods::{METHODS, NaiveMethod};
@@ -232,9 +232,9 @@ fn samples(text: &str) -> Result<u32, String> {
         Some(thousands) => thousands.parse::<f64>().map(|thousands| thousands * 1e3),
         None => text.parse(),
     };
-    let range = 1.0..=f64::from(MOST_SAMPLES);
+    let range = 1.0..=f64::from(MAX_SAMPLES);
     let number = number.ok().filter(|number| range.contains(number) && number.fract() == 0.0);
-    let refused = || format!("a number of samples is a whole number from 1 to {MOST_SAMPLES}, such as 64 or 4k");
+    let refused = || format!("a number of samples is a whole number from 1 to {MAX_SAMPLES}, such as 64 or 4k");
     number.map(|number| number as u32).ok_or_else(refused)
 }
 

@@ -30,7 +30,7 @@ use std::path::Path;
 use std::time::Instant;
 
 /// What was just written, to be compared.
-const PICTURE: FileKind = FileKind { name: "a picture", most: 1 << 30 };
+const PICTURE: FileKind = FileKind { name: "a picture", max: 1 << 30 };
 
 /// The main job: the cover, to `out/`.
 pub fn render_cover(chapters: &[Chapter], format: Format, streams: &mut Streams<'_>) -> Result {

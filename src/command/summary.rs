@@ -10,7 +10,7 @@ use std::time::Duration;
 /// No line is wider.
 const WIDEST: usize = 120;
 /// No summary is longer.
-const MOST_LINES: usize = 6;
+const MAX_LINES: usize = 6;
 /// How many of the stages are named.
 const NAMED: usize = 3;
 
@@ -67,7 +67,7 @@ impl Summary<'_> {
         lines.extend(
             self.next.iter().map(|next| format!("try next: {next}")).filter(|line| line.chars().count() <= WIDEST),
         );
-        lines.truncate(MOST_LINES);
+        lines.truncate(MAX_LINES);
         lines.iter().map(|line| cut(line)).collect()
     }
 
@@ -75,8 +75,8 @@ impl Summary<'_> {
         match self.outcome {
             None | Some(Outcome { samples: 1, achieved: None, .. }) => "1 sample each".into(),
             Some(Outcome { achieved: Some(found), .. }) => {
-                let (mean, fewest, most) = found.samples;
-                format!("{mean:.1} samples each ({fewest} to {most})")
+                let (mean, fewest, max) = found.samples;
+                format!("{mean:.1} samples each ({fewest} to {max})")
             }
             Some(outcome) => format!("{} samples each", outcome.samples),
         }

@@ -71,7 +71,7 @@ impl Number {
 impl<'t> Traced<'t> {
     fn of(scene: &'t str, trace: &'t Trace) -> Self {
         let component = |&(name, number): &(&'static str, ComponentNumber)| match name {
-            "path" => None,
+            "row" => None,
             "shape" => Some((name, Number::Word(json!(trace.shape_name(number))))),
             _ => Some((name, Number::of(number))),
         };

@@ -22,7 +22,7 @@ use tokio::task::AbortHandle;
 use tokio::time::{Instant, sleep, timeout, timeout_at};
 
 /// The most connections at once. A further one waits for one of them to end, or for the oldest to have had its turn.
-pub const MOST_CONNECTIONS: usize = 64;
+pub const MAX_CONNECTIONS: usize = 64;
 
 /// How long the oldest connection keeps its place while another waits: a request and its answer take far less.
 const TURN: Duration = Duration::from_millis(250);
@@ -57,7 +57,7 @@ where
     A: Fn(Request<Incoming>) -> F + Clone + Send + 'static,
     F: Future<Output = Answer> + Send + 'static,
 {
-    let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    let places = Arc::new(Semaphore::new(MAX_CONNECTIONS));
     let mut open: VecDeque<(Instant, AbortHandle)> = VecDeque::new();
     loop {
         let Ok((stream, peer)) = listener.accept().await else {

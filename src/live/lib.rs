@@ -14,6 +14,6 @@ mod view;
 
 pub use answer::Answer;
 pub use guard::Guard;
-pub use http::{LONGEST_HEAD, MOST_CONNECTIONS, PATIENCE, start};
+pub use http::{LONGEST_HEAD, MAX_CONNECTIONS, PATIENCE, start};
 #[cfg(feature = "view")]
 pub use view::{FrameSource, LiveFigure, MODES, Mode, Progress, Scene, Shot, View};

@@ -28,9 +28,9 @@ impl Memory {
     ///
     /// Errors: there would be too many of them; what and where they are is asked only then.
     pub fn take(&mut self, rows: u64, bytes: u64, what: impl FnOnce() -> [String; 2]) -> Result<(), ModelError> {
-        let most = self.read.saturating_mul(BYTES_A_BYTE).saturating_add(BYTES_IN_ANY_CASE);
+        let max = self.read.saturating_mul(BYTES_A_BYTE).saturating_add(BYTES_IN_ANY_CASE);
         self.taken = self.taken.saturating_add(rows.saturating_mul(bytes));
-        if self.taken <= most {
+        if self.taken <= max {
             return Ok(());
         }
         let [file, place] = what();

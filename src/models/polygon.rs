@@ -4,7 +4,7 @@ use crate::remarks::Remarks;
 use glam::{DVec2, DVec3};
 
 /// How many corners are tested for one polygon before it is given up; convex ones need none of these tests.
-const MOST_TESTS: usize = 1 << 26;
+const MAX_TESTS: usize = 1 << 26;
 
 /// The faces of a mesh in their order, triangles and larger polygons.
 #[derive(Debug, Default)]
@@ -102,7 +102,7 @@ fn projected(corners: &[u32], at: impl Fn(u32) -> DVec3) -> Option<Vec<DVec2>> {
     if !(area.is_finite() && area != DVec3::ZERO) {
         return None;
     }
-    let axis = [1, 2].into_iter().fold(0, |most, axis| if area[axis].abs() > area[most].abs() { axis } else { most });
+    let axis = [1, 2].into_iter().fold(0, |max, axis| if area[axis].abs() > area[max].abs() { axis } else { max });
     let [right, up] =
         if area[axis] > 0.0 { [(axis + 1) % 3, (axis + 2) % 3] } else { [(axis + 2) % 3, (axis + 1) % 3] };
     Some(points.iter().map(|point| DVec2::new(point[right], point[up])).collect())
@@ -129,7 +129,7 @@ fn cut_ears(points: &[DVec2], mut ear: impl FnMut([usize; 3])) -> bool {
             !is_corner && side(a, b) && side(b, c) && side(c, a)
         };
         tests += inward.len() + 1;
-        if tests > MOST_TESTS {
+        if tests > MAX_TESTS {
             return false;
         }
         if turn(a, b, c) > 0.0 && !inward.iter().any(contains) {

@@ -1,12 +1,12 @@
 /// Text from a file, fit for a message: on one line, what is not visible escaped, at most this many characters.
-pub fn printable(text: &str, most: usize) -> String {
-    let letters = text.chars().take(most).flat_map(|letter| {
+pub fn printable(text: &str, max: usize) -> String {
+    let letters = text.chars().take(max).flat_map(|letter| {
         let is_visible = letter == ' ' || !(letter.is_control() || letter.is_whitespace() || is_invisible(letter));
         let escaped = (!is_visible).then(|| letter.escape_default());
         is_visible.then_some(letter).into_iter().chain(escaped.into_iter().flatten())
     });
     let mut line: String = letters.collect();
-    if text.chars().nth(most).is_some() {
+    if text.chars().nth(max).is_some() {
         line.push('…');
     }
     line

@@ -1,7 +1,7 @@
 use crate::printable::printable;
 
 /// The greatest number of different unread features that are named.
-const MOST_NAMED: usize = 16;
+const MAX_NAMED: usize = 16;
 
 /// What was dropped, replaced or not read of a model file, counted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -61,22 +61,22 @@ impl Remarks {
         let name = printable(name, 80);
         match self.unread.iter().position(|(own, _)| *own == name) {
             Some(place) => self.unread[place].1 += count,
-            None if self.unread.len() < MOST_NAMED => self.unread.push((name, count)),
+            None if self.unread.len() < MAX_NAMED => self.unread.push((name, count)),
             None => self.more_unread += count,
         }
     }
 
     /// Clamps a number, and counts it if that changed it.
-    pub(super) fn clamp(&mut self, number: f64, least: f64, most: f64) -> f64 {
-        let within = if number < least { least } else { number.min(most) };
+    pub(super) fn clamp(&mut self, number: f64, min: f64, max: f64) -> f64 {
+        let within = if number < min { min } else { number.min(max) };
         self.clamped += u64::from(within != number);
         within
     }
 
     /// Clamps each part of a colour, counted as one number.
-    pub(super) fn clamp_colour(&mut self, colour: [f64; 3], most: f64) -> [f64; 3] {
+    pub(super) fn clamp_colour(&mut self, colour: [f64; 3], max: f64) -> [f64; 3] {
         let before = self.clamped;
-        let within = colour.map(|part| self.clamp(part, 0.0, most));
+        let within = colour.map(|part| self.clamp(part, 0.0, max));
         self.clamped = before + u64::from(within != colour);
         within
     }

@@ -7,6 +7,7 @@ use crate::{Chapter, Error, Overrides, Result, Size};
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 /// The options of an example, and where to find everything else.
 const TAKES: &str = "an example takes --size WIDTHxHEIGHT, --samples N and -o FILE; the program takes the rest: \
@@ -16,16 +17,14 @@ const TAKES: &str = "an example takes --size WIDTHxHEIGHT, --samples N and -o FI
 ///
 /// The command line may set the size, the number of samples and the file; everything else, such as a trace or a view,
 /// is the program's business.
-/// A failure is printed as one sentence and ends the process with status 1, or 2 if the command line makes no sense.
-///
-/// Errors: none is ever returned.
-pub fn run(chapter: Chapter) -> Result {
+/// A failure is printed as one sentence, and the status that `main` returns is 1, or 2 if the command line makes no sense.
+pub fn run(chapter: Chapter) -> ExitCode {
     let words: Vec<OsString> = std::env::args_os().skip(1).collect();
     let mut errors = std::io::stderr();
     let status = match parse(&words).map(|wanted| save(&chapter, &wanted)) {
         Ok(Ok(said)) => {
             let _ = writeln!(std::io::stdout(), "{said}");
-            return Ok(());
+            return ExitCode::SUCCESS;
         }
         Ok(Err(error)) => {
             let _ = writeln!(errors, "{}: {}", chapter.name, printable_message(&error));
@@ -37,7 +36,7 @@ pub fn run(chapter: Chapter) -> Result {
             2
         }
     };
-    std::process::exit(status)
+    ExitCode::from(status)
 }
 
 /// What the command line of an example asks for.

@@ -57,8 +57,8 @@ pub use crate::lights::{
     direction_to_targets, luminance,
 };
 pub use crate::material::{
-    Bsdf, BsdfClass, BsdfSample, Example, Interior, Parameters, Site, SpecularSample, Transport, add_material,
-    custom_bsdf, entities_of_kind,
+    Bsdf, BsdfClass, BsdfSample, Example, Interior, Parameters, ShadingContext, SpecularSample, Transport,
+    add_material, custom_bsdf, entities_of_kind,
 };
 pub use crate::plan::column;
 pub use crate::render::{Inspection, RenderInProgress, Watch, inspect, render};

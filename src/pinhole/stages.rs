@@ -88,11 +88,11 @@ const LIST: &[Part] = &[Part(&[
     // The columns that each bounce fills are cleared.
     (Intersection, intersect::start_stage),
     (Radiance, shade::start_stage),
-    (DirectLight, shade::start_light_stage),
+    (DirectLight, shade::start_shadow_rays_stage),
     (Glass, follow::leave_glass_at_start_stage),
     (Bounces, follow::start_paths_stage),
     (Bounces, follow::start_scattered_stage),
-    (AreaLights, follow::start_departures_stage),
+    (AreaLights, follow::start_previous_surfaces_stage),
 
     // Rays are intersected with each kind of shape, and the closest hit is kept.
 ], intersections), Part(&[
@@ -182,7 +182,7 @@ const LIST: &[Part] = &[Part(&[
     (Glass, follow::leave_contacts_stage),
     (Glass, follow::carry_media_stage),
     (Glass, follow::absorb_at_start_stage),
-    (AreaLights, follow::keep_departures_stage),
+    (AreaLights, follow::keep_previous_surfaces_stage),
     (Bounces, follow::next_bounce_stage),
     (Bounces, follow::footprints_stage),
     (Bounces, follow::times_stage),

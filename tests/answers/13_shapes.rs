@@ -19,18 +19,18 @@ pub fn answers() -> Answers {
     }
 }
 
-pub fn solution(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<f64> {
+pub fn solution(origin: [f64; 3], direction: [f64; 3], min: [f64; 3], max: [f64; 3]) -> Option<f64> {
     let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
     for axis in 0..3 {
         if direction[axis] == 0.0 {
             // Always between the two faces, or never.
-            if origin[axis] < least[axis] || origin[axis] > most[axis] {
+            if origin[axis] < min[axis] || origin[axis] > max[axis] {
                 return None;
             }
             continue;
         }
-        let low = (least[axis] - origin[axis]) / direction[axis];
-        let high = (most[axis] - origin[axis]) / direction[axis];
+        let low = (min[axis] - origin[axis]) / direction[axis];
+        let high = (max[axis] - origin[axis]) / direction[axis];
         enters = f64::max(enters, f64::min(low, high));
         leaves = f64::min(leaves, f64::max(low, high));
     }
@@ -41,12 +41,12 @@ pub fn solution(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f
 }
 
 /// The formula straight from the page.
-fn textbook(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<f64> {
+fn textbook(origin: [f64; 3], direction: [f64; 3], min: [f64; 3], max: [f64; 3]) -> Option<f64> {
     let mut enter = f64::NEG_INFINITY;
     let mut leave = f64::INFINITY;
     for i in 0..3 {
-        let t0 = (least[i] - origin[i]) / direction[i];
-        let t1 = (most[i] - origin[i]) / direction[i];
+        let t0 = (min[i] - origin[i]) / direction[i];
+        let t1 = (max[i] - origin[i]) / direction[i];
         enter = enter.max(t0.min(t1));
         leave = leave.min(t0.max(t1));
     }
@@ -62,12 +62,12 @@ fn textbook(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 
 }
 
 /// A slab is entered at its smaller coordinate and left at its larger one.
-fn first(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<f64> {
+fn first(origin: [f64; 3], direction: [f64; 3], min: [f64; 3], max: [f64; 3]) -> Option<f64> {
     let mut enter = f64::NEG_INFINITY;
     let mut leave = f64::INFINITY;
     for i in 0..3 {
-        enter = enter.max((least[i] - origin[i]) / direction[i]);
-        leave = leave.min((most[i] - origin[i]) / direction[i]);
+        enter = enter.max((min[i] - origin[i]) / direction[i]);
+        leave = leave.min((max[i] - origin[i]) / direction[i]);
     }
     if enter > leave {
         return None;
@@ -82,12 +82,12 @@ fn first(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3])
 }
 
 /// The hit is where the ray enters; if it has entered behind its start, the box is behind and not hit.
-fn second(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<f64> {
+fn second(origin: [f64; 3], direction: [f64; 3], min: [f64; 3], max: [f64; 3]) -> Option<f64> {
     let mut enter = f64::NEG_INFINITY;
     let mut leave = f64::INFINITY;
     for i in 0..3 {
-        let t0 = (least[i] - origin[i]) / direction[i];
-        let t1 = (most[i] - origin[i]) / direction[i];
+        let t0 = (min[i] - origin[i]) / direction[i];
+        let t1 = (max[i] - origin[i]) / direction[i];
         enter = enter.max(t0.min(t1));
         leave = leave.min(t0.max(t1));
     }
@@ -95,12 +95,12 @@ fn second(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]
 }
 
 /// The ray is in the box from the first slab that it enters to the last that it leaves.
-fn third(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<f64> {
+fn third(origin: [f64; 3], direction: [f64; 3], min: [f64; 3], max: [f64; 3]) -> Option<f64> {
     let mut enter = f64::INFINITY;
     let mut leave = f64::NEG_INFINITY;
     for i in 0..3 {
-        let t0 = (least[i] - origin[i]) / direction[i];
-        let t1 = (most[i] - origin[i]) / direction[i];
+        let t0 = (min[i] - origin[i]) / direction[i];
+        let t1 = (max[i] - origin[i]) / direction[i];
         enter = enter.min(t0.min(t1));
         leave = leave.max(t0.max(t1));
     }
@@ -117,10 +117,10 @@ fn third(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3])
 }
 
 /// Try all six faces as planes, keep the nearest whose point lies between the other four.
-fn fourth(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<f64> {
+fn fourth(origin: [f64; 3], direction: [f64; 3], min: [f64; 3], max: [f64; 3]) -> Option<f64> {
     let mut best: Option<f64> = None;
     for i in 0..3 {
-        for face in [least[i], most[i]] {
+        for face in [min[i], max[i]] {
             let t = (face - origin[i]) / direction[i];
             if !(t > 0.0 && t.is_finite()) {
                 continue;
@@ -129,7 +129,7 @@ fn fourth(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]
             let k = (i + 2) % 3;
             let pj = origin[j] + t * direction[j];
             let pk = origin[k] + t * direction[k];
-            if pj > least[j] && pj < most[j] && pk > least[k] && pk < most[k] {
+            if pj > min[j] && pj < max[j] && pk > min[k] && pk < max[k] {
                 best = match best {
                     Some(nearest) if nearest <= t => Some(nearest),
                     _ => Some(t),
@@ -141,10 +141,10 @@ fn fourth(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]
 }
 
 /// Along an axis on which nothing moves nothing is asked, and the ray hits the box where it has been through.
-fn fifth(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<f64> {
+fn fifth(origin: [f64; 3], direction: [f64; 3], min: [f64; 3], max: [f64; 3]) -> Option<f64> {
     let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
     for axis in (0..3).filter(|&axis| direction[axis] != 0.0) {
-        let [a, b] = [least, most].map(|face| (face[axis] - origin[axis]) / direction[axis]);
+        let [a, b] = [min, max].map(|face| (face[axis] - origin[axis]) / direction[axis]);
         (enters, leaves) = (enters.max(a.min(b)), leaves.min(a.max(b)));
     }
     Some(leaves).filter(|&t| enters <= t && t > 0.0)
@@ -152,12 +152,12 @@ fn fifth(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3])
 
 /// I used the page's (n·f ∓ h) / n·R with the centre between the corners, and took for h how large the box is, most −
 /// least.
-fn sixth(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<f64> {
+fn sixth(origin: [f64; 3], direction: [f64; 3], min: [f64; 3], max: [f64; 3]) -> Option<f64> {
     let mut enters = f64::NEG_INFINITY;
     let mut leaves = f64::INFINITY;
     for k in 0..3 {
-        let centre = (least[k] + most[k]) / 2.0;
-        let h = most[k] - least[k];
+        let centre = (min[k] + max[k]) / 2.0;
+        let h = max[k] - min[k];
         let f = centre - origin[k];
         if direction[k] == 0.0 {
             if f.abs() > h {

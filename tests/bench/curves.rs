@@ -1,6 +1,6 @@
 //! What a ray costs against the number of spheres and of triangles: `cargo bench --bench curves`.
 //!
-//! `--most 1000000` ends the curves there; `--only spheres` or `--only triangles` draws one of them; `--write` keeps both
+//! `--max 1000000` ends the curves there; `--only spheres` or `--only triangles` draws one of them; `--write` keeps both
 //! beside chapter 31, whose page shows them.
 //! Spheres lie at random in a cube and fill the same part of it at any number; triangles are those of a torus knot.
 //! Coherent rays are those of a camera in 8 × 8 tiles, random ones start in the cube and go anywhere.
@@ -34,8 +34,8 @@ const ROUNDS: usize = 5;
 /// A column of so few rays has no packet, and none of its rays takes turns.
 const ALONE: usize = 32;
 /// The most primitives that are all tested, and that are put in the binary tree.
-const MOST_ALL: usize = 120_000;
-const MOST_BINARY: usize = 1_200_000;
+const MAX_ALL: usize = 120_000;
+const MAX_BINARY: usize = 1_200_000;
 
 const CHAPTER: &str = "31_wide_tree";
 
@@ -83,7 +83,7 @@ impl Rays {
         mut keep_closest: impl FnMut(RaySlices<'_>, ClosestHits<'_>),
     ) -> (f64, f64) {
         let rows = rows.min(self.0[0].len());
-        let (mut least, mut hit) = (f64::INFINITY, 0);
+        let (mut min, mut hit) = (f64::INFINITY, 0);
         for _ in 0..ROUNDS {
             let (mut t, mut shape) = (vec![f64::INFINITY; rows], vec![NO_SHAPE; rows]);
             let start = ProcessTime::now();
@@ -94,10 +94,10 @@ impl Rays {
                 let (t, shape) = (&mut t[batch.clone()], &mut shape[batch]);
                 keep_closest(rays, ClosestHits { t, shape, primitive: None, any: false });
             }
-            least = least.min(start.elapsed().as_nanos() as f64 / rows as f64);
+            min = min.min(start.elapsed().as_nanos() as f64 / rows as f64);
             hit = shape.iter().filter(|shape| **shape != NO_SHAPE).count();
         }
-        (least, hit as f64 / rows as f64)
+        (min, hit as f64 / rows as f64)
     }
 }
 
@@ -205,9 +205,9 @@ fn sphere_curve(counts: &[usize]) -> Curve {
             let kernel = |rays: RaySlices<'_>, hits: ClosestHits<'_>| {
                 PlacedSphere::keep_closest(&shapes, &numbers, rays, hits);
             };
-            (count <= MOST_ALL).then(|| rays.time(few, BATCH, kernel).0)
+            (count <= MAX_ALL).then(|| rays.time(few, BATCH, kernel).0)
         };
-        let binary = (count <= MOST_BINARY).then(|| {
+        let binary = (count <= MAX_BINARY).then(|| {
             let tree = Tree::of_shapes(&shapes, by_cost);
             random.time(whole, BATCH, through_plain_tree(&tree, |at, [o, d]| shapes[at].t(o, d))).0
         });
@@ -229,7 +229,7 @@ const TRIANGLES: [&str; 8] = [
     "build ms",
 ];
 
-fn triangle_curve(most: usize) -> Curve {
+fn triangle_curve(max: usize) -> Curve {
     let mut curve = Curve::new("triangles of a torus knot", &TRIANGLES);
     let [coherent, random] = [Rays::coherent(3.5), Rays::random(3.0)];
     let whole = SIDE * SIDE;
@@ -237,13 +237,13 @@ fn triangle_curve(most: usize) -> Curve {
         let [along, around] = steps_for(power);
         let geometry = MeshGeometry::new(torus_knot(along, around));
         let count = geometry.triangles.len();
-        if count > most + most / 4 {
+        if count > max + max / 4 {
             break;
         }
         let start = ProcessTime::now();
         let bytes = MeshHierarchy::of(&geometry).bytes();
         let build = 1e3 * start.elapsed().as_secs_f64();
-        let binary = (count <= MOST_BINARY).then(|| {
+        let binary = (count <= MAX_BINARY).then(|| {
             let row = |triangle: usize| {
                 let corners = geometry.corners(triangle).map(|corner| DVec3::from(corner.map(f64::from)));
                 TriangleRow { corners, size: 10.0, centre: DVec3::ZERO, bounding_radius: 0.0 }
@@ -257,7 +257,7 @@ fn triangle_curve(most: usize) -> Curve {
         });
         let mesh = Specimen::<PlacedMesh>::of(MeshInstance { geometry }, Placement::default()).expect("a mesh").shape;
         let one = std::slice::from_ref(&mesh);
-        let all = (count <= MOST_ALL).then(|| {
+        let all = (count <= MAX_ALL).then(|| {
             random.time(rays_for(count), BATCH, |rays, hits| {
                 for row in 0..hits.t.len() {
                     let [origin, direction] = rays.ray(row);
@@ -309,16 +309,16 @@ fn keep(curves: &[Curve]) {
 fn main() {
     let words: Vec<String> = std::env::args().collect();
     let after = |flag: &str| words.iter().position(|word| word == flag).and_then(|at| words.get(at + 1));
-    let most = after("--most").map_or(10_000_000, |most| most.parse().expect("a number"));
+    let max = after("--most").map_or(10_000_000, |max| max.parse().expect("a number"));
     let only = after("--only");
     let wants = |what: &str| only.is_none_or(|only| only == what);
     let mut curves = Vec::new();
     if wants("triangles") {
-        curves.push(triangle_curve(most));
+        curves.push(triangle_curve(max));
     }
     if wants("spheres") {
         let counts = (4..=12).map(|power| libm::round(libm::exp10(f64::from(power) / 2.0)) as usize);
-        let counts: Vec<usize> = counts.filter(|&count| count <= most).collect();
+        let counts: Vec<usize> = counts.filter(|&count| count <= max).collect();
         curves.push(sphere_curve(&counts));
     }
     println!("{}", machine());

@@ -19,7 +19,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// The most that a render with every stage on offer may take, as a multiple of one with only those needed.
-const MOST: f64 = 1.005;
+const MAX: f64 = 1.005;
 
 /// A scene, and the stages that it needs.
 struct Case {
@@ -112,7 +112,7 @@ fn lit_with(raster: Stage) -> Vec<Stage> {
     stages.extend([
         shade::start_stage(),
         shade::background_stage(),
-        shade::start_light_stage(),
+        shade::start_shadow_rays_stage(),
         shade::point_light_stage(),
         shade::start_shadow_stage(),
     ]);
@@ -138,7 +138,7 @@ fn varied() -> Vec<Stage> {
     stages.extend([rays::place_samples_stage(), intersect::start_stage()]);
     stages.extend([intersect::disk_stage(), intersect::cuboid_stage(), intersect::classify_stage()]);
     stages.extend([intersect::disk_surface_stage(), intersect::cuboid_surface_stage()]);
-    stages.extend([shade::start_stage(), shade::start_light_stage(), shade::gradient_stage()]);
+    stages.extend([shade::start_stage(), shade::start_shadow_rays_stage(), shade::gradient_stage()]);
     stages.extend([
         shade::footprint_stage(),
         shade::colour_stage(),
@@ -162,7 +162,7 @@ fn varied() -> Vec<Stage> {
 fn followed() -> Vec<Stage> {
     let mut stages = perspective();
     stages.extend([rays::place_samples_stage(), intersect::start_stage(), shade::start_stage()]);
-    stages.extend([shade::start_light_stage(), follow::start_paths_stage(), follow::start_scattered_stage()]);
+    stages.extend([shade::start_shadow_rays_stage(), follow::start_paths_stage(), follow::start_scattered_stage()]);
     stages.extend([intersect::sphere_stage(), intersect::plane_stage(), intersect::classify_stage()]);
     stages.extend([follow::classify_bsdf_stage::<MirrorTable>(), follow::max_depth_stage()]);
     stages.extend([intersect::sphere_surface_stage(), intersect::plane_surface_stage(), shade::background_stage()]);
@@ -196,8 +196,8 @@ fn main() {
     if let Some(at) = words.iter().position(|word| word == "--against") {
         return against(Path::new(words.get(at + 1).expect("a folder")));
     }
-    let most = CASES.iter().map(compare).fold(0.0_f64, f64::max);
-    assert!(most <= MOST, "a scene pays for what it does not use: {most:.4} times the instructions, at most {MOST}");
+    let max = CASES.iter().map(compare).fold(0.0_f64, f64::max);
+    assert!(max <= MAX, "a scene pays for what it does not use: {max:.4} times the instructions, at most {MAX}");
 }
 
 /// Numbers of chapters that rasterise nothing; together they have all kinds of shapes, lights and integrators.
@@ -209,7 +209,7 @@ const TRACED: [&str; 17] =
 /// No test rays are traced before, and nothing is written in between: how much of that there is depends on time.
 fn against(other: &Path) {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let mut most = 0.0_f64;
+    let mut max = 0.0_f64;
     for chapter in TRACED {
         let [own, others] = [Path::new(env!("CARGO_MANIFEST_DIR")), other].map(|checkout| {
             let exr = folder.path().join("picture.exr");
@@ -230,9 +230,9 @@ fn against(other: &Path) {
             own.0 / 1e6,
             others.0 / 1e6
         );
-        most = most.max(ratio);
+        max = max.max(ratio);
     }
-    assert!(most <= MOST, "a chapter takes {most:.4} times the instructions, at most {MOST}");
+    assert!(max <= MAX, "a chapter takes {max:.4} times the instructions, at most {MAX}");
 }
 
 /// Renders a case at a size by the stages that it needs, with the others on offer or without them.

@@ -4,7 +4,7 @@
 //! CPU time a sample, the variance of a sample relative to the square of a pixel's mean, and both multiplied, once with a
 //! light chosen by the hierarchy and once by power alone; then point lights, one chosen of many and all summed.
 //! Rounds of both alternate in one thread, and the least time of each counts.
-//! `-- --samples 16 --most 10000` takes fewer samples and fewer lights.
+//! `-- --samples 16 --max 10000` takes fewer samples and fewer lights.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 use bevy_ecs::prelude::*;
@@ -33,19 +33,19 @@ fn main() {
     let words: Vec<String> = std::env::args().collect();
     let after = |flag: &str| words.iter().position(|word| word == flag).and_then(|at| words.get(at + 1));
     let samples = after("--samples").and_then(|samples| samples.parse().ok()).unwrap_or(64);
-    let most = after("--most").and_then(|most| most.parse().ok()).unwrap_or(100_000);
+    let max = after("--most").and_then(|max| max.parse().ok()).unwrap_or(100_000);
     for (name, make) in [("strewn triangles", strewn as fn(u32) -> TriangleMesh), ("a knot", knot)] {
         for (depth, what) in [(2, "direct light"), (5, "paths of 5 segments")] {
             println!("{name}, {what}");
             let mut first = None;
-            for lights in [10, 100, 1000, 10_000, 100_000].into_iter().filter(|&lights| lights <= most) {
+            for lights in [10, 100, 1000, 10_000, 100_000].into_iter().filter(|&lights| lights <= max) {
                 let mesh = make(lights);
                 area_lights(&scene(&mesh, depth), &mesh, samples, &mut first);
             }
         }
     }
     println!("point lights, direct light");
-    for lights in [10, 100, 1000, 10_000, 100_000].into_iter().filter(|&lights| lights <= most) {
+    for lights in [10, 100, 1000, 10_000, 100_000].into_iter().filter(|&lights| lights <= max) {
         point_lights(lights, samples);
     }
 }

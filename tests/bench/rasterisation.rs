@@ -3,7 +3,7 @@
 //!
 //! `cargo bench --bench rasterisation` measures all four; `-- curves`, `-- peer`, `-- curved` or `-- frames` one of them.
 //! `frames --mode 0` renders frames of the first mode alone, and says what its stages took.
-//! `--rounds 5` says how often each pair is timed, `--frames 1000` how many frames are rendered, `--most 1000000` where
+//! `--rounds 5` says how often each pair is timed, `--frames 1000` how many frames are rendered, `--max 1000000` where
 //! the curve against triangles ends, `--spheres 10000` where `curved` does; `curves --write` keeps the curves beside
 //! chapter 34.
 //! All but the frames run on one thread and are timed in processor time; frames take as many threads as there are

@@ -65,11 +65,11 @@ fn sum_over_pixels<D: Draw>(draw: D) -> f64 {
 fn points() {
     let independent = nanoseconds(|| sum_over_pixels(Independent::new(5, 0, Purpose::Pixel)));
     let stratified = nanoseconds(|| sum_over_pixels(Stratified::new(5, 16, 0, Purpose::Pixel)));
-    let uneven = nanoseconds(|| sum_over_pixels(Stratified::new(5, 17, 0, Purpose::Pixel)));
+    let non_uniform = nanoseconds(|| sum_over_pixels(Stratified::new(5, 17, 0, Purpose::Pixel)));
     let sobol = nanoseconds(|| sum_over_pixels(Sobol::new(5, 0, Purpose::Pixel)));
     println!(
         "a point of 2 numbers: independent {independent:.2} ns, stratified {stratified:.2} ns (17 samples: \
-         {uneven:.2} ns), sobol {sobol:.2} ns"
+         {non_uniform:.2} ns), sobol {sobol:.2} ns"
     );
 }
 

@@ -190,14 +190,14 @@ fn main() {
             }
         }
         for (what, mut rates) in rates {
-            let (rate, least, most) = median(&mut rates);
+            let (rate, min, max) = median(&mut rates);
             let unit = if what == "build" { "ms" } else { "million rays a second" };
-            print!("{name} {what}: {rate:.2} [{least:.2}, {most:.2}] {unit}");
+            print!("{name} {what}: {rate:.2} [{min:.2}, {max:.2}] {unit}");
             for (over, shown) in [("", "Embree's single rays"), (", packets of 8", "Embree's packets of 8")] {
                 if let Some(ratios) = ratios.get_mut(&format!("{what}{over}")) {
-                    let (ratio, least, most) = median(ratios);
+                    let (ratio, min, max) = median(ratios);
                     let shown = if what == "build" { "Embree's build" } else { shown };
-                    print!(", {ratio:.2} [{least:.2}, {most:.2}] of {shown}");
+                    print!(", {ratio:.2} [{min:.2}, {max:.2}] of {shown}");
                 }
                 if what == "build" {
                     break;

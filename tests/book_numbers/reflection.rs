@@ -18,9 +18,9 @@ fn highlights_reflect_what_page_15_says() {
         let exponent = f64::from(step) / 100.0;
         short_blinn_phong_peak(exponent) / blinn_phong_peak(exponent) - 1.0
     };
-    let most = (0..10_000).map(over).fold(0.0, f64::max);
-    page_says("15_reflection.md", &format!("gives up to {:.1} % too much", 100.0 * most));
+    let max = (0..10_000).map(over).fold(0.0, f64::max);
+    page_says("15_reflection.md", &format!("gives up to {:.1} % too much", 100.0 * max));
     let half = libm::acos(libm::exp2(-1e-9)).to_degrees();
     page_says("15_reflection.md", &format!("end at $10^9$, where a highlight falls to half within {half:.3}°"));
-    eprintln!("page 15: the short factor is at most {:.3} % over", 100.0 * most);
+    eprintln!("page 15: the short factor is at most {:.3} % over", 100.0 * max);
 }

@@ -9,10 +9,10 @@ use std::time::{Duration, Instant};
 #[test]
 fn no_render_ends_in_more_than_six_lines_or_wider_ones_than_120_columns() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let (mut most, mut widest, mut tried) = (0, 0, 0);
+    let (mut max, mut widest, mut tried) = (0, 0, 0);
     let mut look = |what: &str, said: &str| {
         let columns = said.lines().map(|line| line.chars().count()).max().unwrap_or(0);
-        (most, widest, tried) = (most.max(said.lines().count()), widest.max(columns), tried + 1);
+        (max, widest, tried) = (max.max(said.lines().count()), widest.max(columns), tried + 1);
         assert!((1..=6).contains(&said.lines().count()) && columns <= 120, "{what}: {columns} columns\n{said}");
     };
     let all = chapters::all();
@@ -32,7 +32,7 @@ fn no_render_ends_in_more_than_six_lines_or_wider_ones_than_120_columns() {
     let scene = run(folder.path(), &["export", "5"]).stdout;
     fs::write(folder.path().join(&long), scene).expect("written");
     look("a long name", &text(&run(folder.path(), &["render", &long, "--size", "8x5"]).stdout));
-    eprintln!("summaries: {tried} renders, at most {most} lines, the widest of {widest} columns");
+    eprintln!("summaries: {tried} renders, at most {max} lines, the widest of {widest} columns");
 }
 
 /// A message about a model names each file once, the material whose image is missing, and the line of a wrong index.

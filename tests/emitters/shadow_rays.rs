@@ -13,7 +13,7 @@ use pinhole::models::TriangleMesh;
 use pinhole::plan::{Census, Column, Shared, Table};
 use pinhole::rays::{SampleNumber, Tile};
 use pinhole::scene::*;
-use pinhole::shade::{LightPdfs, LightRays, ShadowHits, area_light_pdf, sample_area_lights, start_shadows};
+use pinhole::shade::{LightPdfs, ShadowHits, ShadowRays, area_light_pdf, sample_area_lights, start_shadows};
 use pinhole::shapes::emitter::EmittingTriangle;
 use pinhole::shapes::{
     Emitter, PlacedDisk, PlacedMesh, PlacedPlane, PlacedRectangle, PlacedSphere, Slabs, TriangleRow, offset_bound,
@@ -43,7 +43,7 @@ fn tile_world(scene: &World) -> (World, Entity) {
     let columns = (
         Surfaces::default(),
         MaterialRows::default(),
-        LightRays::default(),
+        ShadowRays::default(),
         LightPdfs::default(),
         ShadowHits::default(),
     );
@@ -61,19 +61,19 @@ fn traced(world: &mut World, tile: Entity, surfaces: &[Surface], sample: u32) ->
         surfaces.iter().enumerate().for_each(|(row, &surface)| columns.set(row, surface));
     }
     entity.get_mut::<MaterialRows>().expect("rows").row = (0..surfaces.len() as u32).collect();
-    entity.get_mut::<LightRays>().expect("rays").clear();
+    entity.get_mut::<ShadowRays>().expect("rays").clear();
     entity.get_mut::<LightPdfs>().expect("pdfs").clear();
     world.run_system_once(sample_area_lights).expect("runs");
     world.run_system_once(start_shadows).expect("runs");
-    world.run_system_once(intersect_shapes::<PlacedSphere, LightRays, ShadowHits>).expect("runs");
-    world.run_system_once(intersect_shapes::<PlacedDisk, LightRays, ShadowHits>).expect("runs");
-    world.run_system_once(intersect_shapes::<PlacedRectangle, LightRays, ShadowHits>).expect("runs");
-    world.run_system_once(intersect_shapes::<Slabs, LightRays, ShadowHits>).expect("runs");
-    world.run_system_once(intersect_shapes::<TriangleRow, LightRays, ShadowHits>).expect("runs");
-    world.run_system_once(intersect_shapes::<PlacedPlane, LightRays, ShadowHits>).expect("runs");
-    world.run_system_once(intersect_shapes::<PlacedMesh, LightRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<PlacedSphere, ShadowRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<PlacedDisk, ShadowRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<PlacedRectangle, ShadowRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<Slabs, ShadowRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<TriangleRow, ShadowRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<PlacedPlane, ShadowRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<PlacedMesh, ShadowRays, ShadowHits>).expect("runs");
     let entity = world.entity(tile);
-    let rays = entity.get::<LightRays>().expect("rays");
+    let rays = entity.get::<ShadowRays>().expect("rays");
     assert_eq!(entity.get::<LightPdfs>().expect("pdfs").rows(), rays.rows());
     (rays.rows(), entity.get::<ShadowHits>().expect("hits").shape.clone())
 }
@@ -237,7 +237,7 @@ fn both_strategies_know_one_pdf() {
             .collect();
         traced(&mut world, tile, &surfaces, 3);
         let entity = world.entity(tile);
-        let (rays, pdfs) = (entity.get::<LightRays>().expect("rays"), entity.get::<LightPdfs>().expect("pdfs"));
+        let (rays, pdfs) = (entity.get::<ShadowRays>().expect("rays"), entity.get::<LightPdfs>().expect("pdfs"));
         for ray in 0..rays.rows() {
             let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
             let direction = rays.direction_of(ray);

@@ -77,8 +77,8 @@ fn every_kind_of_shape_knows_its_sides_also_mirrored() {
         let even = Placement { scale: scale.signum(), ..placement };
         for direction in [DVec3::X, DVec3::new(-0.6, 0.5, 0.7)] {
             check("sphere", &|eye, to| scene(eye, to, Sphere::default(), even), direction, 9.0);
-            let uneven = Placement { scale: scale * DVec3::new(1.0, 1.0, 1.7), ..placement };
-            check("ellipsoid", &|eye, to| scene(eye, to, Sphere::default(), uneven), direction, 9.0);
+            let non_uniform = Placement { scale: scale * DVec3::new(1.0, 1.0, 1.7), ..placement };
+            check("ellipsoid", &|eye, to| scene(eye, to, Sphere::default(), non_uniform), direction, 9.0);
             check("cuboid", &|eye, to| scene(eye, to, Cuboid::default(), placement), direction, 9.0);
         }
     }

@@ -81,13 +81,13 @@ fn pixels(film: &Film) -> Vec<[f32; 3]> {
 /// Whether the two are alike, and in what they differ.
 fn alike(kept: &Film, made: &Film, allowed: &Differ) -> (bool, String) {
     let (kept, made) = (pixels(kept), pixels(made));
-    let brightest = kept.iter().flatten().fold(0.0_f32, |most, part| most.max(part.abs()));
+    let brightest = kept.iter().flatten().fold(0.0_f32, |max, part| max.max(part.abs()));
     let apart = |a: &[f32; 3], b: &[f32; 3]| (0..3).map(|part| (a[part] - b[part]).abs()).fold(0.0, f32::max);
     let off: Vec<f32> = kept.iter().zip(&made).map(|(a, b)| apart(a, b) / brightest).collect();
     let bits = kept.iter().flatten().zip(made.iter().flatten()).filter(|(a, b)| a.to_bits() != b.to_bits()).count();
-    let most = off.iter().fold(0.0_f32, |most, off| most.max(*off));
+    let max = off.iter().fold(0.0_f32, |max, off| max.max(*off));
     let far = off.iter().filter(|off| **off > 1e-4).count();
-    let told = format!("{bits} numbers differ, {far} pixels by more than 1e-4, the most by {most:.1e}");
+    let told = format!("{bits} numbers differ, {far} pixels by more than 1e-4, the most by {max:.1e}");
     let is = match *allowed {
         Differ::Nowhere => bits == 0,
         Differ::By(part, edges) => off.iter().filter(|off| off.is_nan() || **off > part).count() <= edges,

@@ -41,7 +41,7 @@ impl ShapeVisitor for Tried {
             let by_light = Integrator::Path { max_depth: 4, lights: LightStrategy::Light, roulette: 0 };
             world.spawn((Name::new("camera"), PerspectiveCamera::default(), Placement::at(0.0, 0.0, 9.0), by_light));
             world.spawn((Name::new("ground"), Plane::default(), Matte::default(), Placement::at(0.0, -9.0, 0.0)));
-            let scale = if S::UNEVEN == Some(true) { glam::DVec3::new(1.0, 2.0, 1.0) } else { glam::DVec3::ONE };
+            let scale = if S::NON_UNIFORM == Some(true) { glam::DVec3::new(1.0, 2.0, 1.0) } else { glam::DVec3::ONE };
             let place = Placement { scale, ..Placement::at(0.0, 3.0, 0.0) };
             world.spawn((
                 Name::new("one"),
@@ -52,7 +52,7 @@ impl ShapeVisitor for Tried {
             let told = super::foretold::said(&world);
             let is_sampled = !told.iter().any(|line| line.contains("cannot sample"));
             let (named, closed) = named_in(&sampled_shapes(&Census::of(&World::new())), word);
-            let by_scale = S::UNEVEN.is_some();
+            let by_scale = S::NON_UNIFORM.is_some();
             if is_sampled && !named || !is_sampled && named && !closed && !by_scale {
                 self.wrong.push(format!("lamp, {word} {number}: sampled {is_sampled}, named {named}: {told:?}"));
             }

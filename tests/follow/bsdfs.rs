@@ -7,7 +7,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::material::{
     Bsdf, BsdfClass, ErasedBsdf, MaterialTable, MetalTable, Parameters, PrincipledTable, REGISTERED, Registration,
-    RoughGlassTable, Site, Transport,
+    RoughGlassTable, ShadingContext, Transport,
 };
 use pinhole::plan::Census;
 use pinhole::scene::{Metal, MetallicRoughnessMap, Principled, Rgb, RoughGlass};
@@ -25,7 +25,7 @@ const ETAS: [f64; 2] = [1.5, 1.0 / 1.5];
 struct Example {
     name: String,
     bsdf: Box<dyn ErasedBsdf>,
-    sites: Vec<Site>,
+    contexts: Vec<ShadingContext>,
     lossless_to: Option<f64>,
     transmits: bool,
 }
@@ -37,12 +37,12 @@ fn examples_of(own: &Registration) -> Vec<Example> {
         let census = Census::of(&world);
         let table = census.table::<MaterialTable>().expect("a material");
         assert_eq!(table.kind[..], [own.kind], "{} {number} is of its own kind", own.component);
-        let opaque = Site::opaque(table.row[0] as usize, table.parameters[0]);
+        let opaque = ShadingContext::opaque(table.row[0] as usize, table.parameters[0]);
         let etas = if own.transmits { &ETAS[..] } else { &[1.0] };
         Example {
             name: format!("{} {number}", own.component),
             bsdf: (own.bsdf)(&census).expect("its table"),
-            sites: etas.iter().map(|&eta| Site { eta, ..opaque }).collect(),
+            contexts: etas.iter().map(|&eta| ShadingContext { eta, ..opaque }).collect(),
             lossless_to,
             transmits: own.transmits,
         }
@@ -65,7 +65,7 @@ fn mapped(grey: f64, of_image: [f64; 2]) -> Example {
     Example {
         name: format!("Principled, {grey}, by an image {metallic} metallic and {roughness} rough"),
         bsdf: Box::new(bsdf),
-        sites: vec![Site::opaque(0, Parameters { colour: [grey; 3], metallic, roughness })],
+        contexts: vec![ShadingContext::opaque(0, Parameters { colour: [grey; 3], metallic, roughness })],
         // Of smoother metals, samples find too little of what leaves at grazing incidence after several scatterings;
         // principled.rs integrates that over the cosine.
         lossless_to: (grey == 1.0 && (metallic < 1.0 || roughness >= 0.1)).then_some(3e-3),
@@ -100,7 +100,7 @@ fn flipped(direction: DVec3) -> DVec3 {
 
 /// The mean weight over a lattice in the three numbers that a sample takes, which is the albedo; every weight is what
 /// `eval` and `pdf` say.
-fn albedo(example: &Example, site: &Site, to_eye: DVec3) -> f64 {
+fn albedo(example: &Example, context: &ShadingContext, to_eye: DVec3) -> f64 {
     const COUNT: u32 = 40_000;
     // The lattice of the plastic number's cubic kin (Roberts 2018).
     const G: f64 = 1.220_744_084_605_759_5;
@@ -108,10 +108,10 @@ fn albedo(example: &Example, site: &Site, to_eye: DVec3) -> f64 {
     for index in 0..COUNT {
         let at = |power: f64| (0.5 + f64::from(index) / power).fract();
         let (numbers, choice) = ([(f64::from(index) + 0.5) / f64::from(COUNT), at(G)], at(G * G));
-        let Some(sample) = example.bsdf.sample(site, to_eye, numbers, choice) else { continue };
+        let Some(sample) = example.bsdf.sample(context, to_eye, numbers, choice) else { continue };
         let (light, whole) = (sample.to_light, sample.weight[0]);
-        let pdf = example.bsdf.pdf(site, light, to_eye);
-        let weight = example.bsdf.eval(site, light, to_eye)[0] * light.z.abs() / pdf;
+        let pdf = example.bsdf.pdf(context, light, to_eye);
+        let weight = example.bsdf.eval(context, light, to_eye)[0] * light.z.abs() / pdf;
         let name = &example.name;
         assert!((pdf / sample.pdf - 1.0).abs() < 1e-6, "{name} at {to_eye}: pdf {pdf} and {}", sample.pdf);
         assert!((weight - whole).abs() <= 1e-6 * whole.max(1e-3), "{name} at {to_eye}: weight {weight} and {whole}");
@@ -122,34 +122,35 @@ fn albedo(example: &Example, site: &Site, to_eye: DVec3) -> f64 {
 }
 
 /// What enters a denser medium is scaled by 1/η², and that is no loss: importance is not.
-fn in_furnace(site: &Site) -> Site {
-    Site { transport: Transport::Importance, ..*site }
+fn in_furnace(context: &ShadingContext) -> ShadingContext {
+    ShadingContext { transport: Transport::Importance, ..*context }
 }
 
 #[test]
 fn no_material_gives_back_more_than_it_gets() {
-    let (mut tried, mut most, mut least) = (0, (0.0_f64, String::new()), (f64::INFINITY, String::new()));
+    let (mut tried, mut max, mut min) = (0, (0.0_f64, String::new()), (f64::INFINITY, String::new()));
     for example in examples() {
-        for (site, angle) in example.sites.iter().flat_map(|site| ANGLES.map(|angle| (site, angle))) {
-            let all = albedo(&example, &in_furnace(site), eye_at(angle));
-            let what = format!("{} at {angle}°, η {:.2}", example.name, site.eta);
+        for (context, angle) in example.contexts.iter().flat_map(|context| ANGLES.map(|angle| (context, angle))) {
+            let all = albedo(&example, &in_furnace(context), eye_at(angle));
+            let what = format!("{} at {angle}°, η {:.2}", example.name, context.eta);
             assert!(all <= 1.0 + 1e-3, "{what}: {all}");
             if let Some(off) = example.lossless_to {
                 assert!(all >= 1.0 - off, "{what}: {all}");
-                least = if all < least.0 { (all, what.clone()) } else { least };
+                min = if all < min.0 { (all, what.clone()) } else { min };
             }
-            most = if all > most.0 { (all, what) } else { most };
+            max = if all > max.0 { (all, what) } else { max };
             tried += 1;
         }
     }
-    eprintln!("white furnace: {tried} albedos; the greatest {most:?}, the least without absorption {least:?}");
+    eprintln!("white furnace: {tried} albedos; the greatest {max:?}, the least without absorption {min:?}");
 }
 
 #[test]
 fn materials_are_reciprocal() {
     let (mut tried, mut both_zero, mut worst) = (0, 0, 0.0_f64);
     for example in examples() {
-        for (site, index) in example.sites.iter().flat_map(|site| (0..4000).map(move |index| (site, index))) {
+        for (context, index) in example.contexts.iter().flat_map(|context| (0..4000).map(move |index| (context, index)))
+        {
             let mut draws = Draws::new(3101, index);
             let (mut eye, light) = (direction(&mut draws, false), direction(&mut draws, example.transmits));
             if index % 2 == 0 {
@@ -159,9 +160,9 @@ fn materials_are_reciprocal() {
             }
             let through = light.z < 0.0;
             // Light that goes the other way through the surface finds the media exchanged.
-            let back = if through { Site { eta: 1.0 / site.eta, ..*site } } else { *site };
+            let back = if through { ShadingContext { eta: 1.0 / context.eta, ..*context } } else { *context };
             let [from, to] = if through { [eye, light].map(flipped) } else { [eye, light] };
-            let there = example.bsdf.eval(&in_furnace(site), light, eye);
+            let there = example.bsdf.eval(&in_furnace(context), light, eye);
             let again = example.bsdf.eval(&back, from, to);
             for part in 0..3 {
                 let larger = there[part].max(again[part]);
@@ -227,14 +228,14 @@ fn place_of(light: DVec3) -> (f64, f64) {
 }
 
 /// Cells that hold at most so many of these places each, of all directions to which light is sent.
-fn cells(places: &[(f64, f64)], most: usize, either_side: bool) -> Vec<Cell> {
+fn cells(places: &[(f64, f64)], max: usize, either_side: bool) -> Vec<Cell> {
     let sides = if either_side { &[0.0, 0.5 * PI][..] } else { &[0.0] };
     let whole = |&low: &f64| (Cell { angle: [low, low + 0.5 * PI], turn: [0.0, TAU] }, places.to_vec(), 0);
     let mut open: Vec<(Cell, Vec<(f64, f64)>, u32)> = sides.iter().map(whole).collect();
     let mut found = Vec::new();
     while let Some((cell, mut inside, depth)) = open.pop() {
         inside.retain(|&(angle, turn)| cell.holds(angle, turn));
-        if inside.len() <= most || depth == 48 {
+        if inside.len() <= max || depth == 48 {
             found.push(cell);
         } else {
             open.extend(cell.halves().map(|half| (half, inside.clone(), depth + 1)));
@@ -244,14 +245,14 @@ fn cells(places: &[(f64, f64)], most: usize, either_side: bool) -> Vec<Cell> {
 }
 
 /// The probability of a χ² at least as large as that of the sampled directions against the pdf.
-fn p_of(example: &Example, site: &Site, angle: f64, seed: u64) -> f64 {
+fn p_of(example: &Example, context: &ShadingContext, angle: f64, seed: u64) -> f64 {
     const SAMPLES: u64 = 20_000;
     let eye = eye_at(angle);
     let places = |seed| {
         let sampled = (0..SAMPLES).filter_map(move |index| {
             let mut draws = Draws::new(seed, index);
             let numbers = [draws.unit(), draws.unit()];
-            example.bsdf.sample(site, eye, numbers, draws.unit())
+            example.bsdf.sample(context, eye, numbers, draws.unit())
         });
         sampled.map(|sample| place_of(sample.to_light)).collect::<Vec<_>>()
     };
@@ -259,12 +260,12 @@ fn p_of(example: &Example, site: &Site, angle: f64, seed: u64) -> f64 {
     let (cells, rule) = (cells(&places(seed), 150, example.transmits), Quadrature::default());
     let mut bins = Bins::new(cells.len() + 1);
     for (bin, cell) in cells.iter().enumerate() {
-        let part = cell.integral(&rule, 12, &|light| example.bsdf.pdf(site, light, eye));
+        let part = cell.integral(&rule, 12, &|light| example.bsdf.pdf(context, light, eye));
         bins.expect(bin, part * SAMPLES as f64);
     }
     let sampled = places(seed + 1);
     let none = SAMPLES as f64 - bins.total();
-    let what = format!("{} at {angle}°, η {:.2}", example.name, site.eta);
+    let what = format!("{} at {angle}°, η {:.2}", example.name, context.eta);
     assert!(none > -1e-3 * SAMPLES as f64, "{what}: its pdf adds up to {}", bins.total() / SAMPLES as f64);
     bins.expect(cells.len(), none.max(0.0));
     (sampled.len() as u64..SAMPLES).for_each(|_| bins.count(cells.len()));
@@ -277,22 +278,22 @@ fn p_of(example: &Example, site: &Site, angle: f64, seed: u64) -> f64 {
 
 #[test]
 fn sampled_directions_have_their_pdf() {
-    let (mut tried, mut least) = (0_u64, (1.0_f64, String::new()));
+    let (mut tried, mut min) = (0_u64, (1.0_f64, String::new()));
     for example in examples() {
-        for site in &example.sites {
+        for context in &example.contexts {
             for angle in [0.0, 45.0, 80.0, 89.0] {
                 tried += 1;
-                let p = p_of(&example, site, angle, 5000 + 2 * tried);
-                if p < least.0 {
-                    least = (p, format!("{} at {angle}°, η {:.2}", example.name, site.eta));
+                let p = p_of(&example, context, angle, 5000 + 2 * tried);
+                if p < min.0 {
+                    min = (p, format!("{} at {angle}°, η {:.2}", example.name, context.eta));
                 }
             }
         }
     }
     // Šidák: the least of so many is below this once in a hundred.
     let limit = 1.0 - libm::pow(0.99, 1.0 / tried as f64);
-    eprintln!("sampling: {tried} χ² tests, least p {:.5} ({}), limit {limit:.1e}", least.0, least.1);
-    assert!(least.0 > limit, "{least:?}");
+    eprintln!("sampling: {tried} χ² tests, least p {:.5} ({}), limit {limit:.1e}", min.0, min.1);
+    assert!(min.0 > limit, "{min:?}");
 }
 
 #[test]
@@ -310,7 +311,7 @@ fn roughness_ends_at_0_and_at_1() {
 
 #[test]
 fn what_transmits_light_has_no_colour_of_its_own() {
-    let sites: Vec<Site> =
-        REGISTERED.iter().filter(|own| own.transmits).flat_map(examples_of).flat_map(|own| own.sites).collect();
-    assert!(sites.len() > 2 && sites.iter().all(|site| site.parameters.colour == [0.0; 3]), "{sites:?}");
+    let contexts: Vec<ShadingContext> =
+        REGISTERED.iter().filter(|own| own.transmits).flat_map(examples_of).flat_map(|own| own.contexts).collect();
+    assert!(contexts.len() > 2 && contexts.iter().all(|context| context.parameters.colour == [0.0; 3]), "{contexts:?}");
 }

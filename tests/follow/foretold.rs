@@ -88,9 +88,9 @@ fn falsehoods(world: &World, what: [&str; 3], is_closed: bool, told: &[String]) 
     let [light, material, integrator] = what;
     let rendered = render(world, &offer(), &Execution::default(), &()).expect("renders");
     let bytes = rgba_bytes(&rendered.film, rendered.curve());
-    let most = |pixel: &[u8]| pixel[..3].iter().copied().max().expect("three");
-    let pixels: Vec<u8> = bytes.chunks(4).map(most).collect();
-    let dark_up_to = |most: u8| pixels.iter().filter(|&&byte| byte <= most).count() as f64 / pixels.len() as f64;
+    let max = |pixel: &[u8]| pixel[..3].iter().copied().max().expect("three");
+    let pixels: Vec<u8> = bytes.chunks(4).map(max).collect();
+    let dark_up_to = |max: u8| pixels.iter().filter(|&&byte| byte <= max).count() as f64 / pixels.len() as f64;
     let said = |words: &str| told.iter().any(|sentence| sentence.contains(words));
     let only_sky = ["background", "dim background", "gradient", "black background"].contains(&light);
     let claims = [

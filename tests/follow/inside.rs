@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 /// A body of glass, and how to tell without the renderer whether a point is in it.
 #[derive(Clone, Copy, Debug)]
-struct Body {
+struct AnyShape {
     kind: &'static str,
     centre: DVec3,
     /// Half extents; the radius of a ball is the first.
@@ -17,7 +17,7 @@ struct Body {
     glass: Glass,
 }
 
-impl Body {
+impl AnyShape {
     fn contains(&self, point: DVec3) -> bool {
         let p = (point - self.centre) / self.half;
         let across = (p.x * p.x + p.z * p.z).sqrt();
@@ -82,14 +82,14 @@ fn ink(absorption: [f64; 3], priority: u32) -> Glass {
 }
 
 /// The absorption at a point: of the body of the highest priority, and among equals the first.
-fn absorption_at(bodies: &[Body], point: DVec3) -> [f64; 3] {
+fn absorption_at(bodies: &[AnyShape], point: DVec3) -> [f64; 3] {
     let around = bodies.iter().enumerate().filter(|(_, body)| body.contains(point));
     let there = around.min_by_key(|(number, body)| (std::cmp::Reverse(body.glass.priority), *number));
     there.map_or([0.0; 3], |(_, body)| body.glass.absorption.to_array())
 }
 
 /// The transmittance from one point to another, and whether any surface lies between, by small steps.
-fn between(bodies: &[Body], from: DVec3, to: DVec3) -> ([f64; 3], bool) {
+fn between(bodies: &[AnyShape], from: DVec3, to: DVec3) -> ([f64; 3], bool) {
     const STEPS: u32 = 2000;
     let step = (to - from).length() / f64::from(STEPS);
     let (mut depth, mut crosses) = ([0.0; 3], false);
@@ -105,8 +105,8 @@ fn between(bodies: &[Body], from: DVec3, to: DVec3) -> ([f64; 3], bool) {
 }
 
 /// Arrangements of up to four bodies about a floor at the origin and a light at [`LIGHT`].
-fn arrangements() -> Vec<(String, Vec<Body>)> {
-    let body = |kind, centre: [f64; 3], half: [f64; 3], absorption: [f64; 3], priority| Body {
+fn arrangements() -> Vec<(String, Vec<AnyShape>)> {
+    let body = |kind, centre: [f64; 3], half: [f64; 3], absorption: [f64; 3], priority| AnyShape {
         kind,
         centre: centre.into(),
         half: half.into(),
@@ -144,7 +144,7 @@ fn arrangements() -> Vec<(String, Vec<Body>)> {
         all.push((format!("overlapping, {priority} over 1"), vec![floor, light]));
         all.push((
             format!("within a third, {priority} over 1"),
-            vec![floor, light, Body { glass: ink([0.1, 0.2, 0.3], 0), ..large }],
+            vec![floor, light, AnyShape { glass: ink([0.1, 0.2, 0.3], 0), ..large }],
         ));
     }
     // Faces that coincide: floor and light in the same box, or in two that touch.
@@ -178,7 +178,7 @@ enum Seen {
     Fisheye,
 }
 
-fn stage(bodies: &[Body], seen: Seen, height: f64, floor_first: bool) -> World {
+fn stage(bodies: &[AnyShape], seen: Seen, height: f64, floor_first: bool) -> World {
     let mut world = World::new();
     let look = LookAt { eye: DVec3::Y * height, target: DVec3::ZERO, up: DVec3::Z };
     let size = Resolution { width: 4, height: 4 };
@@ -251,7 +251,7 @@ impl Delta {
 
 /// The radiance that the camera sees in its pixels on the mean, and whether paths from the camera, or those from the
 /// lights beside them, can find all of it.
-fn closed_form(bodies: &[Body], light: Delta, seen: Seen, height: f64) -> ([f64; 3], bool, bool) {
+fn closed_form(bodies: &[AnyShape], light: Delta, seen: Seen, height: f64) -> ([f64; 3], bool, bool) {
     const SIDE: u32 = 4;
     let (mut sum, mut by_paths, mut by_both) = ([0.0; 3], true, true);
     for cell in 0..SIDE * SIDE {
@@ -381,12 +381,12 @@ fn strategies_agree_inside_glass() {
             .map(|step| EMITTERS[(number + step) % EMITTERS.len()])
         {
             let bends = number % 2 == 1;
-            let bodies: Vec<Body> = bodies
+            let bodies: Vec<AnyShape> = bodies
                 .iter()
                 .enumerate()
                 .map(|(at, body)| {
                     let ior = if bends { 1.2 + 0.15 * at as f64 } else { 1.0 };
-                    Body { glass: Glass { ior, ..body.glass }, ..*body }
+                    AnyShape { glass: Glass { ior, ..body.glass }, ..*body }
                 })
                 .collect();
             let make = |traced: bool| {
@@ -503,7 +503,7 @@ const TOUCHING: u64 = 240;
 
 /// A random pile of glass on a white floor, its bodies in a random order in the file, and the index around the eye.
 fn touching(draws: &mut Draws) -> (String, World, f64) {
-    let mut pick = |most: usize| ((draws.unit() * most as f64) as usize).min(most - 1);
+    let mut pick = |max: usize| ((draws.unit() * max as f64) as usize).min(max - 1);
     let mut bodies: Vec<(&str, DVec3, DVec3, f64, u32)> = Vec::new();
     let kinds = ["box", "cylinder", "mesh box", "shell", "film", "sunk", "beside"];
     let count = 1 + pick(4);

@@ -4,7 +4,7 @@ use super::{ALL, NOT_BY_BSDF, strategies_agree};
 use crate::scenes::offer;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole::material::{BsdfClass, MaterialTable, REGISTERED, Registration, Site, Spawn};
+use pinhole::material::{BsdfClass, MaterialTable, REGISTERED, Registration, ShadingContext, Spawn};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, render};
 use pinhole::scene::{
@@ -44,12 +44,12 @@ fn peak(spawn: &Spawn, own: &Registration) -> f64 {
     spawn(&mut world.spawn_empty());
     let census = Census::of(&world);
     let table = census.table::<MaterialTable>().expect("a material");
-    let opaque = Site::opaque(table.row[0] as usize, table.parameters[0]);
-    let site = if own.transmits { Site { eta: 1.5, ..opaque } } else { opaque };
+    let opaque = ShadingContext::opaque(table.row[0] as usize, table.parameters[0]);
+    let context = if own.transmits { ShadingContext { eta: 1.5, ..opaque } } else { opaque };
     let (bsdf, eye) = ((own.bsdf)(&census).expect("its table"), DVec3::new(1.0, 0.0, 1.0).normalize());
     let samples = (0..1000).filter_map(|index| {
         let mut draws = Draws::new(3301, index);
-        bsdf.sample(&site, eye, [draws.unit(), draws.unit()], draws.unit())
+        bsdf.sample(&context, eye, [draws.unit(), draws.unit()], draws.unit())
     });
     samples.map(|sample| sample.pdf).fold(0.0, f64::max)
 }

@@ -27,7 +27,8 @@ fn evaluated(grey: f64, metallic: f64, roughness: f64, [light, eye]: [DVec3; 2])
     world.spawn(Principled { base_colour: Rgb::grey(grey), metallic, roughness, ..Principled::default() });
     let census = Census::of(&world);
     let table = census.table::<PrincipledTable>().expect("a table");
-    Bsdf::eval(&*table, &Site::opaque(0, Parameters { colour: [grey; 3], metallic, roughness }), light, eye)[1]
+    Bsdf::eval(&*table, &ShadingContext::opaque(0, Parameters { colour: [grey; 3], metallic, roughness }), light, eye)
+        [1]
 }
 
 /// Of a black base only specular reflection is left, which at normal incidence is ((n − 1)/(n + 1))².
@@ -44,8 +45,8 @@ fn a_principled_dielectric_reflects_by_its_index() {
             ..Principled::default()
         });
         let table = Census::of(&world).table::<PrincipledTable>().expect("a table");
-        let site = Site::opaque(0, Parameters { roughness: 0.1, ..Parameters::default() });
-        let reflected = Bsdf::eval(&*table, &site, up, up)[1] / ggx_brdf(up, up, 0.01);
+        let context = ShadingContext::opaque(0, Parameters { roughness: 0.1, ..Parameters::default() });
+        let reflected = Bsdf::eval(&*table, &context, up, up)[1] / ggx_brdf(up, up, 0.01);
         assert!((reflected - expected).abs() < 1e-3, "{ior}: {reflected} for {expected}");
     }
 }
@@ -112,7 +113,7 @@ fn a_mapped_white_metal_loses_nothing_however_smooth() {
     let mut worst = 0.0_f64;
     for roughness in [0.035, 0.05, 0.07, 0.085, 0.12, 0.26, 0.5, 1.0] {
         let (alpha, metallic) = (roughness * roughness, 1.0);
-        let site = Site::opaque(0, Parameters { colour: [1.0; 3], metallic, roughness });
+        let context = ShadingContext::opaque(0, Parameters { colour: [1.0; 3], metallic, roughness });
         for angle in ANGLES {
             let eye = eye_at(angle);
             let weight = |at: u64| {
@@ -128,7 +129,7 @@ fn a_mapped_white_metal_loses_nothing_however_smooth() {
                 let [low, high] = [at, at + 1].map(|end| cosine(f64::from(end) / f64::from(PARTS)));
                 let up = 0.5 * (low + high);
                 let light = DVec3::new(0.0, (1.0 - up * up).sqrt(), up);
-                let rest = Bsdf::eval(&*table, &site, light, eye)[1] - ggx_brdf(light, eye, alpha);
+                let rest = Bsdf::eval(&*table, &context, light, eye)[1] - ggx_brdf(light, eye, alpha);
                 2.0 * std::f64::consts::PI * rest * up * (high - low)
             };
             let albedo = once + (0..PARTS).map(part).sum::<f64>();
@@ -158,7 +159,7 @@ fn a_mapped_surface_is_that_of_its_numbers() {
 }
 
 /// Compares the BSDFs and the pdfs of surfaces that an image and the material give the same numbers.
-fn assert_mapped(name: &str, roughness_of: impl Fn(f64) -> f64, most: [f64; 2]) {
+fn assert_mapped(name: &str, roughness_of: impl Fn(f64) -> f64, max: [f64; 2]) {
     let mut world = World::new();
     world.spawn((
         Principled { metallic: 0.9, roughness: 0.1, ..Principled::default() },
@@ -172,11 +173,11 @@ fn assert_mapped(name: &str, roughness_of: impl Fn(f64) -> f64, most: [f64; 2]) 
         let mut other = World::new();
         other.spawn(Principled { base_colour: Rgb::grey(grey), metallic, roughness, ..Principled::default() });
         let own = Census::of(&other).table::<PrincipledTable>().expect("a table");
-        let site = Site::opaque(0, Parameters { colour: [grey; 3], metallic, roughness });
+        let context = ShadingContext::opaque(0, Parameters { colour: [grey; 3], metallic, roughness });
         for _ in 0..50 {
             let (light, eye) = (direction(&mut draws, false), direction(&mut draws, false));
             let values = [&*table, &*own]
-                .map(|table| [Bsdf::eval(table, &site, light, eye)[1], Bsdf::pdf(table, &site, light, eye)]);
+                .map(|table| [Bsdf::eval(table, &context, light, eye)[1], Bsdf::pdf(table, &context, light, eye)]);
             for part in [0, 1] {
                 let [found, expected] = values.map(|values| values[part]);
                 // Relative, but where almost nothing is reflected.
@@ -187,5 +188,5 @@ fn assert_mapped(name: &str, roughness_of: impl Fn(f64) -> f64, most: [f64; 2]) 
     }
     let [bsdf, pdf] = worst;
     eprintln!("mapped surfaces, {name}: {tried} pairs of directions, BSDFs apart by {bsdf:.1e}, pdfs by {pdf:.1e}");
-    assert!(worst[0] < most[0] && worst[1] < most[1], "{name}: {worst:?}");
+    assert!(worst[0] < max[0] && worst[1] < max[1], "{name}: {worst:?}");
 }

@@ -279,7 +279,7 @@ fn points<L: ListedLight>(case: u64, tried: &mut Tried, light: impl Fn(&mut Draw
     });
     let Some(LightChoice::Hierarchy(hierarchy)) = &lights.choice else { panic!("{}: no hierarchy", L::NAMES.table) };
     let (choice, row) = (lights.choice.as_ref().expect("a choice"), &lights.row);
-    let places: Vec<DVec3> = row.iter().map(|light| light.bounds().expect("bounds").around.least).collect();
+    let places: Vec<DVec3> = row.iter().map(|light| light.bounds().expect("bounds").around.min).collect();
     let brings = |receiver: &Receiver, light: usize, _: [f64; 2]| {
         let sample = row[light].sample(receiver.position);
         let cosine = receiver.normal.dot(sample.direction.as_dvec3()).max(0.0);

@@ -58,14 +58,14 @@ fn light_that_few_samples_find_has_the_error_asked_for() {
     let truths: Vec<f64> = (0..SIDE * SIDE).map(|pixel| truth(pixel % SIDE, pixel / SIDE)).collect();
     for (name, sampler) in Sampler::ALL {
         let adaptive = Adaptive { error, pilot: 16 };
-        let (mut squares, mut covered, mut sum, mut certain, mut least) = (0.0, 0.0, 0.0, 0, u32::MAX);
+        let (mut squares, mut covered, mut sum, mut certain, mut min) = (0.0, 0.0, 0.0, 0, u32::MAX);
         for seed in 0..few {
             let world = scene(seed, sampler, adaptive, 1 << 17);
             let mut render =
                 RenderInProgress::begin(&Census::of(&world), &offer_of_all(), &Execution::default()).expect("begins");
             let limits = Limits { adaptive: Some(adaptive), ..Limits::default() };
             let outcome = render_in_passes(&mut render, &limits, &(), &mut |_| Ok(())).expect("renders");
-            least = least.min(outcome.achieved.expect("measured").samples.1);
+            min = min.min(outcome.achieved.expect("measured").samples.1);
             for (pixel, &truth) in truths.iter().enumerate() {
                 let (tile, row) = render.film.place(pixel as u32 % SIDE, pixel as u32 / SIDE);
                 let mean = render.film.tiles[tile].mean_f64(row)[0];
@@ -80,7 +80,7 @@ fn light_that_few_samples_find_has_the_error_asked_for() {
         let (rms, covered, mean) = ((squares / pixels).sqrt(), covered / pixels, sum / pixels);
         eprintln!(
             "rare light, {name}, {few} seeds: rms error {rms:.4} for {error}, {:.1} % covered, mean {mean:.4} of the truth, \
-             at least {least} samples",
+             at least {min} samples",
             100.0 * covered
         );
         assert!(rms <= error, "{name}: {rms}");

@@ -262,7 +262,7 @@ fn many_lights_take_no_more_memory() {
     let mut sides = Vec::new();
     for (lights, rays) in [(1, 1), (10, 10), (64, 64), (65, 1), (10_000, 1), (30_000, 1)] {
         let render = begun(&scene(lights, [64, 64]), &Execution::default());
-        let of_lights = ["light", "light pdf", "shadow"];
+        let of_lights = ["shadow ray", "light pdf", "shadow hit"];
         let columns = render.plan.columns.iter().filter(|column| of_lights.contains(&column.name));
         let row: usize = columns.map(|column| column.bytes_per_row()).sum();
         let side = render.film.tile_side;

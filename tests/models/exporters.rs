@@ -34,11 +34,11 @@ fn world_triangles(model: &Model) -> Vec<[DVec3; 3]> {
 /// The least and the greatest corner, the area, and the volume with its sign.
 fn measured(triangles: &[[DVec3; 3]]) -> [f64; 8] {
     let corners = || triangles.iter().flatten().copied();
-    let least = corners().fold(DVec3::INFINITY, DVec3::min);
+    let min = corners().fold(DVec3::INFINITY, DVec3::min);
     let greatest = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
     let area: f64 = triangles.iter().map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum();
     let volume: f64 = triangles.iter().map(|[a, b, c]| a.dot(b.cross(*c)) / 6.0).sum();
-    [least.x, least.y, least.z, greatest.x, greatest.y, greatest.z, area, volume]
+    [min.x, min.y, min.z, greatest.x, greatest.y, greatest.z, area, volume]
 }
 
 #[test]

@@ -12,8 +12,8 @@ use std::time::{Duration, Instant};
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
 /// What a reader may take: this many times the file and those beside it that it opened, and so much in any case.
-const MOST_TIMES: usize = 100;
-const MOST_IN_ANY_CASE: usize = 1 << 20;
+const MAX_TIMES: usize = 100;
+const MAX_IN_ANY_CASE: usize = 1 << 20;
 
 /// The endings of the files that are changed.
 pub const FORMATS: [&str; 4] = ["gltf", "glb", "obj", "ply"];
@@ -198,7 +198,7 @@ pub struct Outcome {
     broken: Option<String>,
     /// The memory it took at most, and what it may take, in bytes.
     memory: usize,
-    most: usize,
+    max: usize,
     size: usize,
     time: Duration,
 }
@@ -227,8 +227,8 @@ pub fn outcome(case: &Case) -> Outcome {
             (!is_sentence).then_some(sentence)
         }
     };
-    let most = MOST_TIMES * size + MOST_IN_ANY_CASE;
-    Outcome { read: read.ok().map(|read| read.is_ok()), broken, memory, most, size, time }
+    let max = MAX_TIMES * size + MAX_IN_ANY_CASE;
+    Outcome { read: read.ok().map(|read| read.is_ok()), broken, memory, max, size, time }
 }
 
 /// What a model that was read must hold.
@@ -307,7 +307,7 @@ impl Counts {
             None => {}
         }
         self.broken.extend(outcome.broken.map(|why| (seed, why)));
-        if outcome.memory > outcome.most {
+        if outcome.memory > outcome.max {
             self.large.push(seed);
         }
         if outcome.time > Duration::from_secs(1) {

@@ -33,7 +33,7 @@ const VELOCITY: DVec3 = DVec3::new(0.9, 0.5, -0.7);
 fn placed<S: Oracle>(index: usize, position: DVec3) -> (S::Component, Placement) {
     let (examples, mut draws) = (S::Component::examples(), Draws::new(2401, index as u64));
     let [x, y, z, w] = [(); 4].map(|()| draws.between(-1.0, 1.0));
-    let scale = match S::UNEVEN {
+    let scale = match S::NON_UNIFORM {
         Some(false) => DVec3::splat(draws.between(0.5, 1.2)),
         _ => DVec3::new(draws.between(0.5, 1.2), draws.between(0.4, 1.0), draws.between(0.5, 1.5)),
     };
@@ -66,7 +66,7 @@ fn check_times<S: Oracle>(name: &str) {
                 rays += 1;
                 assert_eq!(found.t[row].is_finite(), still.is_some(), "{name}, row {row} of {index}");
                 let Some(still) = still else { continue };
-                let (at, moved) = (there.shape.surface(&there.beside, &still), surfaces.get(row));
+                let (at, moved) = (there.shape.surface(&there.surface_data, &still), surfaces.get(row));
                 worst = worst.max((found.t[row] / still.t - 1.0).abs());
                 let turned = (moved.normal.as_dvec3() - at.normal).length();
                 let off = (moved.position.as_dvec3() - at.point).length();
@@ -219,8 +219,8 @@ fn check_means<S: Oracle>(name: &str) {
         let deviations = |of: &dyn Fn(&[f64]) -> f64| {
             let (found, truth) = (mean(&moved, of), mean(&still, of));
             let spread = mean(&moved, &|film| (of(film) - found).powi(2)) / f64::from(SEEDS - 1);
-            let least = if surface == Surface::Emissive { 0.5 * truth / f64::from(SEEDS * SAMPLES) } else { 0.0 };
-            (found - truth) / (2.0 * spread.max(least) + 1e-12).sqrt()
+            let min = if surface == Surface::Emissive { 0.5 * truth / f64::from(SEEDS * SAMPLES) } else { 0.0 };
+            (found - truth) / (2.0 * spread.max(min) + 1e-12).sqrt()
         };
         let whole = deviations(&|film| film.iter().sum());
         let squares = (0..(SIZE * SIZE) as usize).map(|at| deviations(&|film| film[at]).powi(2)).sum::<f64>();

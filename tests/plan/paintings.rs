@@ -13,7 +13,7 @@ use pinhole::rays::{
     ScreenPoints, WorldRays,
 };
 use pinhole::shade::{
-    EmissionFactors, Footprints, JoinPoints, LightPdfs, LightRays, MetallicRoughness, Radiance, ShadowHits,
+    EmissionFactors, Footprints, JoinPoints, LightPdfs, MetallicRoughness, Radiance, ShadowHits, ShadowRays,
     SurfaceColours, TexturePoints, TransmissiveRows,
 };
 
@@ -75,7 +75,7 @@ fn each_column_is_painted_as_its_page_says() {
         shown(LightPower { r: r.clone(), g: g.clone(), b: b.clone() }, &[COLOUR]),
         shown(Splats { r: r.clone(), g: g.clone(), b: b.clone(), x: vec![9.0], y: vec![9.0] }, &[COLOUR]),
         shown(
-            Scattered { path: vec![0], dx: dx.clone(), dy: dy.clone(), dz: dz.clone(), ..Default::default() },
+            Scattered { row: vec![0], dx: dx.clone(), dy: dy.clone(), dz: dz.clone(), ..Default::default() },
             &[LEANING],
         ),
         shown(Media { first: vec![4, NO_ROW], ..Default::default() }, &[WHITE, BLACK]),
@@ -101,8 +101,8 @@ fn each_column_is_painted_as_its_page_says() {
             TexturePoints { x: vec![1.25], y: vec![-0.25], z: vec![0.5], ..Default::default() },
             &[[0.25, 0.75, 0.5]],
         ),
-        shown(LightRays { path: vec![0], dx, dy, dz, ..Default::default() }, &[LEANING]),
-        shown(LightPdfs { path: vec![0; 2], pdf: vec![0.0, 3.0] }, &[BLACK, grey(0.75)]),
+        shown(ShadowRays { row: vec![0], dx, dy, dz, ..Default::default() }, &[LEANING]),
+        shown(LightPdfs { row: vec![0; 2], pdf: vec![0.0, 3.0] }, &[BLACK, grey(0.75)]),
         // Half of the scale, which is red, at 64 boxes, 16 primitives or 4 nodes; white would be infinity.
         shown(BoxTests { boxes: vec![0, 64] }, &[BLACK, [0.8, 0.22, 0.28]]),
         shown(PrimitiveTests { primitives: vec![0, 16, 48] }, &[BLACK, [0.8, 0.22, 0.28], [0.98, 0.66, 0.15]]),

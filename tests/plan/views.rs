@@ -90,10 +90,7 @@ fn painted(tile: &EntityRef<'_>, column: &ColumnKind, image: ImageFrame) -> Film
     let mut film = FilmTile::new(*tile.get::<Tile>().expect("a tile"));
     let rows = (column.rows)(tile);
     let components = (column.components)(tile);
-    let paths = components
-        .iter()
-        .find(|component| component.name == "path" || component.name == "row")
-        .map(|component| component.values);
+    let paths = components.iter().find(|component| component.name == "row").map(|component| component.values);
     for path in 0..film.count.len() {
         let first = match paths {
             Some(ComponentValues::U32(paths)) => paths.iter().position(|&own| own as usize == path),

@@ -82,10 +82,10 @@ where
         let (point, normal) = (position + world_from_own * own, (own_from_world.transpose() * normal).normalize());
         let distance = room * scale.min_element();
         let hit = specimen.hit(point + distance * normal, -normal).expect("the point is hit");
-        let surface = specimen.shape.surface(&specimen.beside, &hit);
+        let surface = specimen.shape.surface(&specimen.surface_data, &hit);
         assert!(surface.outside, "{name}: the outer side of {:?} at {u}, {v}", specimen.component);
-        let found = specimen.shape.uv(&specimen.beside, &hit, surface.at, own);
-        let slope = specimen.shape.uv_slope(&specimen.beside, own_from_world);
+        let found = specimen.shape.uv(&specimen.surface_data, &hit, surface.at, own);
+        let slope = specimen.shape.uv_slope(&specimen.surface_data, own_from_world);
         let step = |by: DVec3| slope.step(own, normal, world_from_own * by, by);
         // A normal is known as well as the point is, relative to the thinnest part.
         let known = 1e-14 * position.length() / distance;

@@ -7,13 +7,18 @@ use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::measure::specimen::Specimen;
 
 /// Fills a block with hits, compares each surface to the last bit, and starts another.
-fn compare<S: Shape>(shapes: &[S], beside: &[S::Beside], block: &mut HitBlock, hits: &mut Vec<(u32, RayHit)>) -> usize {
+fn compare<S: Shape>(
+    shapes: &[S],
+    surface_data: &[S::SurfaceData],
+    block: &mut HitBlock,
+    hits: &mut Vec<(u32, RayHit)>,
+) -> usize {
     for (lane, (row, hit)) in hits.iter().enumerate() {
         block.set_hit(lane, *row, hit);
     }
-    S::fill_surfaces(shapes, beside, block, hits.len());
+    S::fill_surfaces(shapes, surface_data, block, hits.len());
     for (lane, (row, hit)) in hits.iter().enumerate() {
-        let expected = shapes[*row as usize].surface(&beside[*row as usize], hit);
+        let expected = shapes[*row as usize].surface(&surface_data[*row as usize], hit);
         let found = block.surface(lane);
         // Two NaN agree, as where a placement is so flat that its normal is lost.
         assert_eq!(format!("{found:?}"), format!("{expected:?}"), "lane {lane} of {}, {hit:?}", hits.len());
@@ -30,8 +35,8 @@ fn check_together<S: Oracle>(name: &str) {
         let away = [2.0, 30.0, 1e4][round % 3];
         let drawn: Vec<Specimen<S>> = (0..2).filter_map(|_| Specimen::drawn(&mut draws, [-2.0, 2.0], away)).collect();
         let shapes: Vec<S> = drawn.iter().map(|specimen| specimen.shape.clone()).collect();
-        let beside: Vec<S::Beside> = drawn.iter().map(|specimen| specimen.beside.clone()).collect();
-        let (mut hits, most) = (Vec::new(), 1 + (draws.unit() * HITS as f64) as usize);
+        let surface_data: Vec<S::SurfaceData> = drawn.iter().map(|specimen| specimen.surface_data.clone()).collect();
+        let (mut hits, max) = (Vec::new(), 1 + (draws.unit() * HITS as f64) as usize);
         for attempt in 0..3 * HITS {
             let row = if round % 2 == 0 { 0 } else { attempt % drawn.len() };
             let (_, radius) = drawn[row].sphere_around();
@@ -41,11 +46,11 @@ fn check_together<S: Oracle>(name: &str) {
                 Some(hit) => hits.push((row as u32, hit)),
                 None => missed += 1,
             }
-            if hits.len() == most.min(HITS) {
-                tried += compare(&shapes, &beside, &mut block, &mut hits);
+            if hits.len() == max.min(HITS) {
+                tried += compare(&shapes, &surface_data, &mut block, &mut hits);
             }
         }
-        tried += compare(&shapes, &beside, &mut block, &mut hits);
+        tried += compare(&shapes, &surface_data, &mut block, &mut hits);
     }
     assert!(tried > 1000, "{name}: {tried} hits and {missed} misses");
     eprintln!("{name}: {tried} hits, 0 differ");

@@ -62,8 +62,8 @@ fn drag(browser: &mut Browser, [x, y]: [f64; 2], step: [f64; 2], steps: u32, mod
 fn told(what: &str, mut took: Vec<f64>) -> f64 {
     took.sort_by(f64::total_cmp);
     let median = took[took.len() / 2];
-    let (most, count) = (took[took.len() - 1], took.len());
-    eprintln!("view: {what}: input to frame {median:.1} ms in the middle, {most:.1} ms at most, of {count}");
+    let (max, count) = (took[took.len() - 1], took.len());
+    eprintln!("view: {what}: input to frame {median:.1} ms in the middle, {max:.1} ms at most, of {count}");
     median
 }
 

@@ -124,10 +124,10 @@ fn course(rest: &str) -> Result<Directive<'_>, String> {
         .ok_or_else(|| format!("there is no `{rest}` of the course: a page may use {names}."))
 }
 
-/// A command is words between spaces; quotes would promise a shell that is not there.
+/// A command is words between spaces, or between quotes, as a shell reads them.
 fn words(command: &str) -> Result<&str, String> {
-    let quoted = command.contains(['"', '\'', '`']);
-    if quoted { Err(format!("`{command}` holds a quote: its words are split at spaces only.")) } else { Ok(command) }
+    let is_whole = shlex::split(command).is_some();
+    if is_whole { Ok(command) } else { Err(format!("`{command}` has a quote that does not end.")) }
 }
 
 /// Bad directives, directives in running text, and pictures that no directive made.
@@ -194,7 +194,7 @@ mod tests {
                 .starts_with("there is no `map` of the course: a page may use {{#course graph}}")
         );
         assert!(sentence("{{#pinhole }}").starts_with("{{#pinhole}} names no command"));
-        assert!(sentence("{{#pinhole trace \"a b\"}}").ends_with("holds a quote: its words are split at spaces only."));
+        assert!(sentence("{{#pinhole trace \"a b}}").ends_with("has a quote that does not end."));
     }
 
     #[test]

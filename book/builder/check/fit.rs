@@ -68,14 +68,14 @@ fn broken(line: &str, further: usize, has_strings: bool) -> Vec<String> {
     let indent = line.len() - line.trim_start().len() + further;
     let (mut out, mut rest, mut begins_inside) = (Vec::new(), line.to_owned(), false);
     while is_wide(&rest) {
-        let least = rest.len() - rest.trim_start().len();
+        let min = rest.len() - rest.trim_start().len();
         let quotes = |at: usize| usize::from(begins_inside) + rest[..at].matches('"').count();
         let comment = rest.match_indices("//").map(|(at, _)| at).find(|&at| has_strings && quotes(at) % 2 == 0);
         let is_comment = |at: usize| comment.is_some_and(|start| at > start);
         let is_outside = |at: usize| !has_strings || is_comment(at) || quotes(at) % 2 == 0;
         // A comment is not broken between its mark and its first word.
-        let least = if is_comment(least + 1) { least + COMMENT.len() } else { least };
-        let fits = |at: usize, mark: usize| at > least && width(&rest[..at]) + mark <= COLUMNS;
+        let min = if is_comment(min + 1) { min + COMMENT.len() } else { min };
+        let fits = |at: usize, mark: usize| at > min && width(&rest[..at]) + mark <= COLUMNS;
         let place = |of: &dyn Fn(usize) -> bool| rest.match_indices(' ').map(|(at, _)| at).rfind(|&at| of(at));
         let outside = place(&|at| fits(at, 0) && is_outside(at));
         let Some(at) = outside.or_else(|| place(&|at| fits(at, MARK.len()))) else { break };

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// The most words of prose a page may have before anything is unfolded.
-pub const MOST_WORDS: usize = 1_500;
+pub const MAX_WORDS: usize = 1_500;
 
 /// A set of chapters, by stem: `05_pinhole`, and `cover`.
 pub type Stems = BTreeSet<String>;
@@ -38,8 +38,8 @@ pub fn summary(all: &[Page]) -> Vec<Problem> {
 pub fn long_pages(all: &[Page]) -> Vec<Problem> {
     let long = |page: &Page| {
         let count = visible_words(&page.text);
-        let what = format!("has {count} words of prose, and a page has at most {MOST_WORDS}: split or shorten it.");
-        (count > MOST_WORDS).then(|| Problem::new(&page.label, 0, what))
+        let what = format!("has {count} words of prose, and a page has at most {MAX_WORDS}: split or shorten it.");
+        (count > MAX_WORDS).then(|| Problem::new(&page.label, 0, what))
     };
     // Nobody reads a bibliography in one go.
     all.iter().filter(|page| page.name != BIBLIOGRAPHY).filter_map(long).collect()
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn a_long_page_is_counted() {
-        let found = long_pages(&[made_up("a.md", &"word ".repeat(MOST_WORDS + 1)), made_up("b.md", "short")]);
+        let found = long_pages(&[made_up("a.md", &"word ".repeat(MAX_WORDS + 1)), made_up("b.md", "short")]);
         assert_eq!(found.len(), 1);
         assert!(found[0].what.starts_with("has 1501 words of prose, and a page has at most 1500"));
     }

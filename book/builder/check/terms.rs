@@ -26,7 +26,7 @@ const REPEATING: [&str; 7] = [
 ];
 
 /// The most sections that an entry names beside those that define its term.
-const MOST: usize = 3;
+const MAX: usize = 3;
 
 /// A part of a page to which an index leads.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -257,9 +257,9 @@ fn entry(term: String, derived: &[String], see: Option<String>, places: &[Place]
     let explains = !defined.is_empty() || used.first().is_some_and(|(repeats, _, _)| !repeats);
     used.retain(|&(repeats, _, _)| !repeats || !explains);
     // A section that says it once is worth naming only if no other says more.
-    let most = used.first().map_or(0, |&(_, count, _)| count);
-    used.retain(|&(_, count, _)| count > 1 || most == 1);
-    used.truncate(if defined.is_empty() { MOST + 1 } else { MOST });
+    let max = used.first().map_or(0, |&(_, count, _)| count);
+    used.retain(|&(_, count, _)| count > 1 || max == 1);
+    used.truncate(if defined.is_empty() { MAX + 1 } else { MAX });
     used.sort_by_key(|&(_, _, at)| at);
     let see = see.filter(|_| defined.is_empty() && used.is_empty());
     let defined = defined.into_iter().cloned().collect();

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Where the scene of a chapter or of a model is saved.
 const FOLDER: &str = "out";
 /// The most scenes of one name that are saved there.
-const MOST: u32 = 1000;
+const MAX: u32 = 1000;
 
 /// What stays the same while the text is edited.
 pub struct Home {
@@ -68,7 +68,7 @@ impl Home {
         let mut written = write(&file);
         // Another viewer of the same chapter has saved first.
         if let (None, Some(stem)) = (&known, &self.stem) {
-            for number in 2..=MOST {
+            for number in 2..=MAX {
                 if !written.as_ref().is_err_and(is_taken) {
                     break;
                 }
@@ -126,5 +126,5 @@ fn numbered(stem: &str, number: u32) -> PathBuf {
 /// The first name that no file has.
 pub fn free_file(stem: &str) -> PathBuf {
     let is_free = |file: &PathBuf| file.symlink_metadata().is_err_and(|why| why.kind() == ErrorKind::NotFound);
-    (1..MOST).map(|number| numbered(stem, number)).find(is_free).unwrap_or_else(|| numbered(stem, MOST))
+    (1..MAX).map(|number| numbered(stem, number)).find(is_free).unwrap_or_else(|| numbered(stem, MAX))
 }

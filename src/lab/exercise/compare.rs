@@ -153,7 +153,7 @@ fn looks_like<I: 'static, A: Shown + 'static>(
             agreed as f64 / spoken.len().max(1) as f64
         };
         let of_all = fraction(given.len());
-        if fraction(near) >= 0.9 && best.is_none_or(|(most, _)| of_all > most) {
+        if fraction(near) >= 0.9 && best.is_none_or(|(max, _)| of_all > max) {
             best = Some((of_all, told));
         }
     }

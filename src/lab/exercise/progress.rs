@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
 
-const PROGRESS: FileKind = FileKind { name: "a record of progress", most: 1 << 20 };
+const PROGRESS: FileKind = FileKind { name: "a record of progress", max: 1 << 20 };
 
 /// How often each exercise was tried, and with what result, by the chapter's name.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -9,24 +9,24 @@ use crate::naive::shadow::{ShadowStart, start_after_constant, start_at_hit, star
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3, Vec3};
 use pinhole::Result;
-use pinhole::extract::{MaterialTable, shape_bodies};
+use pinhole::extract::{MaterialTable, any_shapes};
 use pinhole::film::FilmTile;
 use pinhole::intersect::{NO_SHAPE, Surfaces};
 use pinhole::material::lambertian;
 use pinhole::plan::{Census, Table};
 use pinhole::render::inspect;
 use pinhole::scene::{LookAt, Placement, PointLight, Resolution, Rgb, Sphere};
-use pinhole::shade::{LightRays, ShadowHits};
-use pinhole::shapes::Body;
+use pinhole::shade::{ShadowHits, ShadowRays};
+use pinhole::shapes::AnyShape;
 use pinhole::{Chapter, Overrides};
 
 /// A scene's shapes, for figures that send rays of their own; the intersection is pinhole's.
-pub struct Occluders(Vec<Body>);
+pub struct Occluders(Vec<AnyShape>);
 
 impl Occluders {
     /// The shapes of a scene, in render space.
     pub fn of(scene: &World) -> Result<Self> {
-        Ok(Self(shape_bodies(&Census::of(scene))?))
+        Ok(Self(any_shapes(&Census::of(scene))?))
     }
 
     /// Whether anything is hit before `t_max`.
@@ -76,7 +76,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
             let (pixels, wrong) = shadows.started_by(*start);
             let low = corner(column, row);
             svg.picture(low, panel, &Picture::painted(SIZE, &pixels)?);
-            let count = format!("{wrong} of {} wrong", shadows.rays.path.len());
+            let count = format!("{wrong} of {} wrong", shadows.rays.row.len());
             let at = low + DVec2::new(across / 2.0, panel.y + 4.0);
             svg.label(Label::near(at, &count, DVec2::Y, 0.0).title(0.92));
         }
@@ -89,7 +89,7 @@ struct Shadows {
     occluders: Occluders,
     materials: MaterialTable,
     surfaces: Surfaces,
-    rays: LightRays,
+    rays: ShadowRays,
     hits: ShadowHits,
     /// What each pixel has without the light of any light source.
     unlit: Vec<[f32; 3]>,
@@ -105,7 +105,7 @@ impl Shadows {
         let inspection = inspect(&scene, &chapter.stages(), width.max(height))?;
         let tile = inspection.tiles.first().map(|&tile| inspection.world.entity(tile));
         let columns = tile.and_then(|tile| {
-            let lit = (tile.get::<Surfaces>()?.clone(), tile.get::<LightRays>()?.clone());
+            let lit = (tile.get::<Surfaces>()?.clone(), tile.get::<ShadowRays>()?.clone());
             Some((lit, tile.get::<ShadowHits>()?.clone(), tile.get::<FilmTile>()?))
         });
         let ((surfaces, rays), hits, film) = columns.ok_or_else(|| figure.unsuited("a light that casts shadows"))?;
@@ -120,7 +120,7 @@ impl Shadows {
     /// The pixels with another start of each shadow ray, and how many of them differ from pinhole's.
     fn started_by(&self, start: Start) -> (Vec<[f32; 3]>, usize) {
         let (rays, mut pixels, mut wrong) = (&self.rays, self.unlit.clone(), 0);
-        for (ray, &path) in rays.path.iter().enumerate() {
+        for (ray, &path) in rays.row.iter().enumerate() {
             let surface = self.surfaces.get(path as usize);
             let direction = Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]).as_dvec3();
             let blocked = self.blocked(start(surface.position, surface.normal), direction, f64::from(rays.t_max[ray]));
@@ -173,7 +173,7 @@ mod tests {
         let mut rays = 0;
         for ((scale, _), row) in SCALES.iter().zip(&mut wrong) {
             let shadows = Shadows::of(&chapter, &figure, *scale).expect("shadows");
-            rays += shadows.rays.path.len();
+            rays += shadows.rays.row.len();
             *row = STARTS.map(|(_, start)| shadows.started_by(start).1);
         }
         eprintln!("wrong of {rays} shadow rays in three sizes: {wrong:?}");

@@ -65,8 +65,8 @@ pub fn draw_budget(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     bars.push(("altogether", bars.iter().map(|(_, each)| each).sum()));
     let milliseconds = |each: f64| each * FRAME[0] * FRAME[1] * 1e-6;
     let [left, top, right, height] = BARS;
-    let most = bars.iter().map(|&(_, each)| milliseconds(each)).fold(MARKS[1].0, f64::max);
-    let x = |time: f64| left + (right - left) * time / most;
+    let max = bars.iter().map(|&(_, each)| milliseconds(each)).fold(MARKS[1].0, f64::max);
+    let x = |time: f64| left + (right - left) * time / max;
     let bottom = top + height * bars.len() as f64;
     let mut svg = Svg::new(figure.name, bottom + 58.0);
     for (time, words) in MARKS {
@@ -105,7 +105,7 @@ mod tests {
     fn kept_costs_are_told_for_a_sample_of_a_pixel() {
         let text = "cost of x: 20 x 10 pixels of 2 samples on one thread, 15 renders\nerrors: the worst of 3\n\
                     what ran    rows ns a row\nRasterise triangles   400    10.0   9 to 11   -\n\
-                    Trace shadow rays: meshes   200   8.00    1 to 9   -\nClear light rays   0    -   -   -\n\
+                    Trace shadow rays: meshes   200   8.00    1 to 9   -\nClear shadow rays  0    -   -   -\n\
                     Sum up the paths 800 0.5  0.4 to 1   -\nmachine: M, 2 threads\n";
         let stages = stages(text).expect("costs");
         assert_eq!(stages.len(), 3, "{stages:?}");

@@ -9,13 +9,13 @@ use super::svg::{Drawing, Svg};
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use pinhole::Result;
-use pinhole::extract::{AreaLightTable, CameraJoinTable, GlassTable, SphereTable, camera_entity, shape_bodies};
+use pinhole::extract::{AreaLightTable, CameraJoinTable, GlassTable, SphereTable, any_shapes, camera_entity};
 use pinhole::lights::{MAX_TARGETS_SOLID_ANGLE, Target, direction_to_targets};
 use pinhole::material::{cosine_direction, frame_of, mirror_direction, refract};
 use pinhole::plan::{Census, Table};
 use pinhole::rays::join_camera;
 use pinhole::scene::LookAt;
-use pinhole::shapes::{Body, sphere_t};
+use pinhole::shapes::{AnyShape, sphere_t};
 use pinhole::{Chapter, Overrides};
 
 const HEIGHT: f64 = 796.0;
@@ -39,7 +39,7 @@ type Sphere = (DVec3, f64);
 
 /// The section through a chapter's light and its glass ball, in render space.
 struct Plane {
-    bodies: Vec<Body>,
+    bodies: Vec<AnyShape>,
     join: CameraJoinTable,
     index: f64,
     lamp: Sphere,
@@ -143,7 +143,7 @@ impl Plane {
         let (Some((lamp, ball)), Some(&index)) = (Self::spheres(scene)?, glass.ior.first()) else { return Ok(None) };
         let foot = DVec3::new(lamp.0.x, -eye.y, lamp.0.z);
         let join = CameraJoinTable::extract(census)?;
-        Ok(Some(Self { bodies: shape_bodies(census)?, join, index, lamp, ball, along, foot }))
+        Ok(Some(Self { bodies: any_shapes(census)?, join, index, lamp, ball, along, foot }))
     }
 
     /// The first sphere that emits, and the first that does not, relative to the eye.

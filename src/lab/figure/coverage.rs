@@ -123,7 +123,7 @@ fn rectangles(projected: &Projected) -> Vec<&PlacedMesh> {
     let mut found: Vec<&PlacedMesh> =
         projected.meshes.iter().filter(|mesh| mesh.geometry.triangles.len() == 2).collect();
     found.sort_by(|a, b| {
-        let size = |mesh: &PlacedMesh| (mesh.bounds.most - mesh.bounds.least).length();
+        let size = |mesh: &PlacedMesh| (mesh.bounds.max - mesh.bounds.min).length();
         size(b).total_cmp(&size(a))
     });
     found

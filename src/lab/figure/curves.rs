@@ -11,7 +11,7 @@ use pinhole::{Chapter, Error, Result};
 /// Where the axes are: left, top, right, bottom.
 const FRAME: [f64; 4] = [66.0, 40.0, 566.0, 340.0];
 const HEIGHT: f64 = 412.0;
-const KEPT: FileKind = FileKind { name: "kept curves", most: 1 << 20 };
+const KEPT: FileKind = FileKind { name: "kept curves", max: 1 << 20 };
 
 /// A table of the kept file: its columns' names, and a row for each count, whose cells may be empty.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,7 +10,7 @@ use glam::DVec2;
 use pinhole::{Chapter, Result};
 
 /// The most levels.
-const MOST: u32 = 4;
+const MAX: u32 = 4;
 /// Samples a pixel, how many renders of them, each of another seed, and the colours of their curves.
 const SAMPLES: [(u32, u32, &str); 4] = [(1, 16, "#d9822b"), (4, 12, "#4a90c9"), (16, 6, "#4f9d5d"), (64, 2, "#8a6bb1")];
 /// Renders whose mean is the reference, and the samples of each.
@@ -39,11 +39,11 @@ fn measure(chapter: &Chapter) -> Result<Apart> {
     let through = |runs: &[Frame], levels: u32| runs.iter().map(|run| run.history.denoised(levels)).collect::<Vec<_>>();
     let batches = renders(few(BATCH), few(BATCHES).max(2), 100_000)?;
     let (plain, is_plain) = (through(&batches, 0), &batches[0].is_plain);
-    let filtered: Vec<Vec<Radiance>> = (0..=MOST).map(|levels| through(&batches, levels)).collect();
+    let filtered: Vec<Vec<Radiance>> = (0..=MAX).map(|levels| through(&batches, levels)).collect();
     let bias = |counts: &[bool]| filtered.iter().map(|filtered| bias_squared(filtered, &plain, counts)).collect();
     let of = |(samples, runs, _): (u32, u32, &str)| {
         let runs = renders(few(samples), few(runs).max(2), 1000 * samples)?;
-        Ok((0..=MOST).map(|levels| variance(&through(&runs, levels), is_plain)).collect())
+        Ok((0..=MAX).map(|levels| variance(&through(&runs, levels), is_plain)).collect())
     };
     let variance = SAMPLES.into_iter().map(of).collect::<Result<_>>()?;
     Ok(Apart { variance, bias: bias(is_plain), bias_of_all: bias(&vec![true; is_plain.len()]) })
@@ -87,17 +87,17 @@ pub fn draw_bias_and_variance(chapter: &Chapter, figure: &Figure) -> Result<Draw
     let high = f64::max(all().fold(f64::NEG_INFINITY, f64::max).ceil(), low + 1.0);
     let at = |levels: usize, value: f64| {
         let part = (libm::log10(value) - low) / (high - low);
-        DVec2::new(left + (right - left) * levels as f64 / f64::from(MOST), bottom - (bottom - top) * part)
+        DVec2::new(left + (right - left) * levels as f64 / f64::from(MAX), bottom - (bottom - top) * part)
     };
     let mut svg = Svg::new(figure.name, HEIGHT);
     let grid = Pen::new(INK, 0.8).faint(0.16);
     for decade in low as i32..=high as i32 {
-        let ends = [0, MOST as usize].map(|level| at(level, libm::exp10(f64::from(decade))));
+        let ends = [0, MAX as usize].map(|level| at(level, libm::exp10(f64::from(decade))));
         svg.quiet_line(ends[0], ends[1], grid);
         let words = if decade == 0 { "1".into() } else { format!("10{}", raised(&decade.to_string())) };
         svg.label(Label::near(ends[0], &words, DVec2::NEG_X, 8.0).title(0.85));
     }
-    for level in 0..=MOST as usize {
+    for level in 0..=MAX as usize {
         let x = at(level, 1.0).x;
         svg.quiet_line(DVec2::new(x, top), DVec2::new(x, bottom), grid);
         svg.label(Label::near(DVec2::new(x, bottom), &level.to_string(), DVec2::Y, 6.0).title(0.85));
@@ -115,14 +115,14 @@ pub fn draw_bias_and_variance(chapter: &Chapter, figure: &Figure) -> Result<Draw
         let best = (0..sum.len()).min_by(|&one, &other| sum[one].total_cmp(&sum[other])).unwrap_or(0);
         svg.dot(at(best, sum[best]), 4.0, colour);
         let words = format!("{samples} {}", if samples == 1 { "sample" } else { "samples" });
-        ends.push((at(MOST as usize, variance[MOST as usize]), words, colour));
+        ends.push((at(MAX as usize, variance[MAX as usize]), words, colour));
     }
     for (bias, words, pen) in [
         (&bias, "bias²", Pen::new(INK, 1.8)),
         (&bias_of_all, "bias² with the mirror", Pen::new(INK, 1.4).dashed("2 4")),
     ] {
         curve(&mut svg, bias, pen);
-        ends.push((at(MOST as usize, bias[MOST as usize].max(libm::exp10(low))), words.to_owned(), INK));
+        ends.push((at(MAX as usize, bias[MAX as usize].max(libm::exp10(low))), words.to_owned(), INK));
     }
     ends.sort_by(|one, other| one.0.y.total_cmp(&other.0.y));
     let mut last = f64::NEG_INFINITY;

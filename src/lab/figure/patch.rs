@@ -3,7 +3,7 @@ use super::subject::{Ball, Planar};
 use glam::{DVec2, DVec3};
 
 /// The most lines that a patch is ruled with in one direction.
-const MOST_LINES: f64 = 16.0;
+const MAX_LINES: f64 = 16.0;
 /// How many points outline a shadow, and the surroundings of a thing.
 const OUTLINE: usize = 48;
 
@@ -47,7 +47,7 @@ impl Patch {
         let longest = (high - low).max_element();
         let mut decade = 1.0;
         loop {
-            if let Some(factor) = [1.0, 2.0, 5.0].into_iter().find(|factor| longest / (factor * decade) <= MOST_LINES) {
+            if let Some(factor) = [1.0, 2.0, 5.0].into_iter().find(|factor| longest / (factor * decade) <= MAX_LINES) {
                 return factor * decade;
             }
             decade *= 10.0;

@@ -10,20 +10,20 @@ use pinhole::{Result, stages};
 use std::cell::Cell;
 
 thread_local! {
-    static MOST_SAMPLES: Cell<u32> = const { Cell::new(u32::MAX) };
+    static MAX_SAMPLES: Cell<u32> = const { Cell::new(u32::MAX) };
 }
 
 /// Draws with at most so many samples a pixel of a picture, for who looks at a figure's lines and labels only.
-pub fn with_few_samples<T>(most: u32, draw: impl FnOnce() -> T) -> T {
-    let before = MOST_SAMPLES.replace(most);
+pub fn with_few_samples<T>(max: u32, draw: impl FnOnce() -> T) -> T {
+    let before = MAX_SAMPLES.replace(max);
     let drawn = draw();
-    MOST_SAMPLES.set(before);
+    MAX_SAMPLES.set(before);
     drawn
 }
 
 /// So many samples, or renders, or fewer for who looks at a figure's lines and labels only.
 pub(super) fn few(count: u32) -> u32 {
-    count.min(MOST_SAMPLES.get())
+    count.min(MAX_SAMPLES.get())
 }
 
 /// A picture of a chapter's scene, within a figure.
@@ -145,7 +145,7 @@ fn rendered(
     }
     change(&mut scene.entity_mut(camera));
     if let Some(mut sampling) = scene.get_mut::<Sampling>(camera) {
-        sampling.samples = sampling.samples.min(MOST_SAMPLES.get());
+        sampling.samples = sampling.samples.min(MAX_SAMPLES.get());
     }
     render(&scene, &whole.stages(), &Execution::default(), &())
 }

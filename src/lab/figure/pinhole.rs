@@ -45,10 +45,10 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 
 /// The scene with the eye and with the image plane where it shows best; any distance gives the same rays.
 pub fn eye_scenery<'s>(subject: &'s Subject, rays: &[&PixelRay], room: Frame) -> Result<Scenery<'s>> {
-    let most = drawn_distance(subject);
+    let max = drawn_distance(subject);
     // One decimal, since the figure's foot says it.
     let grids =
-        [1.0, 0.8, 0.65, 0.5].map(|fraction| Grid::of(subject, ((most * fraction * 10.0).floor() / 10.0).max(0.1)));
+        [1.0, 0.8, 0.65, 0.5].map(|fraction| Grid::of(subject, ((max * fraction * 10.0).floor() / 10.0).max(0.1)));
     best_scenery(subject, &grids, rays, &[(DVec3::ZERO, 0.1)], room)
 }
 

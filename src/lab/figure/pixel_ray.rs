@@ -3,7 +3,7 @@ use glam::DVec3;
 use pinhole::film::{Curve, FilmTile, byte_from_linear};
 use pinhole::intersect::{Hits, NO_SHAPE, Surface, Surfaces};
 use pinhole::rays::{Tile, WorldRays};
-use pinhole::shade::{LightRays, ShadowHits};
+use pinhole::shade::{ShadowHits, ShadowRays};
 
 /// One pixel's ray as the stages left it, in render space.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,7 +76,7 @@ pub fn pixel_rays(tile: &EntityRef<'_>, lights: &[DVec3]) -> Vec<PixelRay> {
 
 /// The rays to lights that a pixel's surface sends.
 fn onward(tile: &EntityRef<'_>, path: u32, lights: &[DVec3]) -> Vec<Onward> {
-    let Some(rays) = tile.get::<LightRays>() else { return Vec::new() };
+    let Some(rays) = tile.get::<ShadowRays>() else { return Vec::new() };
     let shadows = tile.get::<ShadowHits>();
     let of_row = |row: usize| {
         let part = |components: [&Vec<f32>; 3]| DVec3::from(components.map(|component| f64::from(component[row])));
@@ -88,7 +88,7 @@ fn onward(tile: &EntityRef<'_>, path: u32, lights: &[DVec3]) -> Vec<Onward> {
         let to = lights.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
         to.map(|&to| Onward { from, to, blocked })
     };
-    (0..rays.path.len()).filter(|&row| rays.path[row] == path).filter_map(of_row).collect()
+    (0..rays.row.len()).filter(|&row| rays.row[row] == path).filter_map(of_row).collect()
 }
 
 /// Light as a screen shows it.

@@ -62,7 +62,7 @@ impl Projected {
 
     /// The planes that this mesh is clipped by.
     fn planes(&self, mesh: &PlacedMesh) -> ClipPlanes {
-        ClipPlanes::new(&self.projection, mesh.bounds.least.abs().max(mesh.bounds.most.abs()).length())
+        ClipPlanes::new(&self.projection, mesh.bounds.min.abs().max(mesh.bounds.max.abs()).length())
     }
 }
 

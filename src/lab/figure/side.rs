@@ -49,7 +49,7 @@ pub fn best_scenery<'s>(
         for side in Side::all() {
             let scenery = Scenery::new(subject, grid, side, more, frame)?;
             let worth = worth(&scenery, rays);
-            if best.as_ref().is_none_or(|(most, _)| worth > *most) {
+            if best.as_ref().is_none_or(|(max, _)| worth > *max) {
                 best = Some((worth, scenery));
             }
         }

@@ -69,10 +69,10 @@ fn drawn_range(spans: &[[f64; 2]; 3]) -> (f64, f64) {
     let enters = spans.iter().map(|span| span[0]).fold(f64::NEG_INFINITY, f64::max);
     let leaves = spans.iter().map(|span| span[1]).fold(f64::INFINITY, f64::min);
     let aside = 3.0 * (leaves - enters);
-    let least = spans.iter().map(|span| span[0]).fold(f64::INFINITY, f64::min).max(enters - aside);
-    let most = spans.iter().map(|span| span[1]).fold(f64::NEG_INFINITY, f64::max).min(leaves + aside);
-    let margin = 0.08 * (most - least);
-    (least - margin, most + margin)
+    let min = spans.iter().map(|span| span[0]).fold(f64::INFINITY, f64::min).max(enters - aside);
+    let max = spans.iter().map(|span| span[1]).fold(f64::NEG_INFINITY, f64::max).min(leaves + aside);
+    let margin = 0.08 * (max - min);
+    (min - margin, max + margin)
 }
 
 /// Of the cuboid that most rays hit, the ray whose six ends stand farthest apart on the drawing; first those that enter

@@ -37,8 +37,8 @@ pub fn draw_views(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     };
     let mut exhibits = vec![Exhibit { picture: picture(None)?, lines: vec!["the picture".into(), String::new()] }];
     for name in [BoxTests::NAME, PrimitiveTests::NAME, TraversalDepths::NAME] {
-        let [mean, most] = mean_and_most(chapter, name)?;
-        let line = format!("{mean:.1} on average, {most:.0} at most");
+        let [mean, max] = mean_and_most(chapter, name)?;
+        let line = format!("{mean:.1} on average, {max:.0} at most");
         exhibits.push(Exhibit { picture: picture(Some(name))?, lines: vec![format!("`{name}`"), line] });
     }
     Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, SIZE)))
@@ -57,11 +57,11 @@ fn mean_and_most(chapter: &Chapter, view: &str) -> Result<[f64; 2]> {
         ]
         .concat()
     });
-    let (mut sum, mut most, mut number) = (0.0, 0.0, 0.0);
+    let (mut sum, mut max, mut number) = (0.0, 0.0, 0.0);
     for count in counts.map(f64::from) {
-        (sum, most, number) = (sum + count, f64::max(most, count), number + 1.0);
+        (sum, max, number) = (sum + count, f64::max(max, count), number + 1.0);
     }
-    Ok([sum / f64::max(number, 1.0), most])
+    Ok([sum / f64::max(number, 1.0), max])
 }
 
 /// The first bounce of a chapter with a ray through the centre of each pixel.
@@ -100,9 +100,9 @@ impl Parts {
         let census = Census::of(&scene);
         let (spheres, meshes) = (SphereTable::extract(&census)?, MeshTable::extract(&census)?);
         let mut parts: Vec<Part> = spheres.row.into_iter().map(Part::Sphere).collect();
-        let most = meshes.row.iter().map(|mesh| mesh.geometry.triangles.len()).max();
+        let max = meshes.row.iter().map(|mesh| mesh.geometry.triangles.len()).max();
         for mesh in meshes.row {
-            if Some(mesh.geometry.triangles.len()) == most {
+            if Some(mesh.geometry.triangles.len()) == max {
                 let row = |corners| TriangleRow { corners, size: 1.0, centre: DVec3::ZERO, bounding_radius: 0.0 };
                 parts.extend(mesh.placed_triangles().map(|corners| Part::Triangle(row(corners))));
             } else {
@@ -127,7 +127,7 @@ impl Part {
                 return BoundingBox::around(a.min(*b).min(*c), a.max(*b).max(*c));
             }
         };
-        bounds.map_or_else(BoundingBox::default, |bounds| BoundingBox::around(bounds.least, bounds.most))
+        bounds.map_or_else(BoundingBox::default, |bounds| BoundingBox::around(bounds.min, bounds.max))
     }
 
     fn t(&self, [origin, direction]: [DVec3; 2]) -> f64 {
@@ -234,7 +234,7 @@ pub fn draw_growth(_: &Chapter, figure: &Figure) -> Result<Drawing> {
             curves[curve + 1].2.push(tests.sum::<usize>() as f64 / RAYS as f64);
         }
     }
-    let top = 1.15 * curves[1..].iter().flat_map(|(.., tests)| tests).fold(0.0, |most, &tests| f64::max(most, tests));
+    let top = 1.15 * curves[1..].iter().flat_map(|(.., tests)| tests).fold(0.0, |max, &tests| f64::max(max, tests));
     let at =
         |count: f64, tests: f64| corner + DVec2::new((libm::log10(count) - 1.0) / 3.0, -(tests / top).min(1.0)) * size;
     let mut svg = Svg::new(figure.name, HEIGHT);

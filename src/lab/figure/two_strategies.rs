@@ -8,7 +8,7 @@ use super::svg::{Drawing, Svg};
 use glam::{DVec2, DVec3};
 use pinhole::Result;
 use pinhole::extract::{SamplingTable, SphereTable, camera_entity};
-use pinhole::material::{Bsdf, MetalTable, Parameters, Site, mirror_direction};
+use pinhole::material::{Bsdf, MetalTable, Parameters, ShadingContext, mirror_direction};
 use pinhole::plan::{Census, Table};
 use pinhole::sample::{Draw, PixelKey, Purpose, SampleIndex, Sobol, unit};
 use pinhole::shapes::emitter::{sphere_pdf, sphere_point};
@@ -31,7 +31,7 @@ const MAP_TANGENT: f64 = 0.4;
 const POINTS: f64 = 186.0;
 const MAPS: [f64; 2] = [320.0, 560.0];
 /// A sample that brings less than this fraction of the integral counts as none.
-const LEAST: f64 = 0.1;
+const MIN: f64 = 0.1;
 
 /// A point of metal that shows a spherical light.
 struct Case {
@@ -93,13 +93,13 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 }
 
 impl Case {
-    fn site(&self) -> Site {
-        Site::opaque(self.row, Parameters::default())
+    fn context(&self) -> ShadingContext {
+        ShadingContext::opaque(self.row, Parameters::default())
     }
 
     /// The BSDF times the cosine.
     fn reflected(&self, to_light: DVec3) -> f64 {
-        self.metals.eval(&self.site(), to_light, self.to_eye)[0] * to_light.z.max(0.0)
+        self.metals.eval(&self.context(), to_light, self.to_eye)[0] * to_light.z.max(0.0)
     }
 
     /// Whether a direction finds the light.
@@ -110,7 +110,7 @@ impl Case {
     /// The pdfs of a direction by both strategies: of the light's points, and of the BSDF.
     fn pdfs(&self, direction: DVec3) -> [f64; 2] {
         let by_light = if self.finds(direction) { sphere_pdf(self.light, self.radius) } else { 0.0 };
-        [by_light, self.metals.pdf(&self.site(), direction, self.to_eye)]
+        [by_light, self.metals.pdf(&self.context(), direction, self.to_eye)]
     }
 
     /// A direction of one strategy, and what it brings of a light of radiance 1.
@@ -124,7 +124,7 @@ impl Case {
             return (direction, self.reflected(direction) / point.pdf);
         }
         let choice = unit(Sobol::of(sample, Purpose::MaterialChoice).one(pixel));
-        match self.metals.sample(&self.site(), self.to_eye, numbers, choice) {
+        match self.metals.sample(&self.context(), self.to_eye, numbers, choice) {
             Some(sample) => (sample.to_light, if self.finds(sample.to_light) { sample.weight[0] } else { 0.0 }),
             None => (-DVec3::Z, 0.0),
         }
@@ -195,7 +195,7 @@ fn paint_map(svg: &mut Svg, middle: DVec2, case: &Case, samples: &[(DVec3, f64)]
     };
     let edge: Vec<DVec2> = (0..60).map(edge).collect();
     svg.polygon(&edge, Some(&Fill::new(IMAGE, 0.28)), Some(Pen::new(IMAGE, 1.4)));
-    let contributes = |brought: f64| brought >= LEAST * integral;
+    let contributes = |brought: f64| brought >= MIN * integral;
     for &(direction, brought) in samples {
         let Some(place) = at(direction) else { continue };
         if contributes(brought) {

@@ -8,12 +8,12 @@ use super::svg::{Drawing, Svg};
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use pinhole::Result;
-use pinhole::extract::{AreaLightTable, MaterialTable, NO_ROW, ShapeTable, SphereTable, camera_entity, shape_bodies};
-use pinhole::material::{Bsdf, MatteTable, Parameters, Site, frame_of};
+use pinhole::extract::{AreaLightTable, MaterialTable, NO_ROW, ShapeTable, SphereTable, any_shapes, camera_entity};
+use pinhole::material::{Bsdf, MatteTable, Parameters, ShadingContext, frame_of};
 use pinhole::plan::{Census, Table};
 use pinhole::scene::LookAt;
 use pinhole::shade::irradiance_from_area;
-use pinhole::shapes::{Body, Emitter, RayHit, point_on};
+use pinhole::shapes::{AnyShape, Emitter, RayHit, point_on};
 use pinhole::{Chapter, Overrides};
 use std::f64::consts::{FRAC_1_PI, TAU};
 
@@ -105,7 +105,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 
 /// The room's shapes and lights, in render space.
 struct Room {
-    bodies: Vec<Body>,
+    bodies: Vec<AnyShape>,
     shapes: ShapeTable,
     materials: MaterialTable,
     lights: AreaLightTable,
@@ -115,7 +115,7 @@ impl Room {
     fn of(scene: &World) -> Result<Self> {
         let census = &Census::of(scene);
         Ok(Self {
-            bodies: shape_bodies(census)?,
+            bodies: any_shapes(census)?,
             shapes: ShapeTable::extract(census)?,
             materials: MaterialTable::extract(census)?,
             lights: AreaLightTable::extract(census)?,
@@ -159,7 +159,8 @@ impl Room {
         let along = frame.transpose() * DVec3::X.cross(vertex.normal) * number.signum();
         let azimuth = libm::atan2(along.y, along.x) / TAU;
         let numbers = [number.abs(), azimuth.rem_euclid(1.0)];
-        match MatteTable.sample(&Site::opaque(0, Parameters::coloured(vertex.albedo)), DVec3::Z, numbers, 0.0) {
+        match MatteTable.sample(&ShadingContext::opaque(0, Parameters::coloured(vertex.albedo)), DVec3::Z, numbers, 0.0)
+        {
             Some(sample) => (frame * sample.to_light, sample.weight),
             None => (vertex.normal, [0.0; 3]),
         }

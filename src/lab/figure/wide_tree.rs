@@ -71,9 +71,9 @@ pub fn draw_children(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         let middle = DVec2::new(left + 0.5 * scale * (high.x - low.x), 18.0);
         svg.label(Label::near(middle, title, DVec2::Y, 0.0).title(0.95));
     }
-    let most = bvh.nodes.iter().map(|node| children(node).len()).sum::<usize>() as f64 / bvh.nodes.len() as f64;
+    let max = bvh.nodes.iter().map(|node| children(node).len()).sum::<usize>() as f64 / bvh.nodes.len() as f64;
     let line = format!(
-        "{} spheres in {} leaves and {} nodes, which have {most:.1} children on average",
+        "{} spheres in {} leaves and {} nodes, which have {max:.1} children on average",
         spheres.len(),
         bvh.leaves.len(),
         bvh.nodes.len()

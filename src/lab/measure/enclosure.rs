@@ -68,7 +68,7 @@ impl Enclosure {
     }
 
     /// No more than what the number's magnitude can be.
-    fn most(&self) -> f64 {
+    fn max(&self) -> f64 {
         (self.high.abs() + self.radius) * GROWN
     }
 
@@ -115,7 +115,7 @@ impl Number for Enclosure {
             return Self { high: product, low: error, radius: floor + 0.0 * product };
         }
         let (high, low) = exact_sum(product, error + (self.high * other.low + self.low * other.high));
-        let spread = self.most() * other.radius + self.radius * other.high.abs() * GROWN;
+        let spread = self.max() * other.radius + self.radius * other.high.abs() * GROWN;
         let floor = if self.radius > 0.0 || other.radius > 0.0 { FLOOR } else { floor };
         Self { high, low, radius: (spread + high.abs() * ROUNDING) * GROWN + floor }
     }
@@ -127,8 +127,8 @@ impl Number for Enclosure {
         let quotient = Self { high, low, radius: 0.0 };
         // What is left of a after taking away q b, over the least that b can be, is how far q is off.
         let rest = self.less(&divisor.by(&quotient));
-        let least = divisor.high.abs() / GROWN - divisor.radius * GROWN;
-        let radius = if least > 0.0 { rest.most_exactly() / least * GROWN } else { f64::INFINITY };
+        let min = divisor.high.abs() / GROWN - divisor.radius * GROWN;
+        let radius = if min > 0.0 { rest.most_exactly() / min * GROWN } else { f64::INFINITY };
         Self { radius: if radius == 0.0 { 0.0 } else { radius + FLOOR }, ..quotient }
     }
 
@@ -170,9 +170,9 @@ impl Number for Enclosure {
 }
 
 impl Enclosure {
-    /// As [`Self::most`], with nothing added to an exact 0.
+    /// As [`Self::max`], with nothing added to an exact 0.
     fn most_exactly(&self) -> f64 {
-        if self.high == 0.0 && self.radius == 0.0 { 0.0 } else { self.most() }
+        if self.high == 0.0 && self.radius == 0.0 { 0.0 } else { self.max() }
     }
 }
 

@@ -8,9 +8,9 @@ use std::io::{BufReader, Seek};
 use std::path::Path;
 
 /// The most pixels that are read: as many as a film has at most.
-const MOST_PIXELS: u64 = 1 << 30;
+const MAX_PIXELS: u64 = 1 << 30;
 /// An image of so many pixels with every layer that there is stays below this.
-const IMAGE: FileKind = FileKind { name: "an image", most: 1 << 37 };
+const IMAGE: FileKind = FileKind { name: "an image", max: 1 << 37 };
 
 /// What kind of numbers a file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,8 +61,8 @@ pub fn read_numbers(path: &Path) -> Result<Numbers, String> {
     let mut reader = BufReader::new(file.file);
     let head = image_head(&mut reader, kind.format(), length).map_err(refused)?;
     let ImageHead { width, height, decoded } = head;
-    if head.pixels() > MOST_PIXELS {
-        return Err(refused(format!("it says it has {width} × {height} pixels, more than {MOST_PIXELS}")));
+    if head.pixels() > MAX_PIXELS {
+        return Err(refused(format!("it says it has {width} × {height} pixels, more than {MAX_PIXELS}")));
     }
     // The decoder's pixels stand beside the numbers that are made of them.
     let needed = head.pixels().saturating_mul(size_of::<[f64; 3]>() as u64).saturating_add(decoded.saturating_mul(2));
@@ -73,7 +73,7 @@ pub fn read_numbers(path: &Path) -> Result<Numbers, String> {
         ImageKind::Png => {
             let mut reader = ImageReader::with_format(reader, kind.format());
             let mut limits = Limits::default();
-            limits.max_alloc = Some(MOST_PIXELS * 8);
+            limits.max_alloc = Some(MAX_PIXELS * 8);
             reader.limits(limits);
             Ok(png_numbers(reader.decode().map_err(|error| refused(one_line(&error)))?))
         }

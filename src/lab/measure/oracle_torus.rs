@@ -96,8 +96,8 @@ fn first<N: Number>(c: &Quartic<N>, begin: &N, halved: i32) -> Option<Option<N>>
 /// The smallest t > 0 at which the ray intersects the torus, if it does; nothing where these numbers cannot tell.
 fn hit<N: Number>(origin: Vec3, direction: Vec3, torus: &PlacedTorus) -> Option<Option<f64>> {
     let (centre, radius) = torus.space.culling_sphere();
-    let most = 2.0 * (origin.as_dvec3().distance(centre) + radius) / direction.as_dvec3().length();
-    let power = libm::log2(most).ceil() as i32;
+    let max = 2.0 * (origin.as_dvec3().distance(centre) + radius) / direction.as_dvec3().length();
+    let power = libm::log2(max).ceil() as i32;
     let along = quartic::<N>(origin, direction, torus);
     match first(&stretched(&along, power), &N::of(0.0), 0)? {
         None => Some(None),

@@ -24,12 +24,12 @@ pub enum Whereabouts {
     /// So far that a shape is as small as a hundredth of a pixel, or some pixels wide.
     Afar,
     /// Beside a shape, whose box is partly behind the camera.
-    Beside,
+    SurfaceData,
 }
 
 /// All of them.
 pub const WHEREABOUTS: [Whereabouts; 5] =
-    [Whereabouts::Around, Whereabouts::Close, Whereabouts::Within, Whereabouts::Afar, Whereabouts::Beside];
+    [Whereabouts::Around, Whereabouts::Close, Whereabouts::Within, Whereabouts::Afar, Whereabouts::SurfaceData];
 
 /// What came of one camera.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,12 +95,14 @@ fn spawn_camera(world: &mut World, draws: &mut Draws, whereabouts: Whereabouts, 
         Whereabouts::Close => 1.0 + draws.power_of_ten(-6.0, -1.0),
         Whereabouts::Within => draws.unit(),
         Whereabouts::Afar => draws.power_of_ten(1.0, 4.0),
-        Whereabouts::Beside => draws.between(0.8, 2.0),
+        Whereabouts::SurfaceData => draws.between(0.8, 2.0),
     };
     let eye = centre - towards * (radius * distance);
     let target = match whereabouts {
         // Across the direction to the shape, or a little less or more.
-        Whereabouts::Beside => eye + radius * (draws.unit_vector_across(towards) + towards * draws.between(-0.5, 0.7)),
+        Whereabouts::SurfaceData => {
+            eye + radius * (draws.unit_vector_across(towards) + towards * draws.between(-0.5, 0.7))
+        }
         _ => centre + draws.unit_vector() * (radius * draws.unit()),
     };
     let [width, height] = [(); 2].map(|()| draws.between(1.0, 70.0) as u32);

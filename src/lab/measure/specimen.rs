@@ -29,7 +29,7 @@ pub struct Specimen<S: Shape> {
     /// The shape, as the intersection kernels read it.
     pub shape: S,
     /// What its surface needs besides.
-    pub beside: S::Beside,
+    pub surface_data: S::SurfaceData,
     /// The component.
     pub component: S::Component,
     /// Where it is placed.
@@ -46,8 +46,8 @@ impl<S: Listed> Specimen<S> {
             entity_from_world: DMat3::from_diagonal(1.0 / scale) * axes.transpose(),
         };
         let placed = Placed { who: S::Component::WORD, pose, position, scale, has_parent: false };
-        let (shape, beside) = S::place(&component, &placed).ok()?;
-        Some(Self { shape, beside, component, placement })
+        let (shape, surface_data) = S::place(&component, &placed).ok()?;
+        Some(Self { shape, surface_data, component, placement })
     }
 
     /// One of the component's examples of a random size from 10 to these powers, turned at random, its origin this many
@@ -61,7 +61,7 @@ impl<S: Listed> Specimen<S> {
         component.scale(size);
         let [x, y, z, w] = [(); 4].map(|()| draws.between(-1.0, 1.0));
         let orientation = DQuat::from_xyzw(x, y, z, w).normalize();
-        let scale = match S::UNEVEN {
+        let scale = match S::NON_UNIFORM {
             Some(false) => DVec3::splat(draws.between(0.5, 2.0)),
             _ => DVec3::new(draws.between(0.5, 2.0), draws.between(0.2, 1.0), draws.between(0.5, 3.0)),
         };
@@ -70,7 +70,7 @@ impl<S: Listed> Specimen<S> {
 
     /// The same, an unevenly scaled sphere up to 10⁷ times as long as it is thick.
     pub fn drawn_stretched(draws: &mut Draws, sizes: [f64; 2], away: f64) -> Option<Self> {
-        if S::UNEVEN != Some(true) {
+        if S::NON_UNIFORM != Some(true) {
             return Self::drawn(draws, sizes, away);
         }
         let (size, ratio) = (draws.power_of_ten(sizes[0], sizes[1]), draws.power_of_ten(0.1, 6.9));

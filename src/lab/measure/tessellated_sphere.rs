@@ -13,8 +13,8 @@ use std::f64::consts::FRAC_PI_2;
 #[must_use]
 pub fn tessellated_sphere(error: f64) -> TriangleMesh {
     // Twice as many divisions make a quarter of the sagitta, so the search begins below what this rule asks for.
-    let least = (0.5 * (sagitta(8) * 64.0 / error).sqrt()).max(1.0) as u32;
-    let divisions = (least..).find(|&divisions| sagitta(divisions) <= error).unwrap_or(u32::MAX);
+    let min = (0.5 * (sagitta(8) * 64.0 / error).sqrt()).max(1.0) as u32;
+    let divisions = (min..).find(|&divisions| sagitta(divisions) <= error).unwrap_or(u32::MAX);
     let (mut mesh, mut vertices) = (TriangleMesh::default(), BTreeMap::new());
     for octant in 0..8_i32 {
         let sign = [0, 1, 2].map(|axis| 1 - 2 * (octant >> axis & 1));

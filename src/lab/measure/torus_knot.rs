@@ -4,7 +4,7 @@ use glam::DVec3;
 use pinhole::models::TriangleMesh;
 use std::f64::consts::TAU;
 
-/// The curve that the knot's tube follows; the tube's radius is never below [`LEAST_RADIUS`].
+/// The curve that the knot's tube follows; the tube's radius is never below [`MIN_RADIUS`].
 #[must_use]
 pub fn curve(u: f64) -> DVec3 {
     let across = 2.0 + libm::cos(3.0 * u);
@@ -12,7 +12,7 @@ pub fn curve(u: f64) -> DVec3 {
 }
 
 /// A bound of the tube's radius from below: 0.45 (1 − 0.15 − 0.05).
-pub const LEAST_RADIUS: f64 = 0.36;
+pub const MIN_RADIUS: f64 = 0.36;
 
 /// The derivative of the curve.
 fn derivative(u: f64) -> DVec3 {

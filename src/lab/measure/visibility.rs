@@ -115,7 +115,7 @@ impl Explanation {
         let projection = *census.table::<Projection>()?;
         let (triangles, meshes) = (census.table::<TriangleTable>()?, census.table::<MeshTable>()?);
         let sizes = triangles.row.iter().map(|row| row.size);
-        let reaches = meshes.row.iter().map(|mesh| mesh.bounds.least.abs().max(mesh.bounds.most.abs()).length());
+        let reaches = meshes.row.iter().map(|mesh| mesh.bounds.min.abs().max(mesh.bounds.max.abs()).length());
         let planes = ClipPlanes::new(&projection, sizes.chain(reaches).fold(0.0, f64::max));
         // Both ends of the edge and the sample are off by up to half a step in x and in y; a ray in f32 by a part in 2²²
         // of the image plane's distance.

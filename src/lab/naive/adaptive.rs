@@ -15,7 +15,7 @@ pub struct Stopped {
 /// So what is rare in a pixel is missed more often than it should be, and the picture is wrong however often it is
 /// rendered: the error does not average out.
 #[must_use]
-pub fn mean_until(mut sample: impl FnMut(u32) -> f64, fewest: u32, most: u32, error: f64) -> Stopped {
+pub fn mean_until(mut sample: impl FnMut(u32) -> f64, fewest: u32, max: u32, error: f64) -> Stopped {
     let (mut mean, mut squares, mut samples) = (0.0, 0.0, 0_u32);
     loop {
         let value = sample(samples);
@@ -25,7 +25,7 @@ pub fn mean_until(mut sample: impl FnMut(u32) -> f64, fewest: u32, most: u32, er
         squares += away * (value - mean);
         let variance_of_mean = squares / f64::from(samples.max(2) - 1) / f64::from(samples);
         let enough = variance_of_mean <= error * error * (mean * mean + 1e-2);
-        if samples >= most || (samples >= fewest && enough) {
+        if samples >= max || (samples >= fewest && enough) {
             return Stopped { mean, samples };
         }
     }

@@ -6,15 +6,15 @@ use pinhole::follow::{sample_specular, specular_from_lights_stage};
 use pinhole::intersect::Surfaces;
 use pinhole::material::SmoothGlass;
 use pinhole::plan::{Column, Shared, Stage};
-use pinhole::shade::{LightRays, camera_join_stage, connect_to_camera};
+use pinhole::shade::{ShadowRays, camera_join_stage, connect_to_camera};
 use std::sync::Arc;
 
 // ANCHOR: forget_join_cosine
 /// Forgets that a surface sends the less to the camera the more it is turned away from there.
-pub fn forget_join_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
+pub fn forget_join_cosine(mut tiles: Query<(&Surfaces, &mut ShadowRays)>) {
     for (surfaces, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
-            let normal = surfaces.get(rays.path[ray] as usize).normal.as_dvec3();
+            let normal = surfaces.get(rays.row[ray] as usize).normal.as_dvec3();
             let cosine = normal.dot(rays.direction_of(ray));
             rays.weight_by(ray, 1.0 / cosine);
         }
@@ -23,7 +23,7 @@ pub fn forget_join_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
 // ANCHOR_END: forget_join_cosine
 
 /// Forgets how much of the image plane a pixel is.
-pub fn forget_pixel_area(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<&mut LightRays>) {
+pub fn forget_pixel_area(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<&mut ShadowRays>) {
     for mut rays in &mut tiles {
         (0..rays.rows()).for_each(|ray| rays.weight_by(ray, join.pixel_area()));
     }

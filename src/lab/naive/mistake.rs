@@ -17,7 +17,7 @@ use pinhole::rays::{
     Depth, Draws, LensPoints, Paths, PixelSamples, RasterPoints, RayTimes, SampleNumber, Tile, draws_of_two,
 };
 use pinhole::sample::{Purpose, uniform};
-use pinhole::shade::{LightRays, area_light_stage};
+use pinhole::shade::{ShadowRays, area_light_stage};
 use pinhole::shapes::emitter::parallelogram_area_pdf;
 use pinhole::shapes::{Emitter, distance_to, offset_origin};
 use std::f64::consts::FRAC_1_PI;
@@ -81,7 +81,7 @@ pub fn metal_counted_as_matte() -> Stage {
     let spoil = |materials: Res<Shared<MaterialTable>>, mut tiles: Query<(&Surfaces, &mut Scattered)>| {
         for (surfaces, mut scattered) in &mut tiles {
             for ray in 0..scattered.rows() {
-                let surface = surfaces.get(scattered.path[ray] as usize);
+                let surface = surfaces.get(scattered.row[ray] as usize);
                 let pdf = scattered.pdf[ray];
                 if materials.kind[surface.material as usize] == MaterialKind::Metal && pdf.is_finite() {
                     let cosine = direction(&scattered, ray).dot(surface.normal.as_dvec3()).max(1e-6);
@@ -100,7 +100,7 @@ pub fn glass_that_keeps_beams_narrow() -> Stage {
                  mut tiles: Query<(&Surfaces, &SurfaceSides, &mut Scattered)>| {
         for (surfaces, sides, mut scattered) in &mut tiles {
             for ray in 0..scattered.rows() {
-                let row = scattered.path[ray] as usize;
+                let row = scattered.row[ray] as usize;
                 let surface = surfaces.get(row);
                 let interior = materials.interior[surface.material as usize];
                 let through = direction(&scattered, ray).dot(surface.normal.as_dvec3()) < 0.0;
@@ -124,13 +124,13 @@ pub fn sky_in_all_directions_alike() -> Stage {
     };
     Stage::new("Sample the open sky uniformly", TileSystems::SampleLights, aim)
         .kind(StageKind::Alternative)
-        .appends::<LightRays>()
+        .appends::<ShadowRays>()
         .when(occlusion_evidence)
 }
 
 /// Light samples count in full, though BSDF sampling finds the same light; in place of all stages that compute MIS weights.
 pub fn light_samples_counted_in_full() -> Stage {
-    Stage::new("Count light samples in full", TileSystems::MisWeights, |_: Query<&mut LightRays>| ())
+    Stage::new("Count light samples in full", TileSystems::MisWeights, |_: Query<&mut ShadowRays>| ())
         .kind(StageKind::Alternative)
         .when(mis_evidence)
 }
@@ -153,16 +153,16 @@ pub fn light_without_jacobian() -> Stage {
 }
 
 /// After the rays to lights, before what blocks them.
-fn spoils_light_sampling(name: &'static str, forget: fn(Res<Shared<AreaLightTable>>, Query<&mut LightRays>)) -> Stage {
+fn spoils_light_sampling(name: &'static str, forget: fn(Res<Shared<AreaLightTable>>, Query<&mut ShadowRays>)) -> Stage {
     Stage::new(name, TileSystems::SampleLights, forget)
         .kind(StageKind::Alternative)
-        .appends::<LightRays>()
+        .appends::<ShadowRays>()
         .when(|scene| (area_light_stage().when)(scene))
 }
 
 /// Multiplies what each ray to a rectangle brings by the right pdf of a point of its area over another: on average
 /// that is what points of the area would bring, weighted by that other.
-fn reweigh(lights: &AreaLightTable, rays: &mut LightRays, naive: impl Fn(DVec3, f64) -> f64) {
+fn reweigh(lights: &AreaLightTable, rays: &mut ShadowRays, naive: impl Fn(DVec3, f64) -> f64) {
     for ray in 0..rays.rows() {
         let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
         let (direction, distance) = (rays.direction_of(ray), f64::from(rays.t_max[ray]));

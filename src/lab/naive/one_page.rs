@@ -52,11 +52,11 @@ fn hit(origin: V, direction: V, sphere: &Sphere) -> Option<f64> {
 /// The nearest sphere on a ray, and the t at which it is hit.
 fn nearest(origin: V, direction: V) -> Option<(f64, &'static Sphere)> {
     let mut nearest = None;
-    let mut least = f64::INFINITY;
+    let mut min = f64::INFINITY;
     for sphere in &SCENE {
         let t = hit(origin, direction, sphere).unwrap_or(f64::INFINITY);
-        if t < least {
-            (least, nearest) = (t, Some((t, sphere)));
+        if t < min {
+            (min, nearest) = (t, Some((t, sphere)));
         }
     }
     nearest

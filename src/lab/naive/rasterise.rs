@@ -19,7 +19,7 @@ pub fn raster_triangles(
     mut raster_of: impl FnMut(DVec3) -> DVec2,
 ) -> Vec<RasterTriangle> {
     let extent = |bounds: [DVec3; 2]| bounds[0].abs().max(bounds[1].abs()).length();
-    let extents = meshes.row.iter().map(|mesh| extent([mesh.bounds.least, mesh.bounds.most]));
+    let extents = meshes.row.iter().map(|mesh| extent([mesh.bounds.min, mesh.bounds.max]));
     let planes = ClipPlanes::new(projection, extents.fold(0.0, f64::max));
     let mut fixed_of = |clip: ClipPoint| {
         let raster = raster_of(projection.camera_from_world.transpose() * projection.camera(clip));

@@ -13,7 +13,7 @@ use pinhole::extract::{ImageFrame, SphereTable};
 use pinhole::intersect::{Hits, Surfaces, sphere_stage};
 use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use pinhole::rays::{NdcPoints, ScreenPoints, WorldRays};
-use pinhole::shade::{LightRays, lit_evidence};
+use pinhole::shade::{ShadowRays, lit_evidence};
 use pinhole::shapes::{PlacedSphere, Shape, hierarchy_of};
 use std::sync::{Arc, OnceLock};
 
@@ -52,17 +52,17 @@ pub fn spheres_in_f32() -> Stage {
 
 /// Shadow rays that start at the hit point itself, as it was rounded; after all stages that sample lights.
 pub fn shadow_rays_from_the_hit() -> Stage {
-    let start = |mut tiles: Query<(&Surfaces, &mut LightRays)>| {
+    let start = |mut tiles: Query<(&Surfaces, &mut ShadowRays)>| {
         for (surfaces, mut rays) in &mut tiles {
             for ray in 0..rays.rows() {
-                let start = start_at_hit(surfaces.get(rays.path[ray] as usize).position);
+                let start = start_at_hit(surfaces.get(rays.row[ray] as usize).position);
                 (rays.ox[ray], rays.oy[ray], rays.oz[ray]) = start.origin.into();
             }
         }
     };
     Stage::new("Start shadow rays at the hit", TileSystems::SampleLights, start)
         .kind(StageKind::Alternative)
-        .appends::<LightRays>()
+        .appends::<ShadowRays>()
         .when(lit_evidence)
 }
 

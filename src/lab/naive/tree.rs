@@ -70,7 +70,7 @@ const BINS: usize = 8;
 pub fn by_cost(boxes: &[BoundingBox], numbers: &[usize]) -> Option<(usize, f64)> {
     let whole = united(numbers.iter().map(|&number| boxes[number])).half_area();
     // What it costs not to divide it.
-    let (mut best, mut least) = (None, numbers.len() as f64);
+    let (mut best, mut min) = (None, numbers.len() as f64);
     for axis in 0..3 {
         let [low, high] = extent(boxes, numbers, axis);
         let mut bins = [(BoundingBox::default(), 0); BINS];
@@ -86,8 +86,8 @@ pub fn by_cost(boxes: &[BoundingBox], numbers: &[usize]) -> Option<(usize, f64)>
                 (united(part.iter().map(|(around, _)| *around)).half_area(), count)
             });
             let cost = split_cost(whole, parts);
-            if cost < least {
-                (best, least) = (Some((axis, low + (high - low) * above as f64 / BINS as f64)), cost);
+            if cost < min {
+                (best, min) = (Some((axis, low + (high - low) * above as f64 / BINS as f64)), cost);
             }
         }
     }
@@ -190,7 +190,7 @@ pub fn to_visit(enters: [Option<f64>; 2], closest: f64) -> [Option<u32>; 2] {
 impl Tree {
     /// The tree over shapes, all of which must be bounded.
     pub fn of_shapes<S: Shape>(shapes: &[S], divide: Divide) -> Self {
-        let around = |shape: &S| shape.bounds().map(|bounds| BoundingBox::around(bounds.least, bounds.most));
+        let around = |shape: &S| shape.bounds().map(|bounds| BoundingBox::around(bounds.min, bounds.max));
         let boxes: Vec<BoundingBox> = shapes.iter().filter_map(around).collect();
         build(&boxes, (0..boxes.len()).collect(), divide)
     }
@@ -244,8 +244,8 @@ impl Tree {
         match &self.below {
             Below::Primitives(numbers) => [1, 0, numbers.len()],
             Below::Trees(trees) => {
-                let [[leaves, depth, most], other] = trees.each_ref().map(Self::form);
-                [leaves + other[0], 1 + depth.max(other[1]), most.max(other[2])]
+                let [[leaves, depth, max], other] = trees.each_ref().map(Self::form);
+                [leaves + other[0], 1 + depth.max(other[1]), max.max(other[2])]
             }
         }
     }

@@ -47,10 +47,10 @@ pub fn hit_woop_f32(origin: Vec3, direction: Vec3, corners: [Vec3; 3]) -> Option
     if u == 0.0 || v == 0.0 || w == 0.0 {
         (u, v, w) = (in_f64(b, c), in_f64(c, a), in_f64(a, b));
     }
-    let (least, most) = (u.min(v).min(w), u.max(v).max(w));
+    let (min, max) = (u.min(v).min(w), u.max(v).max(w));
     let whole = u + v + w;
     let t = (u * a.z + v * b.z + w * c.z) / whole;
-    (!(least < 0.0 && most > 0.0) && whole != 0.0 && t > 0.0).then_some(t)
+    (!(min < 0.0 && max > 0.0) && whole != 0.0 && t > 0.0).then_some(t)
 }
 
 /// The same test without the constant, and an edge counted to neither of its triangles.

@@ -15,7 +15,7 @@ pub struct Agreement {
     /// How many of them say that the means differ.
     pub apart: usize,
     /// The least likely difference, as a probability.
-    pub least: f64,
+    pub min: f64,
     /// Below this a difference is one (Šidák 1967).
     pub limit: f64,
     /// The mean of a block's standard error over its mean: what the tests can see; infinite where both sets are black.
@@ -41,7 +41,7 @@ pub fn agreement(one: &[Numbers], other: &[Numbers], side: u32) -> Result<Agreem
     }
     let [one, other] = [blocks(one, side)?, blocks(other, side)?];
     let limit = 1.0 - libm::pow(1.0 - FAMILY, 1.0 / one.len() as f64);
-    let (mut apart, mut least, mut tests) = (0, 1.0_f64, 0);
+    let (mut apart, mut min, mut tests) = (0, 1.0_f64, 0);
     let (mut errors, mut light) = (0.0, 0.0);
     for (a, b) in one.iter().zip(&other) {
         let (variance, freedom) = joined(&[(a.variance, a.freedom), (b.variance, b.freedom)]);
@@ -54,11 +54,11 @@ pub fn agreement(one: &[Numbers], other: &[Numbers], side: u32) -> Result<Agreem
         }
         let t = difference.abs() / variance.sqrt();
         let likely = if variance > 0.0 { 2.0 * student_cdf(-t, freedom) } else { 0.0 };
-        least = least.min(likely);
+        min = min.min(likely);
         apart += usize::from(likely < limit);
     }
     let resolution = if light > 0.0 { errors / light } else { f64::INFINITY };
-    Ok(Agreement { tests, apart, least, limit, resolution })
+    Ok(Agreement { tests, apart, min, limit, resolution })
 }
 
 /// A block's mean over all images, the variance of that mean, and its freedom.

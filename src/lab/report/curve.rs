@@ -2,7 +2,7 @@
 
 use super::ensemble::{Ensemble, FEWEST};
 use super::interval::{Estimate, Interval, bca, jackknife, joined};
-use super::refused::{MOST_OF_REFERENCE, Refused};
+use super::refused::{MAX_OF_REFERENCE, Refused};
 
 /// The squares of errors, in those of the image, that are the rounding of sums and no error: (2⁻⁴⁸)².
 const ROUNDING: f64 = 1.3e-29;
@@ -55,9 +55,9 @@ impl Level {
         let seeds = self.seconds.len();
         let mse = self.ensemble.mse().ok_or(Refused::TooFewSeeds { seeds })?;
         let (variance, freedom) = self.ensemble.reference_part().unwrap_or((0.0, 1.0));
-        let least = 0.5 * width(Estimate { value: 0.0, variance, freedom }.interval(level));
-        if mse.value < least {
-            return Err(Refused::BelowReference { samples: self.samples, mse: mse.value, least });
+        let min = 0.5 * width(Estimate { value: 0.0, variance, freedom }.interval(level));
+        if mse.value < min {
+            return Err(Refused::BelowReference { samples: self.samples, mse: mse.value, min });
         }
         Ok(mse)
     }
@@ -113,7 +113,7 @@ impl Curve {
         if self.levels.len() < 2 {
             return Err(Refused::TooFewLevels);
         }
-        if self.batches < 2 && longest as f64 > MOST_OF_REFERENCE * self.reference_samples as f64 {
+        if self.batches < 2 && longest as f64 > MAX_OF_REFERENCE * self.reference_samples as f64 {
             return Err(Refused::ReferenceTooShort { longest, reference: self.reference_samples });
         }
         for rung in &self.levels {

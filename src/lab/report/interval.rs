@@ -92,8 +92,8 @@ pub fn joined(parts: &[(f64, f64)]) -> (f64, f64) {
     let largest = parts.iter().map(|part| part.0).fold(0.0, f64::max);
     let sum = parts.iter().map(|part| part.0).sum::<f64>().max(largest);
     let squares: f64 = parts.iter().map(|(variance, freedom)| variance * variance / freedom).sum();
-    let least = parts.iter().map(|part| part.1).fold(f64::INFINITY, f64::min);
-    (sum, if squares > 0.0 { (sum * sum / squares).max(1.0) } else { least })
+    let min = parts.iter().map(|part| part.1).fold(f64::INFINITY, f64::min);
+    (sum, if squares > 0.0 { (sum * sum / squares).max(1.0) } else { min })
 }
 
 /// The mean of independent values.

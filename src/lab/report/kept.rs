@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-const REPORT: FileKind = FileKind { name: "a report", most: 64 << 20 };
+const REPORT: FileKind = FileKind { name: "a report", max: 64 << 20 };
 
 /// The most bytes that a kept report may have.
 pub const LARGEST: usize = 20 * 1024;

@@ -58,7 +58,7 @@ impl fmt::Display for Given {
         let text = match self {
             Self::Value(value) => short(*value),
             Self::Slope(slope) => format!("{slope:.3}"),
-            Self::LeastToMost([least, most]) => format!("{} to {}", short(*least), short(*most)),
+            Self::LeastToMost([min, max]) => format!("{} to {}", short(*min), short(*max)),
             Self::Times(times) => format!("{times:.2} times"),
             Self::MseTimes(times) => format!("MSE: {times:.0} times"),
             Self::Interval(Interval { low, value, high }) => {
@@ -115,8 +115,8 @@ pub fn pitfalls(variant: &Variant<'_>) -> Result<Vec<Pitfall>> {
     row("MSE of 64 samples, reference of the same 64", Given::Value(nothing), told(right(3)));
     // One image, and no word of how far another seed's may be off.
     let each: Vec<f64> = images[0].iter().map(|image| mean_square(&reference.mean.pixels, &image.pixels)).collect();
-    let [least, most] = [each.iter().copied().fold(f64::INFINITY, f64::min), each.iter().copied().fold(0.0, f64::max)];
-    row("MSE of 1 sample, one image (of 8: least to most)", Given::LeastToMost([least, most]), told(right(0)));
+    let [min, max] = [each.iter().copied().fold(f64::INFINITY, f64::min), each.iter().copied().fold(0.0, f64::max)];
+    row("MSE of 1 sample, one image (of 8: least to most)", Given::LeastToMost([min, max]), told(right(0)));
     // A reference no longer than the longest run, its noise left in.
     let other = render(LADDER[3], 1_000_100)?;
     let points: Vec<[f64; 2]> = (LADDER.iter().zip(&images))

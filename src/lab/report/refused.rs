@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// The largest fraction of the reference's samples that a run may have where the reference's variance is not subtracted.
-pub const MOST_OF_REFERENCE: f64 = 0.01;
+pub const MAX_OF_REFERENCE: f64 = 0.01;
 
 /// A number that a report refuses, in one sentence each.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -27,7 +27,7 @@ pub enum Refused {
         /// The MSE that came out.
         mse: f64,
         /// The least that the reference can tell from 0.
-        least: f64,
+        min: f64,
     },
     /// Too few seeds for an interval.
     TooFewSeeds {
@@ -59,9 +59,9 @@ impl fmt::Display for Refused {
                  whose variance is unknown; it needs {} in one batch, or two batches of disjoint seeds",
                 longest * 100
             ),
-            Self::BelowReference { samples, mse, least } => write!(
+            Self::BelowReference { samples, mse, min } => write!(
                 f,
-                "the MSE of {mse:.1e} at {samples} samples a pixel is below {least:.1e}, the least that this reference \
+                "the MSE of {mse:.1e} at {samples} samples a pixel is below {min:.1e}, the least that this reference \
                  can tell from 0"
             ),
             Self::TooFewSeeds { seeds } => {

@@ -9,7 +9,7 @@ use std::fs;
 use std::io::{BufRead, Read, Write};
 use std::path::{Path, PathBuf};
 
-const RUN: FileKind = FileKind { name: "a kept run", most: 1 << 36 };
+const RUN: FileKind = FileKind { name: "a kept run", max: 1 << 36 };
 
 /// The times of one run, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -103,7 +103,7 @@ impl DigestTable {
             let [block_x, block_y] = [x, y].map(|pixels| (pixels / BLOCK_SIDE) as usize);
             let block = &mut self.blocks[block_y * self.across + block_x];
             let mut state = fnv(block.unwrap_or(FNV_START), u64::from(x) << 32 | u64::from(y));
-            for component in components.iter().filter(|component| !matches!(component.name, "path" | "row" | "pixel")) {
+            for component in components.iter().filter(|component| !matches!(component.name, "row" | "pixel")) {
                 state = fnv(state, component.values.bits(row));
             }
             *block = Some(state);
@@ -205,7 +205,7 @@ mod tests {
         let chapter = Chapter::new("digest", "for this test", scene).offer(stages::all());
         let (world, stages) = (chapter.world(&pinhole::Overrides::default()), chapter.stages());
         let text = digests_in_tiles(&world, &stages, 32)?;
-        assert!(text.contains(" \"Sample point lights\" writes light\n"), "{text}");
+        assert!(text.contains(" \"Sample point lights\" writes shadow ray\n"), "{text}");
         for side in [8, 16, 64] {
             assert!(digests_in_tiles(&world, &stages, side)? == text, "tiles of {side} pixels");
         }

@@ -9,7 +9,7 @@ use pinhole::{Chapter, Overrides};
 use pinhole::{Error, Result};
 use std::path::{Path, PathBuf};
 
-const SNAPSHOT: FileKind = FileKind { name: "a snapshot", most: 64 << 20 };
+const SNAPSHOT: FileKind = FileKind { name: "a snapshot", max: 64 << 20 };
 
 /// The size of a snapshot's picture.
 pub const SNAPSHOT_SIZE: Resolution = Resolution { width: 96, height: 54 };

@@ -22,7 +22,7 @@ pub use scene::Scene;
 pub use source::{FrameSource, Progress, Shot};
 
 use crate::guard::Guard;
-use crate::http::{MOST_CONNECTIONS, PATIENCE, start};
+use crate::http::{MAX_CONNECTIONS, PATIENCE, start};
 use attention::Attention;
 use order::{Letter, Orders};
 use serve::Desk;
@@ -49,7 +49,7 @@ impl View {
         let refused = |error: std::io::Error| format!("the viewer cannot be started: {error}");
         let guard = Guard::new(listener.local_addr().map_err(refused)?.port()).map_err(refused)?;
         let address = guard.address();
-        let (letters, received) = sync_channel(MOST_CONNECTIONS);
+        let (letters, received) = sync_channel(MAX_CONNECTIONS);
         let attention = Arc::new(Attention::default());
         let (shown, frames) = tokio::sync::watch::channel(Shown::default());
         let viewer = Viewer::new(scene, size, shown, Arc::clone(&attention))?;

@@ -99,8 +99,8 @@ impl Orbit {
     /// Whether it is anywhere at all, and what it shows has a size that can be reckoned with.
     pub fn is_in_range(&self) -> bool {
         let apart = (self.eye - self.target).length();
-        let least = NEAREST.max(f64::EPSILON * self.eye.length());
-        self.eye.is_finite() && self.target.is_finite() && apart > least && EXTENT.contains(&self.view_height())
+        let min = NEAREST.max(f64::EPSILON * self.eye.length());
+        self.eye.is_finite() && self.target.is_finite() && apart > min && EXTENT.contains(&self.view_height())
     }
 
     /// Where the eye is.

@@ -5,7 +5,7 @@ const FRAME: Duration = Duration::from_millis(30);
 /// How long after the last movement the camera is at rest.
 const REST: Duration = Duration::from_millis(150);
 /// How much of the least time is certainly not its pixels'.
-const LEAST_KNOWN: f64 = 0.8;
+const MIN_KNOWN: f64 = 0.8;
 /// By how much a side of the picture may be divided while the camera moves.
 const DIVISORS: [u32; 4] = [1, 2, 4, 8];
 
@@ -13,7 +13,7 @@ const DIVISORS: [u32; 4] = [1, 2, 4, 8];
 pub struct Pace {
     moved: Option<Instant>,
     /// The least that a new frame has taken, in seconds, however few pixels it had.
-    least: f64,
+    min: f64,
     /// What a pixel takes beyond that.
     pixel: f64,
 }
@@ -21,7 +21,7 @@ pub struct Pace {
 impl Default for Pace {
     /// As if the camera had just moved, through a scene that takes long: the first frame comes soon, whatever it shows.
     fn default() -> Self {
-        Self { moved: Some(Instant::now()), least: f64::INFINITY, pixel: 1e-6 }
+        Self { moved: Some(Instant::now()), min: f64::INFINITY, pixel: 1e-6 }
     }
 }
 
@@ -40,17 +40,17 @@ impl Pace {
     ///
     /// A frame that took hardly more than the least says only that a pixel takes no more than so much.
     pub fn note(&mut self, pixels: u64, time: Duration) {
-        self.least = self.least.min(time.as_secs_f64());
+        self.min = self.min.min(time.as_secs_f64());
         let time = time.as_secs_f64();
-        let pixel = (time - LEAST_KNOWN * self.least).max(0.0) / pixels.max(1) as f64;
-        self.pixel = if LEAST_KNOWN * time <= self.least { pixel.min(self.pixel) } else { pixel };
+        let pixel = (time - MIN_KNOWN * self.min).max(0.0) / pixels.max(1) as f64;
+        self.pixel = if MIN_KNOWN * time <= self.min { pixel.min(self.pixel) } else { pixel };
     }
 
     /// By how much to divide the sides of a picture of so many pixels now.
     pub fn divisor(&self, pixels: u64) -> u32 {
-        let least = if self.least.is_finite() { self.least } else { 0.0 };
+        let min = if self.min.is_finite() { self.min } else { 0.0 };
         let frame = FRAME.as_secs_f64();
-        let left = (frame - least).max(frame / 3.0);
+        let left = (frame - min).max(frame / 3.0);
         let fits = |side: &u32| self.pixel * pixels as f64 / f64::from(side * side) <= left;
         if self.is_moving() { DIVISORS.into_iter().find(fits).unwrap_or(8) } else { 1 }
     }
@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn the_picture_is_coarse_only_while_the_camera_moves_and_no_coarser_than_need_be() {
-        let mut pace = Pace { moved: None, least: 0.0, pixel: 1.0 };
+        let mut pace = Pace { moved: None, min: 0.0, pixel: 1.0 };
         pace.note(1000, Duration::from_millis(1));
         assert_eq!(pace.divisor(1_000_000), 1);
         pace.moved();

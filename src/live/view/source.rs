@@ -44,7 +44,7 @@ impl Gathered {
 }
 
 /// The samples of its own up to which a frame has those of earlier frames beside them.
-const MOST_BESIDE: u32 = 16;
+const MAX_BESIDE: u32 = 16;
 
 /// What a frame is to show; mode, pose and size stand on the scene's camera.
 pub struct Shot<'a> {
@@ -124,7 +124,7 @@ impl FrameSource {
         let gathers = shot.gathers && render.plan.view.is_none();
         let own = if gathers { Gathered::of(&render.film, &scene(), spare) } else { None };
         // Once the camera has rested for a while, its own samples are enough, and have no bias.
-        let earlier = self.gathered[0].as_ref().filter(|_| samples[0] <= MOST_BESIDE);
+        let earlier = self.gathered[0].as_ref().filter(|_| samples[0] <= MAX_BESIDE);
         self.gathered[1] = own.map(|own| match earlier {
             Some(earlier) => own.with_earlier(earlier),
             None => own,

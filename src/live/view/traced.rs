@@ -88,7 +88,7 @@ impl Traced {
 impl Written {
     fn of(trace: &Trace, recorded: &Recorded) -> Self {
         let word = |&(name, number): &(&'static str, ComponentNumber)| match name {
-            "path" => None,
+            "row" => None,
             "shape" => Some((name, trace.shape_name(number).unwrap_or("none").to_owned())),
             _ => Some((name, number.to_string())),
         };

@@ -151,9 +151,9 @@ mod tests {
         };
         let beyond = "bufferViews[0].byteLength is 33, but the buffer has 36 bytes and the view begins at 4";
         assert_eq!(with("'byteLength':33,'byteOffset':4"), beyond);
-        let most = "bufferViews[0].byteLength is 9007199254740992, but the buffer has 36 bytes and the view begins at \
+        let max = "bufferViews[0].byteLength is 9007199254740992, but the buffer has 36 bytes and the view begins at \
                     9007199254740992";
-        assert_eq!(with("'byteLength':9007199254740992,'byteOffset':9007199254740992"), most);
+        assert_eq!(with("'byteLength':9007199254740992,'byteOffset':9007199254740992"), max);
         assert_eq!(
             refused(
                 "'bufferViews':[{'buffer':0,'byteLength':1}],'accessors':[{'bufferView':0,'componentType':5126,\

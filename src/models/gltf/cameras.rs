@@ -19,12 +19,12 @@ pub fn camera(
 ) -> Result<Option<ModelCamera>, ModelError> {
     let index = node.index("camera", document.rows(Table::Cameras))?;
     let Some(camera) = index.map(|index| document.row(Table::Cameras, index)).transpose()? else { return Ok(None) };
-    let positive = |holder: &Object<'_>, field: &str, most: f64| {
+    let positive = |holder: &Object<'_>, field: &str, max: f64| {
         let number = holder.number(field)?;
-        match number.filter(|number| !(*number > 0.0 && *number < most)) {
+        match number.filter(|number| !(*number > 0.0 && *number < max)) {
             None => Ok(number),
-            Some(number) if most < f64::INFINITY => {
-                Err(holder.refused(field, number, format_args!("it must be above 0 and less than {most}")))
+            Some(number) if max < f64::INFINITY => {
+                Err(holder.refused(field, number, format_args!("it must be above 0 and less than {max}")))
             }
             Some(number) => Err(holder.refused(field, number, "it must be above 0")),
         }

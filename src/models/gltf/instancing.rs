@@ -73,13 +73,13 @@ mod tests {
         let flat = read(&with("'TRANSLATION':0,'SCALE':1")).expect("read");
         assert_eq!(flat.remarks.sentences()[0], "Not read: instances that a scale of 0 makes planar (4).");
         assert!(read(&with("")).is_ok_and(|model| model.instances.len() == 1));
-        let uneven = "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.count is 3, but every attribute of the \
+        let non_uniform = "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.count is 3, but every attribute of the \
                       instances must have as many rows, and the first has 4";
         // The second accessor is that of the scales.
         let (head, tail) =
             with("'TRANSLATION':0,'SCALE':1").split_once("'count':4").map_or_else(Default::default, |at| {
                 (format!("{}'count':4", at.0), at.1.replacen("'count':4", "'count':3", 1))
             });
-        assert_eq!(refused(&format!("{head}{tail}")), uneven);
+        assert_eq!(refused(&format!("{head}{tail}")), non_uniform);
     }
 }

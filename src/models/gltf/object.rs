@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::fmt;
 
 /// The greatest whole number that a JSON number holds exactly.
-const MOST: f64 = (1_u64 << 53) as f64;
+const MAX: f64 = (1_u64 << 53) as f64;
 
 /// An object of a glTF file, and its path in it.
 #[derive(Clone, Debug)]
@@ -76,7 +76,7 @@ impl<'a> Object<'a> {
     pub fn whole(&self, field: &str) -> Result<Option<u64>, ModelError> {
         match self.get(field) {
             None => Ok(None),
-            Some(Json::Number(number)) if (0.0..=MOST).contains(number) && number.fract() == 0.0 => {
+            Some(Json::Number(number)) if (0.0..=MAX).contains(number) && number.fract() == 0.0 => {
                 Ok(Some(*number as u64))
             }
             Some(other) => Err(self.refused(field, other, "it must be a whole number from 0 to 2⁵³")),

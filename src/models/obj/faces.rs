@@ -110,7 +110,7 @@ fn row(word: &[u8], so_far: usize, all: usize, what: &str) -> Result<Index, Stri
 /// How many vertices at one position are looked through for an equal one.
 ///
 /// Without a bound, a hundred thousand corners at one position would take as many steps each.
-const MOST_TRIED: usize = 64;
+const MAX_TRIED: usize = 64;
 
 /// A vertex that is known.
 struct Known {
@@ -139,7 +139,7 @@ impl Vertices {
             self.last.resize(position + 1, NONE);
         }
         let mut place = self.last[position];
-        for _ in 0..MOST_TRIED {
+        for _ in 0..MAX_TRIED {
             match self.known.get(place as usize) {
                 None => break,
                 Some(known) if known.corner == corner && known.group == group => return known.vertex,

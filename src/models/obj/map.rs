@@ -50,11 +50,11 @@ impl Map {
             (text[..end].to_owned(), end)
         };
         while let (option, end) = cut(rest)
-            && let Some((_, most)) = OPTIONS.iter().find(|(name, _)| *name == option)
+            && let Some((_, max)) = OPTIONS.iter().find(|(name, _)| *name == option)
         {
             rest = rest[end..].trim_start();
             let (mut numbers, mut word) = (Vec::new(), String::new());
-            for taken in 0..*most {
+            for taken in 0..*max {
                 let (next, end) = cut(rest);
                 let number = finite(next.as_bytes());
                 // Of up to three numbers, those that are not numbers belong to what follows.

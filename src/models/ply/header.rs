@@ -4,7 +4,7 @@ use crate::model_error::shown_bytes;
 use crate::number::{whole, words};
 
 /// The greatest number of elements, and of properties of each.
-const MOST: usize = 256;
+const MAX: usize = 256;
 
 /// How the numbers of a file are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +71,7 @@ impl Header {
                         return refused("the number of an element's rows is a whole number of at most 18 digits");
                     };
                     let name = text(name);
-                    if elements.len() == MOST {
+                    if elements.len() == MAX {
                         return refused("a file has at most 256 elements");
                     }
                     if elements.iter().any(|element| element.name == name) {
@@ -88,7 +88,7 @@ impl Header {
                         );
                     };
                     let Some(element) = elements.last_mut() else { return refused("a property follows an element") };
-                    if element.properties.len() == MOST {
+                    if element.properties.len() == MAX {
                         return refused("an element has at most 256 properties");
                     }
                     if element.properties.iter().any(|own| own.name == property.name) {

@@ -85,14 +85,14 @@ fn check_rows(name: &str, element: &Element, left: usize, is_text: bool) -> Resu
     // The last number of a text needs no space behind it.
     let left = left as u64 + u64::from(is_text);
     let size = element.least_size(is_text);
-    let most = u64::from(u32::MAX);
+    let max = u64::from(u32::MAX);
     let fits = element.rows.checked_mul(size).is_some_and(|bytes| bytes <= left);
-    if fits && (size == 0 || element.rows <= most) {
+    if fits && (size == 0 || element.rows <= max) {
         return Ok(());
     }
     let place = format!("the number of rows of element {}", shown(&element.name));
     let accepted = if fits {
-        format!("an element may have {most}")
+        format!("an element may have {max}")
     } else {
         format!("each takes at least {size} bytes, and {left} bytes are left of the file")
     };

@@ -1,6 +1,6 @@
 //! The binary tree from which the wide nodes are made, and what each of its nodes would cost as part of a wide one.
 
-use super::MOST_LEVELS;
+use super::MAX_LEVELS;
 use super::bins::{Bins, divide};
 use super::entry::{Entry, Extent, PackedBox};
 use super::wide_node::WIDTH;
@@ -103,13 +103,13 @@ impl Subtree {
 }
 
 // ANCHOR: must_be_even
-/// Whether a set has to be divided evenly, so that no path has more than [`MOST_LEVELS`] inner nodes.
+/// Whether a set has to be divided evenly, so that no path has more than [`MAX_LEVELS`] inner nodes.
 ///
 /// Even divisions of n entries need ⌈log₂ ⌈n / LEAF⌉⌉ levels; an uneven one may leave almost as many entries to one
 /// child, one level further down.
 fn must_be_even<const LEAF: usize>(count: usize, level: usize) -> bool {
     let even_levels = usize::BITS - (count.div_ceil(LEAF) - 1).leading_zeros();
-    level + even_levels as usize >= MOST_LEVELS
+    level + even_levels as usize >= MAX_LEVELS
 }
 // ANCHOR_END: must_be_even
 

@@ -70,8 +70,8 @@ impl Bins {
                 let (old, new) = (self.around[axis][bin].0, entry.0.0);
                 // Without + 0.0, which changes no value, the minimum would be stored under the mask of the comparison,
                 // and the next load from there would have to wait for that.
-                let least = std::array::from_fn(|i| (if new[i] < old[i] { new[i] } else { old[i] }) + 0.0);
-                self.around[axis][bin] = PackedBox(least);
+                let min = std::array::from_fn(|i| (if new[i] < old[i] { new[i] } else { old[i] }) + 0.0);
+                self.around[axis][bin] = PackedBox(min);
                 self.count[axis][bin] += 1;
             }
         }
@@ -102,7 +102,7 @@ impl Bins {
             0 => f32::INFINITY,
             _ => around.half_area() * count.div_ceil(LEAF as u32) as f32,
         };
-        let (mut best, mut least) = (None, f32::INFINITY);
+        let (mut best, mut min) = (None, f32::INFINITY);
         for axis in (0..3).filter(|&axis| grid.scale[axis] > 0.0) {
             let (boxes, counts) = (&self.around[axis], &self.count[axis]);
             let mut above = [f32::INFINITY; BINS];
@@ -117,8 +117,8 @@ impl Bins {
                 around.enclose(&boxes[bin - 1]);
                 count += counts[bin - 1];
                 let cost = cost_of(&around, count) + above[bin];
-                if cost < least {
-                    (best, least) = (Some((axis, bin as u32)), cost);
+                if cost < min {
+                    (best, min) = (Some((axis, bin as u32)), cost);
                 }
             }
         }

@@ -34,12 +34,12 @@ pub struct BoxPacket {
 }
 
 #[inline(always)]
-fn least(a: f32, b: f32) -> f32 {
+fn min(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
 #[inline(always)]
-fn most(a: f32, b: f32) -> f32 {
+fn max(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
@@ -49,10 +49,10 @@ fn bounds(of: &PerRay<f32>) -> [f32; 2] {
     let (mut low, mut high) = (of[0], of[0]);
     for row in &of[1..] {
         for i in 0..ROW {
-            (low[i], high[i]) = (least(low[i], row[i]), most(high[i], row[i]));
+            (low[i], high[i]) = (min(low[i], row[i]), max(high[i], row[i]));
         }
     }
-    [low.into_iter().fold(low[0], least), high.into_iter().fold(high[0], most)]
+    [low.into_iter().fold(low[0], min), high.into_iter().fold(high[0], max)]
 }
 
 impl BoxPacket {
@@ -94,7 +94,7 @@ impl BoxPacket {
     ///
     /// No box is missed that one of the rays hits, since every step of the slab test is monotonic in O and in 1/R, in
     /// f32 too.
-    /// Only a far plane's product can be NaN: `most` passes it on, and `least` drops it, so that it is no bound.
+    /// Only a far plane's product can be NaN: `max` passes it on, and `min` drops it, so that it is no bound.
     #[inline(always)]
     pub fn enters(&self, node: &WideNode, limit: f32, entry: &mut [f32; WIDTH]) -> u64 {
         let [enter, leave] = node.enter_and_leave(self.first);
@@ -104,10 +104,10 @@ impl BoxPacket {
             for axis in 0..3 {
                 let (origin, inverse) = self.all_enter[axis];
                 let near = enter[axis][child] - origin;
-                from = most(least(near * inverse[0], near * inverse[1]), from);
+                from = max(min(near * inverse[0], near * inverse[1]), from);
                 let (origin, inverse) = self.all_leave[axis];
                 let far = leave[axis][child] - origin;
-                until = least(most(far * inverse[0], far * inverse[1]), until);
+                until = min(max(far * inverse[0], far * inverse[1]), until);
             }
             entry[child] = from;
             enters[child] = u8::from(from <= until);
@@ -126,8 +126,8 @@ impl BoxPacket {
             let (mut from, mut until) = (0.0, limits[i]);
             for axis in 0..3 {
                 let [enter, leave] = [&self.enter[axis], &self.leave[axis]];
-                from = most((near[axis] - enter[0][row][i]) * enter[1][row][i], from);
-                until = least((far[axis] - leave[0][row][i]) * leave[1][row][i], until);
+                from = max((near[axis] - enter[0][row][i]) * enter[1][row][i], from);
+                until = min((far[axis] - leave[0][row][i]) * leave[1][row][i], until);
             }
             enters[i] = u8::from(from <= until);
         }

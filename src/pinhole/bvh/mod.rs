@@ -29,7 +29,7 @@ pub use wide_node::{Child, ChildKind, WIDTH, WideNode};
 ///
 /// No path through the binary tree from which the nodes are made has more inner nodes, so none has more wide ones: as
 /// soon as a set has only as many levels left as even divisions need, it is divided evenly.
-pub const MOST_LEVELS: usize = 56;
+pub const MAX_LEVELS: usize = 56;
 
 /// A range of [`Bvh::order`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

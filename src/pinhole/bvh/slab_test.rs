@@ -75,7 +75,7 @@ impl BoxRay {
         let unit = power_of_two_below(direction.abs().max_element());
         let direction = direction * (1.0 / unit);
         let extent = (0..3).map(|axis| f64::from(around.high[axis] - around.low[axis]));
-        let extent = extent.fold(0.0, |most, extent| if extent > most { extent } else { most });
+        let extent = extent.fold(0.0, |max, extent| if extent > max { extent } else { max });
         let centre = DVec3::from(by_axis(|axis| 0.5 * f64::from(around.doubled_centre(axis))));
         let apart = centre - origin;
         let (mut moved, mut error) = (0.0, 0.0);

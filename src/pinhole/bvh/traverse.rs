@@ -2,12 +2,12 @@
 
 use super::slab_test::{BoxRay, take_first};
 use super::wide_node::{Child, ChildKind, WIDTH};
-use super::{Bvh, MOST_LEVELS};
+use super::{Bvh, MAX_LEVELS};
 use glam::DVec3;
 
 /// The entries that the stack has room for: a power of two that is more than seven for each level, and eight.
 pub(super) const ROOM: usize = 512;
-const _: () = assert!((WIDTH - 1) * MOST_LEVELS + WIDTH < ROOM);
+const _: () = assert!((WIDTH - 1) * MAX_LEVELS + WIDTH < ROOM);
 
 /// What a traversal has still to visit, made once for many rays.
 ///

@@ -26,7 +26,7 @@ pub fn sampled_shapes(scene: &Census<'_>) -> String {
 /// A kind with its article, or as many where several make up a surface; closed where some of the kind are open.
 fn named(listed: &ListedKind, always: bool, together: &str) -> String {
     // A component of which only one kind is accepted has no word for itself: the placement decides.
-    let by_scale = match listed.uneven {
+    let by_scale = match listed.non_uniform {
         Some(true) => " with an uneven scale",
         Some(false) => " with a uniform scale",
         None => "",

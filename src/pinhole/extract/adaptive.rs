@@ -6,7 +6,7 @@ use bevy_ecs::prelude::*;
 /// The fewest pilot samples from which a variance can be estimated usefully.
 const FEWEST_PILOT: u32 = 4;
 /// The most pilot samples; beyond this the pilot would be the render itself.
-const MOST_PILOT: u32 = 65_536;
+const MAX_PILOT: u32 = 65_536;
 
 /// The adaptive sampling that the scene requests, if any.
 ///
@@ -22,8 +22,8 @@ fn adaptive_now(scene: &Census<'_>) -> Result<Option<Adaptive>, SceneError> {
     if !(adaptive.error > 0.0 && adaptive.error <= 1.0) {
         return Err(SceneError::new(who, "error", number(adaptive.error), "it must lie above 0 and be at most 1"));
     }
-    if !(FEWEST_PILOT..=MOST_PILOT).contains(&adaptive.pilot) {
-        let accepted = format!("it must be a number of samples from {FEWEST_PILOT} to {MOST_PILOT}");
+    if !(FEWEST_PILOT..=MAX_PILOT).contains(&adaptive.pilot) {
+        let accepted = format!("it must be a number of samples from {FEWEST_PILOT} to {MAX_PILOT}");
         return Err(SceneError::new(who, "pilot", adaptive.pilot, accepted));
     }
     if scene.get::<Sampling>(camera).is_none() {

@@ -83,7 +83,7 @@ impl MeshLights {
 
     fn bounds(&self, light: usize) -> Option<LightBounds> {
         let (EmittingTriangle { corners: [a, b, c], normal }, area) = self.lit(light)?;
-        let around = Bounds { least: a.min(b).min(c), most: a.max(b).max(c) };
+        let around = Bounds { min: a.min(b).min(c), max: a.max(b).max(c) };
         Some(LightBounds::planar(around, normal, luminance(self.radiance) * area, !self.one_sided))
     }
 }

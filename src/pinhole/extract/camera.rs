@@ -12,7 +12,7 @@ const ROTATION_TOLERANCE: f64 = 1e-9;
 /// The greatest number of pixels along one side.
 const LONGEST_SIDE: u32 = 65_536;
 /// The greatest number of pixels of a film, whose sums take 28 bytes each.
-const MOST_PIXELS: u64 = 1 << 30;
+const MAX_PIXELS: u64 = 1 << 30;
 
 /// The camera's position in world space: the origin of render space.
 pub fn eye(scene: &Census<'_>) -> Result<DVec3, SceneError> {
@@ -30,9 +30,9 @@ impl Table for ImageFrame {
         let Resolution { width, height } = scene.get::<Resolution>(camera).copied().unwrap_or_default();
         let sides = 1..=LONGEST_SIDE;
         let pixels = u64::from(width) * u64::from(height);
-        if !sides.contains(&width) || !sides.contains(&height) || pixels > MOST_PIXELS {
+        if !sides.contains(&width) || !sides.contains(&height) || pixels > MAX_PIXELS {
             let accepted = format!(
-                "each side must have 1 to {LONGEST_SIDE} pixels, and the image at most {MOST_PIXELS} altogether"
+                "each side must have 1 to {LONGEST_SIDE} pixels, and the image at most {MAX_PIXELS} altogether"
             );
             return Err(SceneError::new(who, "resolution", format!("{width} × {height}"), accepted));
         }

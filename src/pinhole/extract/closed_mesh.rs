@@ -49,7 +49,7 @@ fn sums(
         let corners = triangles.row[row].corners.map(|corner| joined(bits(corner)));
         for (from, to) in [(0, 1), (1, 2), (2, 0)] {
             let [from, to] = [corners[from], corners[to]];
-            let step = if (from < to) == triangles.beside[row].turned { -1 } else { 1 };
+            let step = if (from < to) == triangles.surface_data[row].turned { -1 } else { 1 };
             if from != to {
                 let (sum, (_, count)) = sums.entry([from.min(to), from.max(to)]).or_insert((0, (row, 0)));
                 *sum += step;
@@ -68,9 +68,8 @@ fn bits(corner: DVec3) -> Corner {
 /// For each of these corners the one that stands for all that may be the same.
 fn joined(triangles: &TriangleTable, rows: &[usize], corners: Vec<Corner>) -> HashMap<Corner, Corner> {
     let all = || rows.iter().flat_map(|&row| triangles.row[row].corners);
-    let (least, most) =
-        all().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(least, most), at| (least.min(at), most.max(at)));
-    let apart = ONE_CORNER * (most - least).max_element();
+    let (min, max) = all().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), at| (min.min(at), max.max(at)));
+    let apart = ONE_CORNER * (max - min).max_element();
     let mut sorted: Vec<DVec3> = corners.into_iter().map(|corner| DVec3::from(corner.map(f64::from_bits))).collect();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
     sorted.dedup();
@@ -118,7 +117,7 @@ mod tests {
         for corners in triangles {
             let (row, face) = TriangleFace::of(*corners, [DVec2::ZERO, DVec2::X, DVec2::Y]);
             table.row.push(row);
-            table.beside.push(face);
+            table.surface_data.push(face);
             table.shape.push(0);
         }
         (table, (0..triangles.len()).collect())

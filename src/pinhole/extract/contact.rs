@@ -5,7 +5,7 @@ use super::velocity::{moves_while_open, velocity_of};
 use super::{MaterialTable, NO_ROW, ShapeTable, ShutterTable, eye, followed_evidence, glass_evidence};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{SceneError, called};
-use crate::shapes::{Body, Bounds, l1_norm, offset_bound};
+use crate::shapes::{AnyShape, Bounds, l1_norm, offset_bound};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -23,7 +23,7 @@ const TOUCHING: f64 = 1.0 / (1_u64 << 44) as f64;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
     /// The shape.
-    pub body: Body,
+    pub body: AnyShape,
     /// Its number.
     pub shape: u32,
     /// The row of its glass; [`NO_ROW`] where it is of something else.
@@ -41,12 +41,12 @@ impl Contact {
     #[inline(always)]
     pub fn is_near(&self, point: DVec3) -> bool {
         match &self.body {
-            Body::Sphere(ball, ()) => ((point - ball.centre).length() - ball.radius).abs() <= self.margin,
-            Body::Plane(plane, _) => {
+            AnyShape::Sphere(ball, ()) => ((point - ball.centre).length() - ball.radius).abs() <= self.margin,
+            AnyShape::Plane(plane, _) => {
                 let margin = 2.0 * APART * f64::from(offset_bound(point, DVec3::ZERO, plane.offset.abs()));
                 (plane.normal.dot(point) - plane.offset).abs() <= margin
             }
-            Body::Cuboid(slabs, ()) => {
+            AnyShape::Cuboid(slabs, ()) => {
                 // Outside by so much along the axis on which it is farthest out, or inside by as much where that is below 0.
                 let outside = |axis: usize| slabs.normal[axis].dot(point - slabs.centre).abs() - slabs.half[axis];
                 let farthest = outside(0).max(outside(1)).max(outside(2));
@@ -155,7 +155,7 @@ pub fn unresolved(scene: &Census<'_>) -> Result<Vec<([usize; 2], f64)>, SceneErr
         let (a, b) = (body_of(scene, one)?, body_of(scene, other)?);
         match (&a, &b) {
             _ if one == other => thin = thin.or(Some(([one, other], a.thickness()))),
-            (Body::Sphere(a, ()), Body::Sphere(b, ())) => {
+            (AnyShape::Sphere(a, ()), AnyShape::Sphere(b, ())) => {
                 let apart = (a.centre - b.centre).length();
                 let between = (apart - (a.radius + b.radius)).abs().min((apart - (a.radius - b.radius).abs()).abs());
                 // Rounding alone leaves as much between balls that touch.
@@ -183,7 +183,7 @@ fn glass_of_shapes(scene: &Census<'_>) -> Result<Vec<u32>, SceneError> {
 }
 
 /// A shape at the moment when the shutter opens.
-fn body_of(scene: &Census<'_>, shape: usize) -> Result<Body, SceneError> {
+fn body_of(scene: &Census<'_>, shape: usize) -> Result<AnyShape, SceneError> {
     let entity = shape_entities(scene)[shape];
     (one_shape(scene, entity)?.body)(scene, entity, eye(scene)?)
 }
@@ -219,13 +219,13 @@ fn find_pairs(scene: &Census<'_>) -> Result<ContactPairs, SceneError> {
             None => body_of(scene, shape)?.bounds(),
         };
         let moved = velocity_while_open(scene, shape) * scene.table::<ShutterTable>()?.length;
-        let swept = |at: Bounds| at.joined(&Bounds { least: at.least + moved, most: at.most + moved });
+        let swept = |at: Bounds| at.joined(&Bounds { min: at.min + moved, max: at.max + moved });
         boxed.push(Boxed { shape, bounds: bounds.map(swept) });
     }
     let (mut bounded, infinite): (Vec<Boxed>, Vec<Boxed>) = boxed.into_iter().partition(|own| own.bounds.is_some());
     let grown = |own: &Boxed| own.bounds.map(|bounds| grow(&bounds)).unwrap_or(Bounds::ALL);
     bounded.sort_by(|a, b| {
-        let [a_least, b_least] = [a, b].map(|own| grown(own).least.x);
+        let [a_least, b_least] = [a, b].map(|own| grown(own).min.x);
         a_least.partial_cmp(&b_least).unwrap_or(Ordering::Equal).then(a.shape.cmp(&b.shape))
     });
     let mut candidates = Vec::new();
@@ -233,7 +233,7 @@ fn find_pairs(scene: &Census<'_>) -> Result<ContactPairs, SceneError> {
     let mut open: Vec<&Boxed> = Vec::new();
     for own in &bounded {
         let bounds = grown(own);
-        open.retain(|other| grown(other).most.x >= bounds.least.x);
+        open.retain(|other| grown(other).max.x >= bounds.min.x);
         let near = open.iter().filter(|other| is_glass(own.shape) || is_glass(other.shape));
         candidates.extend(near.filter(|other| grown(other).overlaps(&bounds)).map(|other| [own.shape, other.shape]));
         open.push(own);
@@ -242,7 +242,7 @@ fn find_pairs(scene: &Census<'_>) -> Result<ContactPairs, SceneError> {
         let others = bounded.iter().chain(infinite.iter().filter(|other| other.shape < plane.shape));
         candidates.extend(others.map(|other| [plane.shape, other.shape]));
     }
-    let mut bodies: BTreeMap<usize, Body> = BTreeMap::new();
+    let mut bodies: BTreeMap<usize, AnyShape> = BTreeMap::new();
     for pair in candidates.into_iter().filter(|pair| pair.iter().any(|&shape| is_glass(shape))) {
         for shape in pair {
             if let std::collections::btree_map::Entry::Vacant(place) = bodies.entry(shape) {
@@ -268,32 +268,33 @@ fn find_pairs(scene: &Census<'_>) -> Result<ContactPairs, SceneError> {
 
 /// How far from a surface in this box another must be to be certainly kept apart from it.
 fn margin(bounds: &Bounds) -> f64 {
-    let farthest = bounds.least.abs().max(bounds.most.abs());
+    let farthest = bounds.min.abs().max(bounds.max.abs());
     APART * f64::from(offset_bound(farthest, DVec3::ZERO, l1_norm(farthest)))
 }
 
 fn grow(bounds: &Bounds) -> Bounds {
     let by = DVec3::splat(margin(bounds));
-    Bounds { least: bounds.least - by, most: bounds.most + by }
+    Bounds { min: bounds.min - by, max: bounds.max + by }
 }
 
 /// Whether the surfaces of two shapes whose boxes overlap may coincide over an area: true where nothing better is known.
 ///
 /// Surfaces that only cross each other do not: the rays that come as near as rounding to such a line are too few to be
 /// seen.
-fn may_touch([one, other]: [&Body; 2], glass: [u32; 2]) -> bool {
+fn may_touch([one, other]: [&AnyShape; 2], glass: [u32; 2]) -> bool {
     let margin = [one, other].iter().filter_map(|body| body.bounds()).map(|own| margin(&own)).fold(0.0, f64::max);
     match (one, other) {
-        (Body::Sphere(a, ()), Body::Sphere(b, ())) => {
+        (AnyShape::Sphere(a, ()), AnyShape::Sphere(b, ())) => {
             let apart = (a.centre - b.centre).length();
             let gaps = [apart - (a.radius + b.radius), apart - (a.radius - b.radius).abs()];
             gaps.iter().any(|gap| gap.abs() <= margin)
         }
-        (Body::Sphere(ball, ()), Body::Plane(plane, _)) | (Body::Plane(plane, _), Body::Sphere(ball, ())) => {
+        (AnyShape::Sphere(ball, ()), AnyShape::Plane(plane, _))
+        | (AnyShape::Plane(plane, _), AnyShape::Sphere(ball, ())) => {
             let height = plane.normal.dot(ball.centre) - plane.offset;
             (height.abs() - ball.radius).abs() <= margin
         }
-        (Body::Cuboid(a, ()), Body::Cuboid(b, ())) => {
+        (AnyShape::Cuboid(a, ()), AnyShape::Cuboid(b, ())) => {
             // Two faces of theirs must lie in one plane.
             let in_one_plane = |[own, other]: [usize; 2]| {
                 let (n, m) = (a.normal[own], b.normal[other]);
@@ -305,29 +306,30 @@ fn may_touch([one, other]: [&Body; 2], glass: [u32; 2]) -> bool {
             };
             (0..9).any(|pair| in_one_plane([pair / 3, pair % 3]))
         }
-        (Body::Plane(a, _), Body::Plane(b, _)) => {
+        (AnyShape::Plane(a, _), AnyShape::Plane(b, _)) => {
             let side = a.normal.dot(b.normal).signum();
             let (turned, apart) = (a.normal - side * b.normal, a.offset - side * b.offset);
             let bound = f64::from(offset_bound(a.normal * a.offset, DVec3::ZERO, a.offset.abs()));
             turned.length() < 1e-6 && apart.abs() <= APART * bound
         }
-        (Body::Plane(plane, _), Body::Mesh(mesh, ())) | (Body::Mesh(mesh, ()), Body::Plane(plane, _)) => {
+        (AnyShape::Plane(plane, _), AnyShape::Mesh(mesh, ()))
+        | (AnyShape::Mesh(mesh, ()), AnyShape::Plane(plane, _)) => {
             let is_in = |corner: &DVec3| (plane.normal.dot(*corner) - plane.offset).abs() <= margin;
             mesh.placed_triangles().any(|corners| corners.iter().all(is_in))
         }
-        (Body::Plane(plane, _), body) | (body, Body::Plane(plane, _)) => {
+        (AnyShape::Plane(plane, _), body) | (body, AnyShape::Plane(plane, _)) => {
             let Some(bounds) = body.bounds() else { return true };
-            let (centre, half) = (0.5 * (bounds.least + bounds.most), 0.5 * (bounds.most - bounds.least));
+            let (centre, half) = (0.5 * (bounds.min + bounds.max), 0.5 * (bounds.max - bounds.min));
             let (height, extent) = (plane.normal.dot(centre) - plane.offset, plane.normal.abs().dot(half));
             height.abs() <= extent + margin
         }
         // Neighbours in one surface have common corners.
-        (Body::Triangle(a, _), Body::Triangle(b, _)) => {
+        (AnyShape::Triangle(a, _), AnyShape::Triangle(b, _)) => {
             glass[0] != glass[1] || !a.corners.iter().any(|corner| b.corners.contains(corner))
         }
-        (Body::Mesh(mesh, ()), body) | (body, Body::Mesh(mesh, ())) => {
+        (AnyShape::Mesh(mesh, ()), body) | (body, AnyShape::Mesh(mesh, ())) => {
             let Some(near) = body.bounds().map(|bounds| grow(&bounds)) else { return true };
-            let around = |[a, b, c]: [DVec3; 3]| Bounds { least: a.min(b).min(c), most: a.max(b).max(c) };
+            let around = |[a, b, c]: [DVec3; 3]| Bounds { min: a.min(b).min(c), max: a.max(b).max(c) };
             mesh.placed_triangles().any(|corners| around(corners).overlaps(&near))
         }
         _ => true,

@@ -4,7 +4,7 @@ use super::{GlassTable, MaterialTable, NO_ROW, ShapeTable, ShutterTable, eye};
 use crate::plan::{Census, Table};
 use crate::scene::SceneError;
 use crate::shapes::emitter::triangle_solid_angle;
-use crate::shapes::{Body, Bounds};
+use crate::shapes::{AnyShape, Bounds};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 #[derive(Clone, Debug, PartialEq)]
 enum Enclosure {
     /// A shape with an inside of its own.
-    Shape(Box<Body>),
+    Shape(Box<AnyShape>),
     /// The loose triangles of one glass, which close around its inside: corners and outward normals.
     Triangles(Vec<([DVec3; 3], DVec3)>),
 }
@@ -92,7 +92,7 @@ impl Table for GlassBodyTable {
             let velocity = if moves(entity) { velocity_of(scene, entity) } else { DVec3::ZERO };
             let body = (one_shape(scene, entity)?.body)(scene, entity, eye)?;
             let bounds = swept(body.bounds(), velocity * open);
-            if let Body::Triangle(row, face) = &body {
+            if let AnyShape::Triangle(row, face) = &body {
                 let whole = loose.entry(glass).or_insert_with(|| GlassBody {
                     enclosure: Enclosure::Triangles(Vec::new()),
                     glass,
@@ -122,6 +122,6 @@ impl Table for GlassBodyTable {
 
 /// A box around a shape at rest and moved by so much; all of space for an infinite shape.
 fn swept(bounds: Option<Bounds>, moved: DVec3) -> Bounds {
-    let Some(Bounds { least, most }) = bounds else { return Bounds::ALL };
-    Bounds { least, most }.joined(&Bounds { least: least + moved, most: most + moved })
+    let Some(Bounds { min, max }) = bounds else { return Bounds::ALL };
+    Bounds { min, max }.joined(&Bounds { min: min + moved, max: max + moved })
 }

@@ -76,8 +76,8 @@ fn surfaces(shapes: Vec<BoundedGlass>) -> Vec<BoundedGlass> {
     let mut of_glass: BTreeMap<u32, BoundedGlass> = BTreeMap::new();
     for part in parts {
         let surface = of_glass.entry(part.of).or_insert(BoundedGlass { ..part });
-        surface.bounds.least = surface.bounds.least.min(part.bounds.least);
-        surface.bounds.most = surface.bounds.most.max(part.bounds.most);
+        surface.bounds.min = surface.bounds.min.min(part.bounds.min);
+        surface.bounds.max = surface.bounds.max.max(part.bounds.max);
     }
     whole.extend(of_glass.into_values());
     whole
@@ -86,10 +86,10 @@ fn surfaces(shapes: Vec<BoundedGlass>) -> Vec<BoundedGlass> {
 /// Whether a point may be inside more than this many shapes.
 fn overlap_deeply(shapes: &[BoundedGlass], places: usize) -> bool {
     let mut order: Vec<&Bounds> = shapes.iter().map(|shape| &shape.bounds).collect();
-    order.sort_by(|a, b| a.least.x.partial_cmp(&b.least.x).unwrap_or(Ordering::Equal));
+    order.sort_by(|a, b| a.min.x.partial_cmp(&b.min.x).unwrap_or(Ordering::Equal));
     let mut open: Vec<&Bounds> = Vec::new();
     for bounds in order {
-        open.retain(|other| other.most.x >= bounds.least.x);
+        open.retain(|other| other.max.x >= bounds.min.x);
         let mut about: Vec<&Bounds> = open.iter().copied().filter(|other| other.overlaps(bounds)).collect();
         about.push(bounds);
         if about.len() > places && have_a_common_point(&about, places) {
@@ -107,12 +107,11 @@ const MANY: usize = 64;
 /// Whether more than this many boxes, which all contain the x at which the last of them begins, have a common point: if
 /// any does, then one at whose y and z some of them begin.
 fn have_a_common_point(boxes: &[&Bounds], places: usize) -> bool {
-    let contains =
-        |along: usize, at: f64| move |other: &&&Bounds| (other.least[along]..=other.most[along]).contains(&at);
+    let contains = |along: usize, at: f64| move |other: &&&Bounds| (other.min[along]..=other.max[along]).contains(&at);
     boxes.len() > MANY
         || boxes.iter().any(|first| {
-            let beside: Vec<&Bounds> = boxes.iter().filter(contains(1, first.least.y)).copied().collect();
-            let deepest = beside.iter().map(|own| beside.iter().filter(contains(2, own.least.z)).count()).max();
+            let beside: Vec<&Bounds> = boxes.iter().filter(contains(1, first.min.y)).copied().collect();
+            let deepest = beside.iter().map(|own| beside.iter().filter(contains(2, own.min.z)).count()).max();
             deepest.is_some_and(|deepest| deepest > places)
         })
 }
@@ -120,12 +119,12 @@ fn have_a_common_point(boxes: &[&Bounds], places: usize) -> bool {
 /// The numbers of two shapes whose boxes overlap, the first such pair along x.
 fn first_overlap(mut shapes: Vec<BoundedGlass>) -> Option<[usize; 2]> {
     let by_least = |a: &BoundedGlass, b: &BoundedGlass| {
-        a.bounds.least.x.partial_cmp(&b.bounds.least.x).unwrap_or(Ordering::Equal).then(a.shape.cmp(&b.shape))
+        a.bounds.min.x.partial_cmp(&b.bounds.min.x).unwrap_or(Ordering::Equal).then(a.shape.cmp(&b.shape))
     };
     shapes.sort_by(by_least);
     let mut open: Vec<&BoundedGlass> = Vec::new();
     for shape in &shapes {
-        open.retain(|other| other.bounds.most.x >= shape.bounds.least.x);
+        open.retain(|other| other.bounds.max.x >= shape.bounds.min.x);
         let overlaps = |other: &&&BoundedGlass| {
             let one_surface = shape.part && other.part && shape.of == other.of;
             !one_surface && other.bounds.overlaps(&shape.bounds)
@@ -151,7 +150,7 @@ fn bounded_glass(scene: &Census<'_>) -> Result<Vec<BoundedGlass>, SceneError> {
     let bounded = glass.into_iter().map(|shape| {
         let (listed, row) = (listed_kind(scene, shapes.kind[shape]), shapes.row[shape] as usize);
         // A plane is infinite, and a moving shape may go anywhere.
-        let anywhere = Bounds { least: DVec3::NEG_INFINITY, most: DVec3::INFINITY };
+        let anywhere = Bounds { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
         let bounds = listed.map_or(Ok(None), |listed| (listed.bounds)(scene, row))?.unwrap_or(anywhere);
         let part = one_shape(scene, entities[shape])?.is_part;
         Ok(BoundedGlass { shape, of: materials.interior[shapes.material[shape] as usize], part, bounds })

@@ -34,7 +34,7 @@ pub fn hierarchy_evidence<S: Listed>(scene: &Census<'_>) -> Evidence {
     if !(S::IS_BOUNDED && found.needed) {
         return Evidence { needed: false, count: 0, ..found };
     }
-    let needed = found.count >= S::MANY;
+    let needed = found.count >= S::HIERARCHY_FROM;
     let those = counted(found.count, S::NOUN);
     let reason = match found.count {
         _ if needed => found.reason,

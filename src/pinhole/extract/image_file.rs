@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The greatest number of texels of one image: 8192².
-const MOST_TEXELS: u64 = 1 << 26;
+const MAX_TEXELS: u64 = 1 << 26;
 /// The endings of files that may be images.
 const ENDINGS: [&str; 7] = ["png", "jpg", "jpeg", "tga", "bmp", "hdr", "exr"];
 /// What a name without such an ending is told.
@@ -154,7 +154,7 @@ pub(super) fn check_memory_of_textures<'f>(
         let start = reader.fill_buf().ok()?;
         let format = image_kind(path, &start[..start.len().min(TELLING_BYTES)]).ok()?;
         let head = image_head(reader, format, length).ok()?;
-        (!is_there && head.pixels() <= MOST_TEXELS).then(|| head.pixels() * BYTES_A_TEXEL)
+        (!is_there && head.pixels() <= MAX_TEXELS).then(|| head.pixels() * BYTES_A_TEXEL)
     };
     let needed = paths.iter().filter_map(bytes).sum();
     check_memory(needed).map_err(|too_little| (paths.len(), too_little))
@@ -167,8 +167,8 @@ fn texels(path: &Path, bytes: &[u8], numbers: Numbers) -> Result<(Texels, Vec<St
     let bytes = if format == ImageFormat::Hdr { as_radiance(bytes) } else { Cow::Borrowed(bytes) };
     let head = image_head(Cursor::new(&*bytes), format, bytes.len() as u64)?;
     let ImageHead { width, height, decoded } = head;
-    if head.pixels() > MOST_TEXELS {
-        return Err(format!("it has {width} × {height} texels, and an image may have {MOST_TEXELS}"));
+    if head.pixels() > MAX_TEXELS {
+        return Err(format!("it has {width} × {height} texels, and an image may have {MAX_TEXELS}"));
     }
     // For a while, the decoder's own pixels exist beside the texels.
     check_memory(head.pixels() * BYTES_A_TEXEL + 2 * decoded)
@@ -183,7 +183,7 @@ fn texels(path: &Path, bytes: &[u8], numbers: Numbers) -> Result<(Texels, Vec<St
         }
         let mut reader = ImageReader::with_format(Cursor::new(&*bytes), format);
         let mut limits = Limits::default();
-        limits.max_alloc = Some(MOST_TEXELS * 16);
+        limits.max_alloc = Some(MAX_TEXELS * 16);
         reader.limits(limits);
         let mut decoder = reader.into_decoder().map_err(|error| one_line(&error))?;
         let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);

@@ -40,13 +40,13 @@ pub fn image_head(reader: impl BufRead + Seek, format: ImageFormat, length: u64)
             let decoder = reader.into_decoder().map_err(|error| one_line(&error))?;
             let (width, height) = decoder.dimensions();
             let head = ImageHead { width: width.into(), height: height.into(), decoded: decoder.total_bytes() };
-            let least = match format {
+            let min = match format {
                 // Every line of a Radiance file begins with four bytes.
                 ImageFormat::Hdr => 4 * head.height,
                 // A pixel of a PNG has one bit at least.
                 _ => head.pixels() / 8 / DEFLATE,
             };
-            check_length(&head, least, length)?;
+            check_length(&head, min, length)?;
             head
         }
     };
@@ -55,14 +55,14 @@ pub fn image_head(reader: impl BufRead + Seek, format: ImageFormat, length: u64)
 
 fn exr_head(reader: impl BufRead, length: u64) -> Result<ImageHead, String> {
     let meta = MetaData::read_from_buffered(reader, false).map_err(|error| explained(&error))?;
-    let (mut largest, mut least) = (ImageHead { width: 0, height: 0, decoded: 0 }, 0_u64);
+    let (mut largest, mut min) = (ImageHead { width: 0, height: 0, decoded: 0 }, 0_u64);
     for header in &meta.headers {
         let (width, height) = (header.layer_size.0 as u64, header.layer_size.1 as u64);
         let head = ImageHead { width, height, decoded: bytes_of(header) };
         // Each block has an entry of 8 bytes in a table, and at least 8 bytes before its pixels.
         let blocks = (header.chunk_count as u64).saturating_mul(16);
-        least = least.saturating_add((head.decoded / most_a_byte(header.compression)).max(blocks));
-        check_length(&head, least, length)?;
+        min = min.saturating_add((head.decoded / most_a_byte(header.compression)).max(blocks));
+        check_length(&head, min, length)?;
         if head.pixels() >= largest.pixels() {
             largest = head;
         }
@@ -95,9 +95,9 @@ fn most_a_byte(compression: Compression) -> u64 {
     }
 }
 
-fn check_length(head: &ImageHead, least: u64, length: u64) -> Result<(), String> {
+fn check_length(head: &ImageHead, min: u64, length: u64) -> Result<(), String> {
     let ImageHead { width, height, .. } = head;
-    if least <= length {
+    if min <= length {
         return Ok(());
     }
     Err(format!("it says it has {width} × {height} pixels, which do not fit into its {length} bytes"))

@@ -6,7 +6,7 @@ use super::{
     AreaLightTable, EnvironmentLightTable, EnvironmentTable, MaterialTable, MeshLights, NO_ROW, ShapeTable,
     environment_light_evidence, luminance,
 };
-use crate::lights::{AnyLight, MOST_TARGETS, Target, Targets};
+use crate::lights::{AnyLight, MAX_TARGETS, Target, Targets};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::SceneError;
 use crate::shapes::{Bounds, Emitter};
@@ -145,8 +145,8 @@ fn find_targets(scene: &Census<'_>) -> Result<Targets, SceneError> {
         }
         match listed.map(|listed| (listed.bounds)(scene, row)).transpose()?.flatten() {
             Some(own) => {
-                let least = all.map_or(own.least, |all| all.least.min(own.least));
-                all = Some(Bounds { least, most: all.map_or(own.most, |all| all.most.max(own.most)) });
+                let min = all.map_or(own.min, |all| all.min.min(own.min));
+                all = Some(Bounds { min, max: all.map_or(own.max, |all| all.max.max(own.max)) });
             }
             None => infinite.push((one_shape(scene, entities[shape])?.body)(scene, entities[shape], eye)?),
         }
@@ -154,7 +154,7 @@ fn find_targets(scene: &Census<'_>) -> Result<Targets, SceneError> {
     if !bounded {
         found.clear();
     }
-    if found.len() > MOST_TARGETS {
+    if found.len() > MAX_TARGETS {
         found = vec![Target::around_all(&found)];
     }
     let scene = all.map_or_else(Target::default, |all| Target::around(all.sphere_around()));

@@ -11,7 +11,7 @@ use crate::scene::{LightTracing, SceneError};
 use bevy_ecs::prelude::*;
 
 /// The greatest number of light paths per camera path.
-const MOST_PATHS: f64 = 1024.0;
+const MAX_PATHS: f64 = 1024.0;
 
 /// The number of light paths.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,8 +34,8 @@ impl Table for LightTracingTable {
         }
         let paths = scene.get::<LightTracing>(camera).map_or(0.0, |own| own.paths);
         let who = kind_and_name(scene, "camera", camera);
-        if !(1.0 / MOST_PATHS..=MOST_PATHS).contains(&paths) {
-            let accepted = format!("it must be a number from 1/{MOST_PATHS} to {MOST_PATHS}");
+        if !(1.0 / MAX_PATHS..=MAX_PATHS).contains(&paths) {
+            let accepted = format!("it must be a number from 1/{MAX_PATHS} to {MAX_PATHS}");
             return Err(SceneError::new(who, "light_tracing paths", number(paths), accepted));
         }
         let refused = |value: &str, accepted: &str| Err(SceneError::new(who, "light_tracing", value, accepted));

@@ -16,7 +16,7 @@ use std::sync::{Arc, OnceLock};
 /// The most lights of a kind to all of which each surface sends a shadow ray, which gives their light without noise.
 ///
 /// A tile of 1024 surfaces then has 65,536 shadow rays of a kind at most, which take 5 MB.
-const MOST_SUMMED: usize = 64;
+const MAX_SUMMED: usize = 64;
 
 /// Lights of one kind in render space, in spawn order.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +59,7 @@ impl<L: ListedLight> Table for LightsOf<L> {
             table.row.push(L::place(&light, &placed)?);
             table.casts_shadows.push(light.casts_shadows());
         }
-        if table.row.len() > MOST_SUMMED {
+        if table.row.len() > MAX_SUMMED {
             let powers = || table.row.iter().map(|light| luminance(light.power(1.0))).collect::<Vec<f64>>();
             table.choice = Some(if L::IS_DISTANT {
                 let (until, probability) = light_distribution(&powers());
@@ -154,7 +154,7 @@ fn library_kinds() -> &'static [LightKind] {
 /// Evidence of lights of one kind, and whether one of many is chosen for each surface.
 pub fn lights_evidence<L: ListedLight>(scene: &Census<'_>) -> Evidence {
     let found = Evidence::of::<L::Component>(scene, L::Component::WORD);
-    if found.count <= MOST_SUMMED {
+    if found.count <= MAX_SUMMED {
         return found;
     }
     let by = if L::IS_DISTANT { "power" } else { "a hierarchy" };
@@ -164,12 +164,12 @@ pub fn lights_evidence<L: ListedLight>(scene: &Census<'_>) -> Evidence {
 /// Evidence that one of many lights of a kind is chosen for each surface.
 pub fn many_lights_evidence<L: ListedLight>(scene: &Census<'_>) -> Evidence {
     let found = lights_evidence::<L>(scene);
-    Evidence { needed: found.count > MOST_SUMMED, count: 0, ..found }
+    Evidence { needed: found.count > MAX_SUMMED, count: 0, ..found }
 }
 
 /// The greatest number of shadow rays from a surface to lights without an area.
 pub fn delta_light_rays(scene: &Census<'_>) -> usize {
-    let of_kind = |lights: usize| if lights > MOST_SUMMED { 1 } else { lights };
+    let of_kind = |lights: usize| if lights > MAX_SUMMED { 1 } else { lights };
     light_kinds(scene).map(|kind| of_kind((kind.entities)(scene).len())).sum()
 }
 

@@ -117,11 +117,11 @@ impl Table for MetallicRoughnessTable {
 fn check_brightest(scene: &Census<'_>, emissive: Entity, images: &UvImages) -> Result<(), SceneError> {
     let radiance = scene.get::<Emissive>(emissive).map_or([0.0; 3], |own| own.radiance.to_array());
     let brightest = images.pyramid.last().map_or([0.0; 3], |image| image.brightest.map(f64::from));
-    let most = [0, 1, 2].map(|part| radiance[part] * brightest[part]).into_iter().fold(0.0, f64::max);
-    if most <= f64::from(f32::MAX) {
+    let max = [0, 1, 2].map(|part| radiance[part] * brightest[part]).into_iter().fold(0.0, f64::max);
+    if max <= f64::from(f32::MAX) {
         return Ok(());
     }
-    let value = format!("an image whose brightest texel makes the radiance {most:.2e}");
+    let value = format!("an image whose brightest texel makes the radiance {max:.2e}");
     let who = kind_and_name(scene, EmissionMap::WORD, emissive);
     Err(SceneError::new(who, "file", value, "the product of the two must be at most 3.4e38"))
 }

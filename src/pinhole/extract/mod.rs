@@ -135,16 +135,16 @@ pub use material_maps::{
     filtered_roughness_evidence, metallic_roughness_evidence,
 };
 pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_evidence};
-pub use moving::{MovingTable, shape_bodies};
+pub use moving::{MovingTable, any_shapes};
 pub use non_opaque::{Coverage, NonOpaqueTable, non_opaque_evidence};
 pub use normal_map::{NormalMapTable, normal_map_evidence};
 pub use pattern::{CheckerTable, Pattern, PatternTable, StripesTable, TexturePoint};
 pub use pixel_steps::PixelSteps;
-pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, upward, world_from_entity};
+pub use pose::{ahead, look_at_axes, non_uniformly_scaled, pose, upward, world_from_entity};
 pub use pyramid::{Pyramid, halved};
 pub use rasterisation::{box_evidence, no_plane_to_rasterise, rasterisation_evidence, rasterising_camera};
 pub use ray_origins::{RayOrigins, ray_origins_evidence};
-pub use sampling::{MOST_SAMPLES, SamplingTable};
+pub use sampling::{MAX_SAMPLES, SamplingTable};
 pub use shape::ShapeTable;
 pub use shape_kind::{
     ListedKind, add_shape, kind_evidence, listed_kind, listed_kinds, primitive_evidence, shape_entities,

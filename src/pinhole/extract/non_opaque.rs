@@ -11,7 +11,7 @@ use super::velocity::moves_while_open;
 use crate::material::{components_in_words, is_material, one_material};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Opacity, OpacityMap, SceneError, SingleSided, number};
-use crate::shapes::Body;
+use crate::shapes::AnyShape;
 use bevy_ecs::prelude::*;
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
@@ -21,7 +21,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NonOpaqueTable {
     /// The shape.
-    pub body: Vec<Body>,
+    pub body: Vec<AnyShape>,
     /// Its number.
     pub shape: Vec<u32>,
     /// Where its material is opaque.
@@ -129,7 +129,7 @@ impl Table for NonOpaqueTable {
     }
 
     fn bytes(&self) -> usize {
-        self.body.len() * (size_of::<Body>() + size_of::<u32>() + size_of::<Coverage>()) + self.images.bytes()
+        self.body.len() * (size_of::<AnyShape>() + size_of::<u32>() + size_of::<Coverage>()) + self.images.bytes()
     }
 }
 

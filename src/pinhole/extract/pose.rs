@@ -9,7 +9,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 /// How far the square of a quaternion's length may be from 1 for it to be normalised without being scaled first.
 const UNIT_TOLERANCE: f64 = 1e-6;
 /// The sine of the least angle between up and the view; the axes are orthonormal to within 2⁻⁵² over this sine.
-const LEAST_SINE: f64 = 1e-6;
+const MIN_SINE: f64 = 1e-6;
 /// How far the three scales of a sphere may differ, relative to the first, and still be considered equal up to
 /// rounding.
 const EVEN_TOLERANCE: f64 = 1e-9;
@@ -103,7 +103,7 @@ fn parent_from_entity(scene: &Census<'_>, who: &str, entity: Entity) -> Result<P
 /// ellipsoid.
 ///
 /// An invalid placement counts as uniform: extraction will report what is wrong with it.
-pub fn unevenly_scaled(scene: &Census<'_>, entity: Entity) -> bool {
+pub fn non_uniformly_scaled(scene: &Census<'_>, entity: Entity) -> bool {
     let scale = scene.get::<Placement>(entity).map_or(DVec3::ONE, |placement| placement.scale.abs());
     let even_alone = scale.x == scale.y && scale.y == scale.z && scene.get::<ChildOf>(entity).is_none();
     !even_alone && pose(scene, "", entity).is_ok_and(|pose| !is_even(pose.world_from_entity.matrix3))
@@ -114,8 +114,8 @@ fn is_even(world_from_entity: DMat3) -> bool {
     let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_entity.col(axis).length()));
     let [x, y, z] = [0, 1, 2].map(|axis| world_from_entity.col(axis));
     let skew = x.dot(y).abs().max(y.dot(z).abs()).max(z.dot(x).abs());
-    let uneven = (lengths - lengths.x).abs().max_element();
-    uneven <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x
+    let non_uniform = (lengths - lengths.x).abs().max_element();
+    non_uniform <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x
 }
 
 /// The unit quaternion of the same rotation, or none where there is no rotation; scaled first where that is needed, so
@@ -150,7 +150,7 @@ pub fn look_at_axes(who: &str, look: &LookAt) -> Result<DMat3, SceneError> {
     };
     let right = up.cross(back);
     match direction(right) {
-        Some(x) if right.length() >= LEAST_SINE => Ok(DMat3::from_cols(x, back.cross(x), back)),
+        Some(x) if right.length() >= MIN_SINE => Ok(DMat3::from_cols(x, back.cross(x), back)),
         _ => {
             let across = if back.y.abs() < 0.9 { "(0, 1, 0)" } else { "(0, 0, -1)" };
             let accepted = format!("it must not point along the view from eye to target; {across} does not");
@@ -163,7 +163,7 @@ pub fn look_at_axes(who: &str, look: &LookAt) -> Result<DMat3, SceneError> {
 /// that of a camera which looked along −z and was tilted until it looks down (−z) or up (z).
 pub fn upward(look: &LookAt) -> DVec3 {
     let back = direction(look.eye - look.target).unwrap_or_default();
-    let is_vertical = DVec3::Y.cross(back).length() < LEAST_SINE;
+    let is_vertical = DVec3::Y.cross(back).length() < MIN_SINE;
     if look.up == DVec3::Y && is_vertical { DVec3::new(0.0, 0.0, -back.y.signum()) } else { look.up }
 }
 // ANCHOR_END: look_at_axes

@@ -5,7 +5,7 @@ use crate::scene::{Sampler, Sampling, SceneError};
 use bevy_ecs::prelude::*;
 
 /// The greatest number of samples per pixel: the number of positions along an axis that 24 bits distinguish.
-pub const MOST_SAMPLES: u32 = 1 << 24;
+pub const MAX_SAMPLES: u32 = 1 << 24;
 
 /// How the camera samples its pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,9 +41,9 @@ impl Table for SamplingTable {
         let Some(&Sampling { samples, seed, sampler, .. }) = scene.get::<Sampling>(camera) else {
             return Ok(Self { samples: 1, ..Self::default() });
         };
-        if !(1..=MOST_SAMPLES).contains(&samples) {
+        if !(1..=MAX_SAMPLES).contains(&samples) {
             let who = kind_and_name(scene, "camera", camera);
-            let accepted = format!("it must be a whole number from 1 to {MOST_SAMPLES}");
+            let accepted = format!("it must be a whole number from 1 to {MAX_SAMPLES}");
             return Err(SceneError::new(who, "samples", samples.to_string(), accepted));
         }
         Ok(Self { samples, seed, sampler })

@@ -1,13 +1,13 @@
 //! Which entities are a shape, of which kind, and what extraction asks of each kind.
 
 use super::check::kind_and_name;
-use super::pose::unevenly_scaled;
+use super::pose::non_uniformly_scaled;
 use super::shapes_of::{ShapesOf, placed_shape};
 use super::velocity::moves_while_open;
 use crate::material::NUMBERS;
 use crate::plan::{Added, Census, Evidence, TableKind, add_kind, united, with_added};
 use crate::scene::SceneError;
-use crate::shapes::{Body, Bounds, Emitter, Listed, SceneShape, ShapeKind, ShapeVisitor, UvSlope, visit_shapes};
+use crate::shapes::{AnyShape, Bounds, Emitter, Listed, SceneShape, ShapeKind, ShapeVisitor, UvSlope, visit_shapes};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 use std::sync::{Arc, OnceLock};
@@ -22,7 +22,7 @@ pub struct ListedKind {
     /// Its component in messages.
     pub word: &'static str,
     /// Which placements make this shape of its component, if not all do.
-    pub(super) uneven: Option<bool>,
+    pub(super) non_uniform: Option<bool>,
     /// Whether some of the component's examples, and whether all of them, can be made of glass.
     pub(super) examples_with_inside: fn() -> [bool; 2],
     /// Whether some of them, and whether all of them, are sampled where they emit.
@@ -44,7 +44,7 @@ pub struct ListedKind {
     /// Extracts its table, which checks its components.
     pub check: fn(&Census<'_>) -> Result<(), SceneError>,
     /// A shape that moves.
-    pub(super) body: fn(&Census<'_>, Entity, DVec3) -> Result<Body, SceneError>,
+    pub(super) body: fn(&Census<'_>, Entity, DVec3) -> Result<AnyShape, SceneError>,
     /// A row of its table as a light; none where it cannot be sampled.
     pub(super) emitter: fn(&Census<'_>, usize) -> Result<Option<Emitter>, SceneError>,
     /// Whether an entity of this kind is sampled where it emits.
@@ -69,7 +69,7 @@ impl ListedKind {
             kind: S::KIND,
             component: S::Component::NAME,
             word: S::Component::WORD,
-            uneven: S::UNEVEN,
+            non_uniform: S::NON_UNIFORM,
             has_inside: |scene, entity| scene.get::<S::Component>(entity).is_some_and(S::has_inside),
             is_part: S::IS_PART,
             has_primitives: S::HAS_PRIMITIVES,
@@ -81,11 +81,11 @@ impl ListedKind {
             carries: |scene, entity| scene.get::<S::Component>(entity).is_some(),
             check: |scene| scene.table::<ShapesOf<S>>().map(drop),
             body: |scene, entity, eye| {
-                placed_shape::<S>(scene, entity, eye).map(|(shape, beside)| shape.into_body(beside))
+                placed_shape::<S>(scene, entity, eye).map(|(shape, surface_data)| shape.into_any_shape(surface_data))
             },
             emitter: |scene, row| {
                 let shapes = scene.table::<ShapesOf<S>>()?;
-                Ok(shapes.row[row].listed_emitter(&shapes.beside[row]))
+                Ok(shapes.row[row].listed_emitter(&shapes.surface_data[row]))
             },
             is_sampled: |scene, entity| scene.get::<S::Component>(entity).is_some_and(S::is_sampled),
             bounds: |scene, row| Ok(scene.table::<ShapesOf<S>>()?.row[row].bounds()),
@@ -100,8 +100,8 @@ impl ListedKind {
             },
             fill_uv_slopes: |scene, uv_from_world, slopes| {
                 let shapes = scene.table::<ShapesOf<S>>()?;
-                for ((row, beside), &shape) in shapes.row.iter().zip(&shapes.beside).zip(&shapes.shape) {
-                    slopes[shape as usize] = row.uv_slope(beside, uv_from_world[shape as usize]);
+                for ((row, surface_data), &shape) in shapes.row.iter().zip(&shapes.surface_data).zip(&shapes.shape) {
+                    slopes[shape as usize] = row.uv_slope(surface_data, uv_from_world[shape as usize]);
                 }
                 Ok(())
             },
@@ -110,7 +110,7 @@ impl ListedKind {
 
     /// Whether it is the first of those that are made of its component.
     fn is_first(&self) -> bool {
-        self.uneven != Some(true)
+        self.non_uniform != Some(true)
     }
 }
 
@@ -169,7 +169,7 @@ pub fn listed_kind<'s>(scene: &'s Census<'_>, kind: ShapeKind) -> Option<&'s Lis
 pub fn kind_evidence<S: Listed>(scene: &Census<'_>) -> Evidence {
     let moves = moves_while_open(scene);
     Evidence::of_kind::<With<S::Component>>(scene, S::NOUN, |entity| {
-        S::UNEVEN.is_none_or(|uneven| uneven == unevenly_scaled(scene, entity)) && !moves(entity)
+        S::NON_UNIFORM.is_none_or(|non_uniform| non_uniform == non_uniformly_scaled(scene, entity)) && !moves(entity)
     })
 }
 
@@ -202,7 +202,9 @@ pub fn shape_entities(scene: &Census<'_>) -> Arc<[Entity]> {
 pub(super) fn numbered<S: Listed>(scene: &Census<'_>) -> Vec<(usize, Entity)> {
     let shapes = shape_entities(scene);
     let number = |entity: Entity| shapes.binary_search_by_key(&entity.index(), |shape| shape.index()).ok();
-    let of_kind = |entity: &&Entity| S::UNEVEN.is_none_or(|uneven| uneven == unevenly_scaled(scene, **entity));
+    let of_kind = |entity: &&Entity| {
+        S::NON_UNIFORM.is_none_or(|non_uniform| non_uniform == non_uniformly_scaled(scene, **entity))
+    };
     let found = scene.entities::<With<S::Component>>();
     found.iter().filter(of_kind).filter_map(|&entity| Some((number(entity)?, entity))).collect()
 }
@@ -239,8 +241,9 @@ pub(super) fn one_shape(scene: &Census<'_>, entity: Entity) -> Result<ListedKind
     let carried = || listed_kinds(scene).filter(|listed| (listed.carries)(scene, entity));
     let components: Vec<&ListedKind> = carried().filter(|listed| listed.is_first()).collect();
     if let [one] = components[..] {
-        let is_this =
-            |listed: &&ListedKind| listed.uneven.is_none_or(|uneven| uneven == unevenly_scaled(scene, entity));
+        let is_this = |listed: &&ListedKind| {
+            listed.non_uniform.is_none_or(|non_uniform| non_uniform == non_uniformly_scaled(scene, entity))
+        };
         return Ok(*carried().find(is_this).unwrap_or(one));
     }
     let names: Vec<&str> = components.iter().map(|listed| listed.component).collect();

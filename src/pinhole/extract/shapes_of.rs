@@ -20,7 +20,7 @@ pub struct ShapesOf<S: Listed> {
     /// The shapes, as the intersection kernels read them.
     pub row: Vec<S>,
     /// What the surface of each needs besides.
-    pub beside: Vec<S::Beside>,
+    pub surface_data: Vec<S::SurfaceData>,
     /// The shape's number.
     pub shape: Vec<u32>,
     /// How many, from the first on, are opaque to every ray.
@@ -47,15 +47,15 @@ pub type MeshTable = ShapesOf<PlacedMesh>;
 
 impl<S: Listed> Default for ShapesOf<S> {
     fn default() -> Self {
-        Self { row: Vec::new(), beside: Vec::new(), shape: Vec::new(), opaque: 0 }
+        Self { row: Vec::new(), surface_data: Vec::new(), shape: Vec::new(), opaque: 0 }
     }
 }
 
 impl<S: Listed> ShapesOf<S> {
     /// Appends an opaque shape, with what its surface needs and its number.
-    pub fn push(&mut self, (row, beside): (S, S::Beside), shape: u32) {
+    pub fn push(&mut self, (row, surface_data): (S, S::SurfaceData), shape: u32) {
         self.row.push(row);
-        self.beside.push(beside);
+        self.surface_data.push(surface_data);
         self.shape.push(shape);
         self.opaque += 1;
     }
@@ -86,7 +86,7 @@ impl<S: Listed> ShapesOf<S> {
 impl<S: Listed> FromIterator<S> for ShapesOf<S> {
     fn from_iter<I: IntoIterator<Item = S>>(shapes: I) -> Self {
         let mut table = Self::default();
-        shapes.into_iter().zip(0..).for_each(|(row, shape)| table.push((row, S::Beside::default()), shape));
+        shapes.into_iter().zip(0..).for_each(|(row, shape)| table.push((row, S::SurfaceData::default()), shape));
         table
     }
 }
@@ -103,7 +103,8 @@ impl<S: Listed> Table for ShapesOf<S> {
     }
 
     fn bytes(&self) -> usize {
-        self.row.len() * (size_of::<S>() + size_of::<S::Beside>() + size_of::<u32>()) + S::bytes_beside(&self.row)
+        self.row.len() * (size_of::<S>() + size_of::<S::SurfaceData>() + size_of::<u32>())
+            + S::bytes_of_surface_data(&self.row)
     }
 }
 
@@ -112,7 +113,7 @@ pub(super) fn placed_shape<S: Listed>(
     scene: &Census<'_>,
     entity: Entity,
     eye: DVec3,
-) -> Result<(S, S::Beside), SceneError> {
+) -> Result<(S, S::SurfaceData), SceneError> {
     let component = scene.get::<S::Component>(entity).cloned().unwrap_or_default();
     let who = kind_and_name(scene, S::Component::WORD, entity);
     S::place(&component, &placed(scene, &who, entity, eye)?)
@@ -159,7 +160,7 @@ impl Table for VertexNormalTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::extract::{ShapeTable, unevenly_scaled};
+    use crate::extract::{ShapeTable, non_uniformly_scaled};
     use crate::scene::{Matte, PerspectiveCamera, Sphere};
     use crate::shapes::ShapeKind;
     use glam::DQuat;
@@ -178,9 +179,9 @@ mod tests {
 
     #[test]
     fn a_sphere_is_in_one_table_or_the_other() {
-        let uneven = [DVec3::new(1.0, 1.0, 1.0 + 2e-9), DVec3::new(-1.0, 1.0, 2.0), DVec3::new(1e-3, 1.0, 1e3)];
+        let non_uniform = [DVec3::new(1.0, 1.0, 1.0 + 2e-9), DVec3::new(-1.0, 1.0, 2.0), DVec3::new(1e-3, 1.0, 1e3)];
         let even = [DVec3::ONE, DVec3::new(1.0, 1.0, 1.0 + 1e-12), DVec3::new(-2.0, 2.0, 2.0), DVec3::splat(-1e-9)];
-        let (world, spheres) = scene(&[&uneven[..], &even].concat());
+        let (world, spheres) = scene(&[&non_uniform[..], &even].concat());
         let (shapes, ellipsoids) =
             (ShapeTable::extract(&Census::of(&world)), EllipsoidTable::extract(&Census::of(&world)));
         let (shapes, ellipsoids) = (shapes.expect("shapes"), ellipsoids.expect("ellipsoids"));
@@ -188,8 +189,11 @@ mod tests {
         assert_eq!(ellipsoids.shape, [0, 1, 2]);
         assert_eq!(spheres_left.shape, [3, 4, 5, 6]);
         for (number, &sphere) in spheres.iter().enumerate() {
-            let kind =
-                if unevenly_scaled(&Census::of(&world), sphere) { ShapeKind::Ellipsoid } else { ShapeKind::Sphere };
+            let kind = if non_uniformly_scaled(&Census::of(&world), sphere) {
+                ShapeKind::Ellipsoid
+            } else {
+                ShapeKind::Sphere
+            };
             assert_eq!(shapes.kind[number], kind, "sphere {number}");
         }
     }

@@ -88,7 +88,7 @@ fn size_of_shape(scene: &Census<'_>, number: usize) -> Result<f64, SceneError> {
     let shapes = scene.table::<ShapeTable>()?;
     let Some(listed) = listed_kind(scene, shapes.kind[number]) else { return Ok(f64::INFINITY) };
     let bounds = (listed.bounds)(scene, shapes.row[number] as usize)?;
-    Ok(bounds.map_or(f64::INFINITY, |bounds| (bounds.most - bounds.least).max_element()))
+    Ok(bounds.map_or(f64::INFINITY, |bounds| (bounds.max - bounds.min).max_element()))
 }
 
 /// The distance between neighbouring numbers, at most, where coordinates are as large as these.

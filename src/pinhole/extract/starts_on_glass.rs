@@ -43,7 +43,7 @@ impl GlassBodyTable {
         let steps = [-1.0, 0.0, 1.0];
         let around = steps.map(|x| steps.map(|y| steps.map(|z| DVec3::new(x, y, z))));
         let around = around.as_flattened().as_flattened();
-        let within = Bounds { least: point - distance, most: point + distance };
+        let within = Bounds { min: point - distance, max: point + distance };
         self.row.iter().filter(|body| body.bounds.overlaps(&within)).any(|body| {
             let here = body.windings(point, 0.0);
             around.iter().any(|step| body.windings(point + distance * *step, 0.0) != here)
@@ -61,9 +61,9 @@ fn find_starts(scene: &Census<'_>) -> Result<Vec<(String, GlassStart)>, SceneErr
         return Ok(Vec::new());
     }
     let bodies = scene.table::<GlassBodyTable>()?;
-    let extent = bodies.row.iter().flat_map(|body| [body.bounds.least, body.bounds.most]);
+    let extent = bodies.row.iter().flat_map(|body| [body.bounds.min, body.bounds.max]);
     let extent =
-        extent.filter(|corner| corner.is_finite()).fold(0.0, |most: f64, corner| most.max(corner.abs().max_element()));
+        extent.filter(|corner| corner.is_finite()).fold(0.0, |max: f64, corner| max.max(corner.abs().max_element()));
     let place = |name: String, position: DVec3, from_origin: f64| {
         let position = position.as_vec3().as_dvec3();
         let far = position.abs().max_element();

@@ -33,7 +33,7 @@ impl Numbers {
     /// Replaces what is out of range by what is nearest in it; says how many texels that were, if any.
     pub fn bring_into_range(self, texels: &mut Texels) -> Vec<String> {
         let largest = texels.rgb.iter().flatten().copied().filter(|part| part.is_finite()).fold(0.0, f32::max);
-        let [least, most] = match self {
+        let [min, max] = match self {
             Self::Radiance => [0.0, largest],
             _ => [0.0, 1.0],
         };
@@ -41,10 +41,10 @@ impl Numbers {
         for texel in &mut texels.rgb {
             let is_any = |such: &dyn Fn(&f32) -> bool| u64::from(texel.iter().any(such));
             not_numbers += is_any(&|part| part.is_nan());
-            below += is_any(&|part| *part < least);
-            above += is_any(&|part| *part > most);
+            below += is_any(&|part| *part < min);
+            above += is_any(&|part| *part > max);
             for part in texel.iter_mut() {
-                *part = if part.is_nan() { 0.0 } else { part.clamp(least, most) };
+                *part = if part.is_nan() { 0.0 } else { part.clamp(min, max) };
             }
             if self == Self::Normals && texel[2] <= 0.5 {
                 inward += 1;
@@ -52,7 +52,7 @@ impl Numbers {
             }
         }
         let now =
-            if self == Self::Radiance { "the greatest number that the image has".into() } else { format!("{most}") };
+            if self == Self::Radiance { "the greatest number that the image has".into() } else { format!("{max}") };
         let said = [
             (not_numbers, "with a part that is not a number, which became 0".to_owned()),
             (below, "with a part below 0, which became 0".into()),

@@ -21,7 +21,7 @@ const WORD: [u8; 20] = *b"pinhole checkpoint\r\n";
 /// The version of the format; files of other versions are not read.
 const VERSION: u32 = 4;
 /// The file kind; the largest film with everything that it can keep stays below this size.
-const CHECKPOINT: FileKind = FileKind { name: "a checkpoint", most: 1 << 40 };
+const CHECKPOINT: FileKind = FileKind { name: "a checkpoint", max: 1 << 40 };
 /// How many numbers are read or written at once.
 const AT_ONCE: usize = 4096;
 // Flags for what a film keeps.
@@ -111,11 +111,10 @@ pub fn read_checkpoint(key: u64, film: &Film, adaptive: bool, path: &Path) -> Re
     let extra = if adaptive { found[3] & (PILOT | PLANNED) } else { 0 };
     let mut expected = shape(film);
     expected[3] = expected[3] & !(PILOT | PLANNED) | extra;
-    let least = least_length(film, extra & PLANNED != 0);
+    let min = least_length(film, extra & PLANNED != 0);
     // Negative sums exist from the first sample of negative weight on, and each tile keeps its first rejected samples.
-    let most =
-        least + film.tiles.iter().map(|tile| 28 * tile.count.len() as u64 + 24 * Rejected::MOST as u64).sum::<u64>();
-    if found != expected || !(least..=most).contains(&length) {
+    let max = min + film.tiles.iter().map(|tile| 28 * tile.count.len() as u64 + 24 * Rejected::MAX as u64).sum::<u64>();
+    if found != expected || !(min..=max).contains(&length) {
         return Err(damaged());
     }
     check_memory(length).map_err(|too_little| failed(&format!("its film {too_little}")))?;
@@ -248,7 +247,7 @@ fn read_tile<S: Read>(tile: &mut FilmTile, numbers: &mut Numbers<S>) -> io::Resu
     }
     tile.rejected = numbers.read_u64()?;
     let remembered = numbers.read_u32()?;
-    if remembered as usize > Rejected::MOST {
+    if remembered as usize > Rejected::MAX {
         return Err(io::ErrorKind::InvalidData.into());
     }
     for _ in 0..remembered {

@@ -9,7 +9,7 @@ use crate::scene::Unopened;
 use std::path::{Path, PathBuf};
 
 /// How many names are tried.
-const MOST: u32 = 9;
+const MAX: u32 = 9;
 
 /// How far a film is; the greater, the further.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -88,7 +88,7 @@ pub fn keep_checkpoint(film: &Film, key: u64, first: &Path) -> Result<Option<(Pa
 }
 
 fn names(first: &Path) -> impl Iterator<Item = PathBuf> {
-    (1..=MOST).map(move |number| match (number, first.file_stem()) {
+    (1..=MAX).map(move |number| match (number, first.file_stem()) {
         (2.., Some(stem)) => {
             let mut name = stem.to_os_string();
             name.push(format!("-{number}."));

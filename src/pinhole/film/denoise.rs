@@ -13,7 +13,7 @@ const SPLINE: [f32; 3] = [3.0 / 8.0, 1.0 / 4.0, 1.0 / 16.0];
 /// The sine of the angle to the tangent plane at which a neighbour counts half.
 const OFF_PLANE: f32 = 0.1;
 /// Albedo below this is not divided by.
-const LEAST_ALBEDO: f32 = 1.0 / 256.0;
+const MIN_ALBEDO: f32 = 1.0 / 256.0;
 
 /// The fewest pixels that are worth a task of their own.
 pub(super) const PIXELS: usize = 1 << 13;
@@ -105,7 +105,7 @@ impl<'f> TileGuides<'f> {
         let length = (nx * nx + ny * ny + nz * nz).sqrt().max(f64::MIN_POSITIVE);
         let place = [(x - origin[0]) as f32, (y - origin[1]) as f32, (z - origin[2]) as f32];
         let normal = [(nx / length) as f32, (ny / length) as f32, (nz / length) as f32];
-        [place, normal, albedo.map(|part| (part as f32).max(LEAST_ALBEDO))]
+        [place, normal, albedo.map(|part| (part as f32).max(MIN_ALBEDO))]
     }
 }
 

@@ -19,7 +19,7 @@ pub struct Rejected {
 
 impl Rejected {
     /// How many of them a tile keeps; all are counted.
-    pub const MOST: usize = 4;
+    pub const MAX: usize = 4;
 
     /// The order in which they are reported: by sample, then line by line from the top.
     pub(super) fn place(&self) -> [u32; 3] {
@@ -114,7 +114,7 @@ impl FilmTile {
         let rejected = Rejected { pixel: self.tile.pixel_of(row), sample: self.count[row], radiance };
         let at = self.first_rejected.partition_point(|earlier| earlier.place() <= rejected.place());
         self.first_rejected.insert(at, rejected);
-        self.first_rejected.truncate(Rejected::MOST);
+        self.first_rejected.truncate(Rejected::MAX);
     }
 
     /// Adds a sample of negative filter weight, or rejects it.

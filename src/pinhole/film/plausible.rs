@@ -1,10 +1,10 @@
 //! Checks that a render can have produced a film that was read from a file.
 
 use super::{FIRST_SAMPLE_STEPS, Film, FilmSplats};
-use crate::extract::MOST_SAMPLES;
+use crate::extract::MAX_SAMPLES;
 
 /// The largest number of light paths per sample of a pixel.
-const MOST_PATHS: u64 = 1024;
+const MAX_PATHS: u64 = 1024;
 /// The largest number by which the last round of light paths can exceed that.
 const LAST_ROUND: u64 = 1 << 20;
 
@@ -12,9 +12,9 @@ const LAST_ROUND: u64 = 1 << 20;
 ///
 /// Sums of layers are not checked, since a degenerate scene may have any value.
 pub fn is_plausible(film: &Film) -> bool {
-    let most = film.done.iter().copied().max().map_or(0, samples_of);
+    let max = film.done.iter().copied().max().map_or(0, samples_of);
     let tiles = (0..film.tiles.len()).all(|number| is_plausible_tile(film, number));
-    tiles && most <= MOST_SAMPLES && film.splats.as_ref().is_none_or(|splats| are_plausible(splats, film, most))
+    tiles && max <= MAX_SAMPLES && film.splats.as_ref().is_none_or(|splats| are_plausible(splats, film, max))
 }
 
 /// The largest number of samples of a pixel after that many steps, of which the first sample takes several.
@@ -23,12 +23,12 @@ fn samples_of(steps: u32) -> u32 {
 }
 
 fn is_plausible_tile(film: &Film, number: usize) -> bool {
-    let (tile, most) = (&film.tiles[number], samples_of(film.done[number]));
+    let (tile, max) = (&film.tiles[number], samples_of(film.done[number]));
     let planned = film.planned.get(number);
-    let most_of = |row: usize| planned.map_or(most, |planned| most.min(planned[row]));
+    let most_of = |row: usize| planned.map_or(max, |planned| max.min(planned[row]));
     let counts = tile.count.iter().enumerate().all(|(row, &count)| count <= most_of(row));
     let negative = tile.negative_count.iter().zip(&tile.count).all(|(negative, count)| negative <= count);
-    let rejected = tile.rejected <= tile.count.len() as u64 * u64::from(most);
+    let rejected = tile.rejected <= tile.count.len() as u64 * u64::from(max);
     let sums = tile.sums().into_iter().chain(&tile.negative).all(|component| is_valid(component));
     let moments = film
         .moments
@@ -36,14 +36,14 @@ fn is_plausible_tile(film: &Film, number: usize) -> bool {
         .is_none_or(|own| [&own.r, &own.g, &own.b].into_iter().all(|component| is_valid(component)));
     let layers = film.layers.get(number).is_none_or(|own| {
         let hits = own.hits.iter().zip(&own.taken).all(|(hits, taken)| hits <= taken);
-        hits && own.taken.iter().all(|&taken| taken <= most)
+        hits && own.taken.iter().all(|&taken| taken <= max)
     });
     counts && negative && rejected && sums && moments && layers
 }
 
-fn are_plausible(splats: &FilmSplats, film: &Film, most: u32) -> bool {
+fn are_plausible(splats: &FilmSplats, film: &Film, max: u32) -> bool {
     let pixels = u64::from(film.width) * u64::from(film.height);
-    let paths = u64::from(most).saturating_mul(pixels).saturating_mul(MOST_PATHS).saturating_add(LAST_ROUND);
+    let paths = u64::from(max).saturating_mul(pixels).saturating_mul(MAX_PATHS).saturating_add(LAST_ROUND);
     // A filter with negative lobes may leave negative sums.
     splats.paths <= paths && splats.sums.iter().flatten().all(|sum| sum.is_finite())
 }

@@ -90,7 +90,7 @@ impl Target<'_> {
             ),
             Replaces::Nothing => return Err(taken()),
             Replaces::Bytes(known) => {
-                let kind = FileKind { name: "a file that is known", most: known.len() as u64 };
+                let kind = FileKind { name: "a file that is known", max: known.len() as u64 };
                 let same = read_file(path, kind).is_ok_and(|there| there == known);
                 (!same).then_some("it was changed by another program meanwhile, so it stays as it is")
             }
@@ -147,7 +147,7 @@ pub(super) fn taken() -> io::Error {
 
 /// Whether this program wrote a file: it holds one of the marks near its beginning.
 fn is_own(path: &Path) -> bool {
-    const ANY: FileKind = FileKind { name: "a file", most: u64::MAX };
+    const ANY: FileKind = FileKind { name: "a file", max: u64::MAX };
     let mut bytes = Vec::new();
     let read = open_file(path, ANY).ok().and_then(|own| own.file.take(SEARCHED).read_to_end(&mut bytes).ok());
     read.is_some() && has_mark(&bytes)

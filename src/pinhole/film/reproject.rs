@@ -8,13 +8,13 @@ use multiversion::multiversion;
 use rayon::prelude::*;
 
 /// The most samples that a pixel takes over: more would show for longer what is no longer so.
-const MOST: f32 = 16.0;
+const MAX: f32 = 16.0;
 /// The least cosine between the normals of a point now and before.
 const ALIKE: f32 = 0.9;
 /// The largest sine of the angle between the tangent plane and the offset from a point now to one before.
 const OFF_PLANE: f32 = 0.1;
 /// The smallest part of the four pixels around a point that must be of its surface.
-const LEAST_PART: f32 = 0.25;
+const MIN_PART: f32 = 0.25;
 
 /// The radiance of a frame, of which each pixel may have samples of earlier frames.
 #[derive(Clone, Debug, PartialEq)]
@@ -172,9 +172,8 @@ impl<'h> Pixels<'h> {
             sum.samples += weight * samples;
             whole += weight;
         }
-        let is_known = whole >= LEAST_PART;
-        is_known
-            .then(|| Known { radiance: sum.radiance.map(|sum| sum / whole), samples: MOST.min(sum.samples / whole) })
+        let is_known = whole >= MIN_PART;
+        is_known.then(|| Known { radiance: sum.radiance.map(|sum| sum / whole), samples: MAX.min(sum.samples / whole) })
     }
 
     /// Whether a pixel shows the surface that has this normal where `offset` leads to the origin of the positions.

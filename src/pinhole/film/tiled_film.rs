@@ -199,7 +199,7 @@ impl Film {
         let count = self.tiles.iter().map(|tile| tile.rejected).sum::<u64>() + of_lights;
         let mut first: Vec<Rejected> = self.tiles.iter().flat_map(|tile| tile.first_rejected.clone()).collect();
         first.sort_by_key(Rejected::place);
-        first.truncate(Rejected::MOST);
+        first.truncate(Rejected::MAX);
         (count, first)
     }
 

@@ -14,9 +14,9 @@ const SUFFIX: &str = ".part";
 /// A temporary file older than this is no longer being written by anyone.
 const STALE: Duration = Duration::from_secs(3600);
 /// The largest number of symbolic links followed.
-const MOST_LINKS: usize = 40;
+const MAX_LINKS: usize = 40;
 /// The most files that are set aside under one name.
-const MOST_ASIDE: u32 = 9999;
+const MAX_ASIDE: u32 = 9999;
 
 static IN_PROGRESS: AtomicUsize = AtomicUsize::new(0);
 
@@ -94,7 +94,7 @@ pub fn set_aside(path: &Path, ending: &str) -> Result<PathBuf> {
         1 => path.with_extension(ending),
         _ => path.with_extension(format!("{number}.{ending}")),
     };
-    for number in 1..=MOST_ASIDE {
+    for number in 1..=MAX_ASIDE {
         match rename_to_nothing(path, &aside(number)) {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
             done => return done.map(|()| aside(number)).map_err(|source| Error::Write { path: path.into(), source }),
@@ -144,7 +144,7 @@ fn rename_to_nothing(from: &Path, to: &Path) -> io::Result<()> {
 /// The file that a path leads to through symbolic links, whether or not it exists.
 fn resolved(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_path_buf();
-    for _ in 0..MOST_LINKS {
+    for _ in 0..MAX_LINKS {
         match fs::read_link(&path) {
             Ok(target) => path = folder_of(&path).join(target),
             Err(_) => return Ok(path),

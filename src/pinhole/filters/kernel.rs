@@ -42,12 +42,12 @@ pub(super) fn within(
     who: &str,
     field: &'static str,
     value: f64,
-    [least, most]: [f64; 2],
+    [min, max]: [f64; 2],
     what: &str,
 ) -> Result<(), SceneError> {
-    if (least..=most).contains(&value) {
+    if (min..=max).contains(&value) {
         return Ok(());
     }
-    let accepted = format!("it must be {what} from {} to {}", number(least), number(most));
+    let accepted = format!("it must be {what} from {} to {}", number(min), number(max));
     Err(SceneError::new(who, field, number(value), accepted))
 }

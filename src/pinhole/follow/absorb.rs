@@ -6,7 +6,7 @@ use crate::extract::{GlassTable, MaterialTable, NO_ROW, absorption_evidence, fol
 use crate::intersect::{Hits, NO_SHAPE, Surface, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems};
 use crate::rays::Paths;
-use crate::shade::{LightRays, ShadowHits, light_distance, shadow_evidence};
+use crate::shade::{ShadowHits, ShadowRays, light_distance, shadow_evidence};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -36,7 +36,7 @@ pub fn absorb_at_start(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Surfac
             if there == NO_ROW {
                 continue;
             }
-            let surface = surfaces.get(rays.path[ray] as usize);
+            let surface = surfaces.get(rays.row[ray] as usize);
             let passed = passed_at_start(&surface, rays.origin_of(ray), rays.direction_of(ray));
             let [r, g, b] = transmittances(&glass, there, passed);
             rays.r[ray] *= r;
@@ -70,7 +70,7 @@ pub fn absorb_in_glass(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Hits, 
 /// A light that casts no shadow shines as if nothing were there, glass as little as anything else.
 pub fn absorb_shadow_rays(
     (glass, materials): (Res<Shared<GlassTable>>, Res<Shared<MaterialTable>>),
-    mut tiles: Query<(&Surfaces, InterfaceView, Option<&ShadowHits>, &mut LightRays)>,
+    mut tiles: Query<(&Surfaces, InterfaceView, Option<&ShadowHits>, &mut ShadowRays)>,
 ) {
     for (surfaces, interface, hits, mut rays) in &mut tiles {
         let interface = Interface::new(interface, Some(&glass));
@@ -78,7 +78,7 @@ pub fn absorb_shadow_rays(
             if hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) || rays.t_max[ray] == 0.0 {
                 continue;
             }
-            let row = rays.path[ray] as usize;
+            let row = rays.row[ray] as usize;
             let surface = surfaces.get(row);
             let [near, far] = interface.media(materials.interior[surface.material as usize], row);
             let is_behind = rays.direction_of(ray).dot(surface.normal.as_dvec3()) < 0.0;

@@ -4,7 +4,7 @@ use super::Scattered;
 use crate::extract::{followed_evidence, glass_contact_evidence, lit_from_behind_evidence};
 use crate::intersect::{Contacts, Surfaces};
 use crate::plan::{Column, Stage, TileSystems};
-use crate::shade::{LightRays, light_distance, shadow_evidence, shadow_t_max};
+use crate::shade::{ShadowRays, light_distance, shadow_evidence, shadow_t_max};
 use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use glam::Vec3;
@@ -23,7 +23,7 @@ pub fn leave_contacts(mut tiles: Query<(&Surfaces, &Contacts, &mut Scattered)>) 
     for (surfaces, contacts, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
             let direction = Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]);
-            if let Some(origin) = beyond(surfaces, contacts, rays.path[ray], direction) {
+            if let Some(origin) = beyond(surfaces, contacts, rays.row[ray], direction) {
                 (rays.ox[ray], rays.oy[ray], rays.oz[ray]) = origin.into();
             }
         }
@@ -31,11 +31,11 @@ pub fn leave_contacts(mut tiles: Query<(&Surfaces, &Contacts, &mut Scattered)>) 
 }
 
 /// The same for shadow rays to lights behind a surface.
-pub fn leave_contacts_to_lights(mut tiles: Query<(&Surfaces, &Contacts, &mut LightRays)>) {
+pub fn leave_contacts_to_lights(mut tiles: Query<(&Surfaces, &Contacts, &mut ShadowRays)>) {
     for (surfaces, contacts, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
             let direction = rays.direction_of(ray);
-            if let Some(origin) = beyond(surfaces, contacts, rays.path[ray], direction.as_vec3()) {
+            if let Some(origin) = beyond(surfaces, contacts, rays.row[ray], direction.as_vec3()) {
                 let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
                 (rays.ox[ray], rays.oy[ray], rays.oz[ray]) = origin.into();
                 // Aimed anew at the same point: beside it, a light that is seen obliquely would be before its own point.

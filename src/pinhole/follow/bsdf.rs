@@ -10,11 +10,11 @@ use crate::extract::{
     glass_contact_evidence, mis_evidence, needed_if, traced_evidence,
 };
 use crate::intersect::{Contacts, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces};
-use crate::material::{Bsdf, BsdfClass, MatteTable, Parameters, Site, Transport};
+use crate::material::{Bsdf, BsdfClass, MatteTable, Parameters, ShadingContext, Transport};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, WorldRays, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
-use crate::shade::{LightPdfs, LightRays, ParameterColumns, ReflectionView, ReflectionViewItem, lit_evidence};
+use crate::shade::{LightPdfs, ParameterColumns, ReflectionView, ReflectionViewItem, ShadowRays, lit_evidence};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::DVec3;
@@ -26,14 +26,14 @@ pub(super) const fn transport(from_light: bool) -> Transport {
 
 /// What a BSDF is evaluated for at a surface of a tile with these parameters.
 #[inline(always)]
-pub(super) fn site<B: Bsdf>(
+pub(super) fn shading_context<B: Bsdf>(
     materials: &MaterialTable,
     interface: &Interface<'_>,
     (parameters, row, material): (Parameters, usize, usize),
     transport: Transport,
-) -> Site {
+) -> ShadingContext {
     let eta = if B::TRANSMITS { interface.eta(materials.interior[material], row) } else { 1.0 };
-    Site { row: materials.row[material] as usize, parameters, eta, reflectance: None, transport }
+    ShadingContext { row: materials.row[material] as usize, parameters, eta, reflectance: None, transport }
 }
 
 // ANCHOR: sample_bsdf
@@ -59,8 +59,8 @@ pub fn sample_bsdf<B: Bsdf, const FROM_LIGHT: bool>(
             ScatteredRay::leaving::<B>(row, (rays, paths), (surfaces, shading), |surface, to_eye| {
                 let material = surface.material as usize;
                 let of_row = (columns.get(&materials, row, material), row, material);
-                let site = site::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
-                bsdf.sample(&site, to_eye, points[number], choices.get(number).copied().unwrap_or_default())
+                let context = shading_context::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
+                bsdf.sample(&context, to_eye, points[number], choices.get(number).copied().unwrap_or_default())
             })
         });
     }
@@ -80,7 +80,7 @@ pub struct LightWeightView {
     /// The pdfs with which the shadow rays were sampled.
     pub pdfs: &'static LightPdfs,
     /// The shadow rays.
-    pub rays: &'static mut LightRays,
+    pub rays: &'static mut ShadowRays,
 }
 
 /// The surfaces that rays from an eye see, and the rays.
@@ -121,15 +121,15 @@ pub fn mis_bsdf<B: Bsdf>(
         let interface = Interface::new(interface, glass.as_deref());
         let seen = Seen::new(eye, surfaces, shading);
         for ray in 0..rays.rows() {
-            let (row, by_light) = (rays.path[ray] as usize, pdfs.pdf[ray]);
+            let (row, by_light) = (rays.row[ray] as usize, pdfs.pdf[ray]);
             let material = seen.material[row] as usize;
             if by_light == 0.0 || materials.kind[material] != B::KIND {
                 continue;
             }
             let [to_light, to_eye] = seen.local::<B>(row, rays.direction_of(ray));
             let of_row = (columns.get(&materials, row, material), row, material);
-            let site = site::<B>(&materials, &interface, of_row, Transport::Radiance);
-            let by_bsdf = bsdf.pdf(&site, to_light, to_eye);
+            let context = shading_context::<B>(&materials, &interface, of_row, Transport::Radiance);
+            let by_bsdf = bsdf.pdf(&context, to_light, to_eye);
             rays.weight_by(ray, power_heuristic(by_light, by_bsdf));
         }
     }
@@ -146,11 +146,11 @@ pub fn add_direct_light<B: Bsdf, const FROM_LIGHT: bool>(
         let ReflectionViewItem { eye, surfaces, shading, light, shadow: hits, mut radiance } = view;
         let interface = Interface::new(interface, glass.as_deref());
         let seen = Seen::new(eye, surfaces, shading);
-        let (path, .., dx, dy, dz, _, r, g, b) = light.slices();
-        let blocked = hits.map(|hits| &hits.shape[..path.len()]);
+        let (rows, .., dx, dy, dz, _, r, g, b) = light.slices();
+        let blocked = hits.map(|hits| &hits.shape[..rows.len()]);
         let sum = radiance.slices_mut(seen.material.len());
-        for ray in 0..path.len() {
-            let row = path[ray] as usize;
+        for ray in 0..rows.len() {
+            let row = rows[ray] as usize;
             let material = seen.material[row] as usize;
             if materials.kind[material] != B::KIND || blocked.is_some_and(|shape| shape[ray] != NO_SHAPE) {
                 continue;
@@ -159,9 +159,9 @@ pub fn add_direct_light<B: Bsdf, const FROM_LIGHT: bool>(
             let to_light = DVec3::from([dx[ray], dy[ray], dz[ray]].map(f64::from));
             let [to_light, to_eye] = seen.local::<B>(row, to_light);
             let of_row = (columns.get(&materials, row, material), row, material);
-            let site = site::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
+            let context = shading_context::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
             // The cosine is in the irradiance.
-            let (bsdf, irradiance) = (bsdf.eval(&site, to_light, to_eye), [r[ray], g[ray], b[ray]].map(f64::from));
+            let (bsdf, irradiance) = (bsdf.eval(&context, to_light, to_eye), [r[ray], g[ray], b[ray]].map(f64::from));
             let [r, g, b] = [0, 1, 2].map(|part| (bsdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
             sum.0[row] += r;
             sum.1[row] += g;

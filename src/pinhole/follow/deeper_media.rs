@@ -113,7 +113,7 @@ mod tests {
         let (mut surfaces, mut deepest) = (0, 0);
         for walk in 0..3000 {
             let mut draws = Draws::new(1717, walk);
-            let below = |draws: &mut Draws, most: usize| (draws.unit() * most as f64) as usize;
+            let below = |draws: &mut Draws, max: usize| (draws.unit() * max as f64) as usize;
             let priorities: Vec<u32> = (0..SHAPES).map(|_| below(&mut draws, 4) as u32).collect();
             let glass: Vec<u32> = (0..SHAPES).map(|_| below(&mut draws, SHAPES) as u32).collect();
             let rule = |inside: &[bool]| {

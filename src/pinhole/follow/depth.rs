@@ -1,7 +1,7 @@
 use super::deeper_media::deeper_media_evidence;
-use super::departure::departure_evidence;
 use super::media::media_evidence;
-use super::{DeeperMedia, Departures, Media, Scattered, Stop};
+use super::previous_surfaces::previous_surface_evidence;
+use super::{DeeperMedia, Media, PreviousSurfaces, Scattered, Stop};
 use crate::extract::{IntegratorTable, filtered_evidence, followed_evidence, motion_evidence};
 use crate::plan::{Bounce, Column, Shared, Stage, TileSystems};
 use crate::rays::{Depth, PathLight, Paths, RayTimes, WorldRays};
@@ -38,7 +38,7 @@ pub fn advance_to_next_bounce(
         [ox, oy, oz, dx, dy, dz].into_iter().zip(from).for_each(|(to, from)| to.copy_from_slice(&from[..rows]));
 
         let (first, r, g, b, pdf) = kept.slices_mut(rows);
-        for (first, &path) in first.iter_mut().zip(&scattered.path) {
+        for (first, &path) in first.iter_mut().zip(&scattered.row) {
             *first = paths.first[path as usize];
         }
         let from = [&scattered.r, &scattered.g, &scattered.b, &scattered.pdf];
@@ -55,7 +55,7 @@ pub fn advance_to_next_bounce(
 pub fn carry_times(mut kept: Local<RayTimes>, mut tiles: Query<(&Scattered, &WorldRays, &mut RayTimes)>) {
     for (scattered, rays, mut times) in &mut tiles {
         let next = kept.slices_mut(rays.rows());
-        next.iter_mut().zip(&scattered.path).for_each(|(time, &path)| *time = times.time[path as usize]);
+        next.iter_mut().zip(&scattered.row).for_each(|(time, &path)| *time = times.time[path as usize]);
         std::mem::swap(&mut *kept, &mut *times);
     }
 }
@@ -128,7 +128,7 @@ pub fn remaining_bounces_stage() -> Stage {
         .reads::<WorldRays>()
         .reads_where::<Media>(media_evidence)
         .reads_where::<DeeperMedia>(deeper_media_evidence)
-        .reads_where::<Departures>(departure_evidence)
+        .reads_where::<PreviousSurfaces>(previous_surface_evidence)
         .reads_where::<RayTimes>(motion_evidence)
         .reads_where::<Footprints>(filtered_evidence)
         .reads::<PathLight>()

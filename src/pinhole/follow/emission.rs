@@ -1,5 +1,5 @@
-use super::departure::departure_evidence;
-use super::{CausticPaths, Departures};
+use super::previous_surfaces::previous_surface_evidence;
+use super::{CausticPaths, PreviousSurfaces};
 use crate::extract::{
     AreaLightTable, EmissiveTable, EnvironmentLightTable, EnvironmentTable, IntegratorTable, emissive_evidence,
     environment_light_evidence, followed_evidence, light_sampling_evidence, one_sided_evidence, primitive_evidence,
@@ -37,7 +37,7 @@ pub struct MisEmissionView {
     paths: &'static Paths,
     rays: &'static WorldRays,
     caustic: Option<&'static CausticPaths>,
-    departures: Option<&'static Departures>,
+    previous: Option<&'static PreviousSurfaces>,
     hits: &'static Hits,
     primitives: Option<&'static HitPrimitives>,
     list: &'static EmissiveRows,
@@ -60,7 +60,7 @@ pub fn add_mis_emission(
     mut tiles: Query<MisEmissionView>,
 ) {
     for view in &mut tiles {
-        let MisEmissionViewItem { depth, paths, rays, caustic, departures, hits, primitives, .. } = view;
+        let MisEmissionViewItem { depth, paths, rays, caustic, previous, hits, primitives, .. } = view;
         let MisEmissionViewItem { list, sides, factors, mut radiance, .. } = view;
         for (&row, &of) in list.row.iter().zip(&list.emissive) {
             let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
@@ -76,7 +76,7 @@ pub fn add_mis_emission(
                 0.0
             } else if let Some(light) = light.filter(|_| !by_mirror && integrator.samples_lights) {
                 if integrator.mis {
-                    let normal = departures.map_or(DVec3::ZERO, |departures| departures.normal(row));
+                    let normal = previous.map_or(DVec3::ZERO, |previous| previous.normal(row));
                     let receiver = Receiver { position: rays.origin_of(row), normal };
                     let at = rays.point_at(row, hits.t[row]);
                     power_heuristic(paths.pdf[row], area_light_pdf(&lights, light, &receiver, at))
@@ -103,7 +103,7 @@ pub fn mis_emission_stage() -> Stage {
         .reads_where::<SurfaceSides>(one_sided_evidence)
         .reads_where::<CausticPaths>(traced_evidence)
         .reads_where::<HitPrimitives>(primitive_evidence)
-        .reads_where::<Departures>(departure_evidence)
+        .reads_where::<PreviousSurfaces>(previous_surface_evidence)
         .when(mis_emission_evidence)
 }
 

@@ -113,13 +113,13 @@ fn list_near(bodies: &GlassBodyTable, rays: &WorldRays, near: &mut Vec<u32>) {
         if origins.iter().fold(0, |differs, origin| differs | (origin.to_bits() ^ first.to_bits())) == 0 {
             return [first; 2].map(f64::from);
         }
-        let range = origins.iter().fold([first; 2], |[least, most], &origin| {
-            [if origin < least { origin } else { least }, if origin > most { origin } else { most }]
+        let range = origins.iter().fold([first; 2], |[min, max], &origin| {
+            [if origin < min { origin } else { min }, if origin > max { origin } else { max }]
         });
         range.map(f64::from)
     };
     let [x, y, z] = [&rays.ox, &rays.oy, &rays.oz].map(|origins| along(origins));
-    let starts = Bounds { least: DVec3::new(x[0], y[0], z[0]), most: DVec3::new(x[1], y[1], z[1]) };
+    let starts = Bounds { min: DVec3::new(x[0], y[0], z[0]), max: DVec3::new(x[1], y[1], z[1]) };
     let overlapping = bodies.row.iter().zip(0..).filter(|(body, _)| body.bounds.overlaps(&starts));
     near.extend(overlapping.map(|(_, number)| number));
 }
@@ -148,7 +148,7 @@ pub fn carry_media(
         carrier.start();
         kept.slices_mut(scattered.rows());
         for ray in 0..scattered.rows() {
-            let row = scattered.path[ray] as usize;
+            let row = scattered.row[ray] as usize;
             let goes = scattered.direction_of(ray);
             let own = materials.interior[surfaces.material[row] as usize];
             let through = own != NO_ROW && goes.dot(surfaces.get(row).normal.as_dvec3()) < 0.0;

@@ -22,7 +22,6 @@ mod bsdf;
 mod bsdf_rows;
 mod caustic_paths;
 mod deeper_media;
-mod departure;
 mod depth;
 mod emission;
 mod interface;
@@ -32,6 +31,7 @@ mod media;
 mod medium_stack;
 mod occlusion;
 mod paths;
+mod previous_surfaces;
 mod registered;
 mod roulette;
 mod scattered;
@@ -59,7 +59,6 @@ pub use caustic_paths::{
     CausticPaths, caustic_paths_stage, environment_caustics_stage, leave_environment_caustics, mark_caustic_paths,
 };
 pub use deeper_media::{DeeperMedia, deeper_media_evidence};
-pub use departure::{Departures, keep_departures, keep_departures_stage, start_departures, start_departures_stage};
 pub use depth::{
     add_bounce, add_bounce_stage, advance_to_next_bounce, carry_times, drop_footprints, footprints_stage,
     next_bounce_stage, remaining_bounces_stage, sum_bounces, sum_bounces_stage, times_stage, trace_bounces,
@@ -71,6 +70,10 @@ pub use media::{Media, carry_media, carry_media_stage, media_evidence, start_med
 pub use medium_stack::{Crossing, MediumStack};
 pub use occlusion::{SkyLists, SkyView, sample_sky, sample_sky_with, show_occlusion, sky_rays_stage, sky_stage};
 pub use paths::{start_paths, start_paths_stage};
+pub use previous_surfaces::{
+    PreviousSurfaces, keep_previous_surfaces, keep_previous_surfaces_stage, start_previous_surfaces,
+    start_previous_surfaces_stage,
+};
 pub use registered::{BsdfRole, BsdfStage, bsdf_stages, stages_of};
 pub use roulette::{play_roulette, roulette_stage, survival_probability};
 pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_stage};

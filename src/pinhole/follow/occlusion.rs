@@ -4,7 +4,7 @@ use crate::material::{cosine_direction, frame_of};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{Depth, Draws, PixelSamples, SampleNumber, Tile, draws_of_two};
 use crate::sample::Purpose;
-use crate::shade::{LightRays, Radiance, ShadowHits};
+use crate::shade::{Radiance, ShadowHits, ShadowRays};
 use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
@@ -41,7 +41,7 @@ pub struct SkyView {
     samples: Option<&'static PixelSamples>,
     hits: &'static Hits,
     surfaces: &'static Surfaces,
-    rays: &'static mut LightRays,
+    rays: &'static mut ShadowRays,
 }
 
 /// Traces a ray of irradiance π from every surface, in the direction about its normal that `direction_of` makes from
@@ -74,7 +74,7 @@ pub fn sample_sky_with(
 
 /// Shows white where a row's ray, or the ray from its surface, escapes from the scene, and black where something hides
 /// the sky.
-pub fn show_occlusion(mut tiles: Query<(Option<&Hits>, Option<(&LightRays, &ShadowHits)>, &mut Radiance)>) {
+pub fn show_occlusion(mut tiles: Query<(Option<&Hits>, Option<(&ShadowRays, &ShadowHits)>, &mut Radiance)>) {
     for (hits, rays, mut radiance) in &mut tiles {
         let rows = radiance.rows();
         let (r, g, b) = radiance.slices_mut(rows);
@@ -83,7 +83,7 @@ pub fn show_occlusion(mut tiles: Query<(Option<&Hits>, Option<(&LightRays, &Shad
         }
         let Some((rays, shadows)) = rays else { continue };
         for ray in (0..rays.rows()).filter(|&ray| shadows.shape[ray] == NO_SHAPE) {
-            let row = rays.path[ray] as usize;
+            let row = rays.row[ray] as usize;
             (r[row], g[row], b[row]) = (1.0, 1.0, 1.0);
         }
     }
@@ -93,7 +93,7 @@ pub fn show_occlusion(mut tiles: Query<(Option<&Hits>, Option<(&LightRays, &Shad
 pub fn sky_rays_stage() -> Stage {
     Stage::new("Sample the open sky", TileSystems::SampleLights, sample_sky)
         .kind(StageKind::Alternative)
-        .appends::<LightRays>()
+        .appends::<ShadowRays>()
         .when(|scene| occlusion_evidence(scene).and(|| shape_evidence(scene)))
 }
 

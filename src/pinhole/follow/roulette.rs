@@ -30,7 +30,7 @@ pub fn play_roulette(
         if draws.depth.0 + 1 < integrator.roulette {
             continue;
         }
-        draws_of_one(&draws, Purpose::Roulette, &scattered.path, &mut numbers);
+        draws_of_one(&draws, Purpose::Roulette, &scattered.row, &mut numbers);
         let mut kept = 0;
         for row in 0..scattered.rows() {
             let scale = if scattered.pdf[row] == f64::INFINITY { integrator.eta_scale } else { 1.0 };

@@ -11,7 +11,7 @@ column! {
     /// Rays scattered from surfaces, grouped by the kind of material.
     pub struct Scattered("scattered", "world, from the eye", "scene units", Ray, begun in Start) {
         /// The row of the ray that it was scattered from.
-        path: u32,
+        row: u32,
         /// Origin, x: offset from the surface by its error bound.
         ox: f32,
         /// Origin, y.
@@ -92,7 +92,7 @@ impl Scattered {
     /// Every row is written, and the next one overwrites it unless it counts, so that no branch depends on the surface.
     #[inline(always)]
     pub fn append(&mut self, rows: &[u32], ray_of: impl Fn(usize, usize) -> ScatteredRay) {
-        let length = self.path.len();
+        let length = self.row.len();
         let (path, ox, oy, oz, dx, dy, dz, r, g, b, pdf) = self.slices_mut(length + rows.len());
         let mut at = length;
         for (number, &row) in rows.iter().enumerate() {
@@ -109,7 +109,7 @@ impl Scattered {
 
     /// Moves a row to an earlier place.
     pub(super) fn moved(&mut self, from: usize, to: usize) {
-        self.path[to] = self.path[from];
+        self.row[to] = self.row[from];
         [&mut self.ox, &mut self.oy, &mut self.oz].into_iter().for_each(|component| component[to] = component[from]);
         [&mut self.dx, &mut self.dy, &mut self.dz].into_iter().for_each(|component| component[to] = component[from]);
         [&mut self.r, &mut self.g, &mut self.b].into_iter().for_each(|component| component[to] = component[from]);

@@ -29,7 +29,7 @@ pub fn correct_for_shading_normals(
     for (rays, surfaces, shading, mut scattered) in &mut tiles {
         let scattered = &mut *scattered;
         for ray in 0..scattered.rows() {
-            let row = scattered.path[ray] as usize;
+            let row = scattered.row[ray] as usize;
             let (surface, direction) = (surfaces.get(row), rays.direction_of(row));
             let own = surface.normal.as_dvec3();
             let by = if materials.kind[surface.material as usize].is_specular() {

@@ -1,6 +1,6 @@
 //! The stages of specular BSDFs, each generic over the BSDF.
 
-use super::bsdf::{at_interfaces, site, transport};
+use super::bsdf::{at_interfaces, shading_context, transport};
 use super::bsdf_rows::BsdfRows;
 use super::interface::{Interface, InterfaceView};
 use super::view::{BsdfView, BsdfViewItem};
@@ -9,7 +9,7 @@ use crate::extract::{
     GlassTable, MaterialTable, SamplingTable, bsdf_evidence, followed_evidence, needed_if, traced_evidence,
 };
 use crate::intersect::{ShadingNormals, Surface};
-use crate::material::{Bsdf, Site, SpecularSample, mirror_direction};
+use crate::material::{Bsdf, ShadingContext, SpecularSample, mirror_direction};
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, Paths, draws_of_one};
 use crate::sample::Purpose;
@@ -64,9 +64,12 @@ pub fn sample_specular<B: Bsdf, const FROM_LIGHT: bool>(
             let material = surface.material as usize;
             let of_row = (materials.parameters[material], row, material);
             let reflectance = layers::<B>(&interface, row, -direction.dot(normal));
-            let site = Site { reflectance, ..site::<B>(&materials, &interface, of_row, transport(FROM_LIGHT)) };
+            let context = ShadingContext {
+                reflectance,
+                ..shading_context::<B>(&materials, &interface, of_row, transport(FROM_LIGHT))
+            };
             let number = numbers.get(number).copied().unwrap_or_default();
-            ray(paths, row, &surface, bsdf.sample_specular(&site, direction, normal, number))
+            ray(paths, row, &surface, bsdf.sample_specular(&context, direction, normal, number))
         });
     }
 }
@@ -92,8 +95,11 @@ pub fn split_rays<B: Bsdf>(
                 let material = surface.material as usize;
                 let of_row = (materials.parameters[material], row, material);
                 let reflectance = layers::<B>(&interface, row, -direction.dot(normal));
-                let site = Site { reflectance, ..site::<B>(&materials, &interface, of_row, transport(false)) };
-                let ray = ray(paths, row, &surface, bsdf.specular_directions(&site, direction, normal)[which]);
+                let context = ShadingContext {
+                    reflectance,
+                    ..shading_context::<B>(&materials, &interface, of_row, transport(false))
+                };
+                let ray = ray(paths, row, &surface, bsdf.specular_directions(&context, direction, normal)[which]);
                 let seen = ray.throughput.iter().any(|part| *part >= MIN_THROUGHPUT);
                 if seen { ray } else { ScatteredRay::default() }
             });

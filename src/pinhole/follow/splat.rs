@@ -3,7 +3,7 @@ use crate::extract::{CameraJoinTable, lens_evidence, traced_evidence};
 use crate::intersect::MaterialRows;
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
 use crate::rays::{Paths, join_camera};
-use crate::shade::{JoinPoints, LightRays, Radiance};
+use crate::shade::{JoinPoints, Radiance, ShadowRays};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::DVec2;
@@ -52,7 +52,7 @@ pub fn keep_specular_stage() -> Stage {
 #[query_data(mutable)]
 pub struct SplatView {
     paths: &'static Paths,
-    rays: &'static LightRays,
+    rays: &'static ShadowRays,
     points: Option<&'static JoinPoints>,
     radiance: &'static Radiance,
     power: &'static LightPower,
@@ -65,7 +65,7 @@ pub fn splat_light(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<SplatVie
     for SplatViewItem { paths, rays, points, radiance, power, mut splats } in &mut tiles {
         let splats = &mut *splats;
         for ray in 0..rays.rows() {
-            let row = rays.path[ray] as usize;
+            let row = rays.row[ray] as usize;
             let sent = [radiance.r[row], radiance.g[row], radiance.b[row]];
             if sent == [0.0; 3] {
                 continue;

@@ -8,7 +8,7 @@ use crate::extract::{
 use crate::intersect::{NO_SHAPE, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems};
 use crate::rays::{RayTimes, WorldRays};
-use crate::shade::{LightRays, ShadowHits, light_distance, shadow_evidence};
+use crate::shade::{ShadowHits, ShadowRays, light_distance, shadow_evidence};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -49,7 +49,7 @@ pub fn block_across_surfaces(
     (bodies, ends): (Res<Shared<GlassBodyTable>>, Res<Shared<GlassStartTable>>),
     (glass, materials): (Res<Shared<GlassTable>>, Res<Shared<MaterialTable>>),
     mut around: Local<Vec<u32>>,
-    mut tiles: Query<(&Surfaces, InterfaceView, Option<&RayTimes>, Option<&ShadowHits>, &mut LightRays)>,
+    mut tiles: Query<(&Surfaces, InterfaceView, Option<&RayTimes>, Option<&ShadowHits>, &mut ShadowRays)>,
 ) {
     for (surfaces, interface, times, hits, mut rays) in &mut tiles {
         let interface = Interface::new(interface, Some(&glass));
@@ -65,7 +65,7 @@ pub fn block_across_surfaces(
             let is_end = |start: &&GlassStart| off(start) <= BESIDE * (distance + start.position.length());
             let found = ends.row.iter().filter(is_end).min_by(|a, b| off(a).total_cmp(&off(b)));
             let Some(light) = found else { continue };
-            let row = rays.path[ray] as usize;
+            let row = rays.row[ray] as usize;
             let surface = surfaces.get(row);
             let [near, far] = interface.media(materials.interior[surface.material as usize], row);
             let is_behind = direction.dot(surface.normal.as_dvec3()) < 0.0;

@@ -39,7 +39,7 @@ impl Contacts {
         self.crossings
             .get(row)
             .iter()
-            .fold(0.0, |most, crossing| if crossing.depth > most { crossing.depth } else { most })
+            .fold(0.0, |max, crossing| if crossing.depth > max { crossing.depth } else { max })
     }
 }
 
@@ -109,7 +109,7 @@ fn find(table: &ContactTable, row: usize, (surface, time): (&SurfacePoint, f64),
                 from += t + STEP * bound;
             }
         }
-        let deepest = found.iter().fold(0.0, |most, own| f64::max(most, own.depth));
+        let deepest = found.iter().fold(0.0, |max, own| f64::max(max, own.depth));
         if deepest + BEYOND * bound <= end {
             break;
         }

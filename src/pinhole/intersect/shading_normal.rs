@@ -5,7 +5,7 @@ use crate::extract::{MeshTable, MovingTable, ShapeTable, TriangleTable, VertexNo
 use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
 use crate::rays::{RayTimes, WorldRays};
 use crate::scene::{MeshInstance, Triangle};
-use crate::shapes::{Body, PlacedMesh, RayHit, ShapeKind, TriangleHit, TriangleRow};
+use crate::shapes::{AnyShape, PlacedMesh, RayHit, ShapeKind, TriangleHit, TriangleRow};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use bevy_ecs::system::SystemParam;
@@ -115,7 +115,7 @@ pub fn interpolate_normals(table: VertexNormals<'_>, mut tiles: Query<ShadingNor
                 let triangle = row_of(row);
                 let vertex_normals = &normals.normals[triangle];
                 if vertex_normals[0] != DVec3::ZERO {
-                    let (origin, turned) = (rays.origin_of(row), triangles.beside[triangle].turned);
+                    let (origin, turned) = (rays.origin_of(row), triangles.surface_data[triangle].turned);
                     let triangle = (&triangles.row[triangle], turned, vertex_normals);
                     set(row, facing_normal(origin, rays.direction_of(row), triangle));
                 }
@@ -138,11 +138,11 @@ pub fn interpolate_normals(table: VertexNormals<'_>, mut tiles: Query<ShadingNor
             let mover = shapes.row[shape as usize] as usize;
             let origin = at_rest(rays.origin_of(row), moving.velocity[mover], times.time[row]);
             match (&moving.body[mover], &of_triangles, primitives) {
-                (Body::Triangle(triangle, face), Some(normals), _) if normals.moving[mover][0] != DVec3::ZERO => {
+                (AnyShape::Triangle(triangle, face), Some(normals), _) if normals.moving[mover][0] != DVec3::ZERO => {
                     let triangle = (triangle, face.turned, &normals.moving[mover]);
                     set(row, facing_normal(origin, rays.direction_of(row), triangle));
                 }
-                (Body::Mesh(mesh, ()), _, Some(primitives)) => {
+                (AnyShape::Mesh(mesh, ()), _, Some(primitives)) => {
                     let primitive = primitives.primitive[row];
                     let ray = RayHit::at_rest(origin, rays.direction_of(row), hits.t[row]);
                     if let Some(normal) = mesh.shading_normal(&RayHit { primitive, ..ray }) {

@@ -73,7 +73,7 @@ pub fn fill_surfaces<S: Listed>(
                 let hit = RayHit::at_rest(rays.origin_of(row), rays.direction_of(row), hits.t[row]);
                 block.set_hit(lane, all.row[hits.shape[row] as usize], &RayHit { primitive, ..hit });
             }
-            S::fill_surfaces(&shapes.row, &shapes.beside, &mut block, rows.len());
+            S::fill_surfaces(&shapes.row, &shapes.surface_data, &mut block, rows.len());
             for (lane, &row) in rows.iter().enumerate() {
                 let row = row as usize;
                 let (number, surface) = (hits.shape[row] as usize, block.surface(lane));
@@ -88,7 +88,7 @@ pub fn fill_surfaces<S: Listed>(
                         _ => DVec3::ZERO,
                     };
                     let shape = shape as usize;
-                    uvs.set(row, shapes.row[shape].uv(&shapes.beside[shape], &hit, surface.at, own));
+                    uvs.set(row, shapes.row[shape].uv(&shapes.surface_data[shape], &hit, surface.at, own));
                 }
             }
         }
@@ -123,7 +123,7 @@ pub fn shape_stages() -> Vec<(bool, [MakeStage; 2])> {
     struct Collected(Vec<(bool, [MakeStage; 2])>);
     impl ShapeVisitor for Collected {
         fn visit<S: Listed>(&mut self) {
-            self.0.push((S::UNEVEN == Some(true), [intersect_stage::<S>, surface_stage::<S>]));
+            self.0.push((S::NON_UNIFORM == Some(true), [intersect_stage::<S>, surface_stage::<S>]));
         }
     }
     let mut collected = Collected(Vec::new());

@@ -66,11 +66,11 @@ fn importance(node: &LightNode, receiver: &Receiver) -> [f64; WIDTH] {
             position.z - part(&node.centre, 2),
         );
         let radius = f64::from(node.radius[place]);
-        let (squared, least) = (x * x + y * y + z * z, larger(radius * radius, NEAREST));
-        let near = larger(squared, least);
+        let (squared, min) = (x * x + y * y + z * z, larger(radius * radius, NEAREST));
+        let near = larger(squared, min);
         let inverse = 1.0 / near.sqrt();
         // Half the angle that the sphere subtends: all directions from inside.
-        let outside = squared > least;
+        let outside = squared > min;
         let sine = if outside { radius * inverse } else { 0.0 };
         let cosine = if outside { (1.0 - sine * sine).sqrt() } else { -1.0 };
 
@@ -120,7 +120,7 @@ fn smaller(a: f64, b: f64) -> f64 {
 ///
 /// Parts are whole, so that probabilities are exact and no light's is 0, however much brighter another is.
 #[inline(always)]
-fn parts_until(node: &LightNode, receiver: &Receiver, parts: u64, least: u64) -> [u64; WIDTH] {
+fn parts_until(node: &LightNode, receiver: &Receiver, parts: u64, min: u64) -> [u64; WIDTH] {
     let importance = importance(node, receiver);
     let mut until = [0.0; WIDTH];
     let mut sum = 0.0;
@@ -132,10 +132,10 @@ fn parts_until(node: &LightNode, receiver: &Receiver, parts: u64, least: u64) ->
     if sum == 0.0 {
         (until, sum) = (node.until.map(f64::from), f64::from(node.until[WIDTH - 1]));
     }
-    let spare = (parts - least * u64::from(node.until[WIDTH - 1])) as f64;
+    let spare = (parts - min * u64::from(node.until[WIDTH - 1])) as f64;
     let mut ends = [0; WIDTH];
     for (place, end) in ends.iter_mut().enumerate() {
-        *end = least * u64::from(node.until[place]) + (until[place] / sum * spare) as u64;
+        *end = min * u64::from(node.until[place]) + (until[place] / sum * spare) as u64;
     }
     ends
 }
@@ -151,9 +151,9 @@ fn least_parts(root: &LightNode) -> u64 {
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn choose(nodes: &[LightNode], receiver: &Receiver, fraction: u32) -> ChosenLight {
     let (mut node, mut parts, mut left) = (&nodes[0], PARTS, u64::from(fraction));
-    let least = least_parts(node);
+    let min = least_parts(node);
     loop {
-        let until = parts_until(node, receiver, parts, least);
+        let until = parts_until(node, receiver, parts, min);
         let place = until.iter().map(|&until| usize::from(until <= left)).sum::<usize>();
         let before = if place == 0 { 0 } else { until[place - 1] };
         (parts, left) = (until[place] - before, left - before);
@@ -168,9 +168,9 @@ fn choose(nodes: &[LightNode], receiver: &Receiver, fraction: u32) -> ChosenLigh
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn probability(nodes: &[LightNode], receiver: &Receiver, light: u32, trail: u64) -> f64 {
     let (mut node, mut parts, mut trail) = (&nodes[0], PARTS, trail);
-    let least = least_parts(node);
+    let min = least_parts(node);
     loop {
-        let until = parts_until(node, receiver, parts, least);
+        let until = parts_until(node, receiver, parts, min);
         let place = trail as usize % WIDTH;
         trail >>= STEP;
         parts = until[place] - if place == 0 { 0 } else { until[place - 1] };

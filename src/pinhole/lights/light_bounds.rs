@@ -21,11 +21,11 @@ pub struct LightBounds {
 }
 
 /// The box that contains nothing.
-const NOWHERE: Bounds = Bounds { least: DVec3::INFINITY, most: DVec3::NEG_INFINITY };
+const NOWHERE: Bounds = Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
 /// The box around two.
 fn joined(one: Bounds, other: Bounds) -> Bounds {
-    Bounds { least: one.least.min(other.least), most: one.most.max(other.most) }
+    Bounds { min: one.min.min(other.min), max: one.max.max(other.max) }
 }
 
 impl LightBounds {
@@ -36,7 +36,7 @@ impl LightBounds {
 
     /// A light that shines evenly within a cone, 1 − cos of whose half angle is `versine`, from a point.
     pub fn cone(at: DVec3, axis: DVec3, versine: f64, strength: f64) -> Self {
-        let around = Bounds { least: at, most: at };
+        let around = Bounds { min: at, max: at };
         Self { around, axis, spread: 1.0 - versine, edge: 1.0, strength, two_sided: false }
     }
 
@@ -119,7 +119,7 @@ impl LightSums {
 
     /// The extent along each axis.
     pub fn extent(&self) -> DVec3 {
-        self.around.most - self.around.least
+        self.around.max - self.around.min
     }
 
     /// The surface area orientation heuristic (Conty Estévez and Kulla 2018): strength, times the area around the lights,

@@ -8,7 +8,7 @@ pub(super) const WIDTH: usize = 8;
 /// The bits of a trail that choose a child.
 pub(super) const STEP: u32 = WIDTH.trailing_zeros();
 /// The most levels of nodes, such that a trail fits into 64 bits.
-const MOST_LEVELS: u32 = 21;
+const MAX_LEVELS: u32 = 21;
 /// The number of classes along an axis between which a set may be divided.
 const BINS: usize = 12;
 /// The fewest lights that are worth a task of their own.
@@ -54,10 +54,10 @@ impl LightNode {
     };
 
     fn set(&mut self, place: usize, bounds: &LightBounds, total: f64) {
-        let [least, most] = [bounds.around.least, bounds.around.most];
-        let middle = 0.5 * least + 0.5 * most - DVec3::from(self.origin);
+        let [min, max] = [bounds.around.min, bounds.around.max];
+        let middle = 0.5 * min + 0.5 * max - DVec3::from(self.origin);
         let rounded = middle.as_vec3();
-        let radius = (0.5 * most - 0.5 * least).length() + (rounded.as_dvec3() - middle).length();
+        let radius = (0.5 * max - 0.5 * min).length() + (rounded.as_dvec3() - middle).length();
         for axis in 0..3 {
             self.centre[axis][place] = rounded[axis];
             self.axis[axis][place] = bounds.axis[axis] as f32;
@@ -100,12 +100,12 @@ impl LightHierarchy {
         let item = |light: usize| bounds_of(light).map(|bounds| Item { light: light as u32, bounds });
         let mut items: Vec<Item> = (0..lights).into_par_iter().with_min_len(TASK).filter_map(item).collect();
         // Scaled first, such that no sum of them overflows.
-        let most = items.iter().map(|item| item.bounds.strength).fold(0.0, f64::max);
-        if most > 0.0 {
-            items.iter_mut().for_each(|item| item.bounds.strength /= most);
+        let max = items.iter().map(|item| item.bounds.strength).fold(0.0, f64::max);
+        if max > 0.0 {
+            items.iter_mut().for_each(|item| item.bounds.strength /= max);
         }
         let total = items.iter().map(|item| item.bounds.strength).sum();
-        let nodes = if items.is_empty() { Vec::new() } else { subtree(&mut items, MOST_LEVELS - 1, total) };
+        let nodes = if items.is_empty() { Vec::new() } else { subtree(&mut items, MAX_LEVELS - 1, total) };
         drop(items);
         let mut trail = vec![0; lights];
         let mut waiting = vec![(0, 0, 0)];
@@ -160,7 +160,7 @@ fn subtree(items: &mut [Item], below: u32, total: f64) -> Vec<LightNode> {
     let bounds_of = |set: &&mut [Item]| LightBounds::of_all(&set.iter().map(|item| item.bounds).collect::<Vec<_>>());
     let bounds: Vec<LightBounds> = sets.iter().map(bounds_of).collect();
     let around = LightBounds::of_all(&bounds).around;
-    let mut root = LightNode { origin: (0.5 * around.least + 0.5 * around.most).into(), ..LightNode::EMPTY };
+    let mut root = LightNode { origin: (0.5 * around.min + 0.5 * around.max).into(), ..LightNode::EMPTY };
     let mut until = 0;
     for (place, set) in sets.iter().enumerate() {
         root.set(place, &bounds[place], total);
@@ -218,15 +218,15 @@ fn cost(items: &[Item]) -> f64 {
 /// Divides a set of several in two such that their summed cost is least, or in halves where they are all in one place;
 /// returns how many are in the first.
 fn divide(items: &mut [Item]) -> usize {
-    let doubled_centre = |bounds: &LightBounds| bounds.around.least + bounds.around.most;
-    let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let doubled_centre = |bounds: &LightBounds| bounds.around.min + bounds.around.max;
+    let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for item in &*items {
         let centre = doubled_centre(&item.bounds);
-        (least, most) = (least.min(centre), most.max(centre));
+        (min, max) = (min.min(centre), max.max(centre));
     }
-    let scale = BINS as f64 / (most - least);
+    let scale = BINS as f64 / (max - min);
     let bin_of = |bounds: &LightBounds, axis: usize| {
-        let along = (doubled_centre(bounds)[axis] - least[axis]) * scale[axis];
+        let along = (doubled_centre(bounds)[axis] - min[axis]) * scale[axis];
         (along as usize).min(BINS - 1)
     };
     let axes = (0..3).filter(|&axis| scale[axis].is_finite() && scale[axis] > 0.0);
@@ -253,7 +253,7 @@ fn divide(items: &mut [Item]) -> usize {
                 continue;
             }
             let cost = lengthwise * (before.cost() + after[bin].cost());
-            if best.is_none_or(|(least, ..)| cost < least) {
+            if best.is_none_or(|(min, ..)| cost < min) {
                 best = Some((cost, axis, bin));
             }
         }

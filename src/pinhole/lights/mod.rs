@@ -50,4 +50,4 @@ pub use registry::{
 };
 pub use spot::{PlacedSpotLight, spot_falloff, versine, versine_of_half};
 pub use start::{LightStart, StartDraws};
-pub use targets::{MAX_TARGETS_SOLID_ANGLE, MOST_TARGETS, Target, Targets, direction_to_targets};
+pub use targets::{MAX_TARGETS, MAX_TARGETS_SOLID_ANGLE, Target, Targets, direction_to_targets};

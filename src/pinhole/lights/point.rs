@@ -50,7 +50,7 @@ impl Light for PlacedPointLight {
     }
 
     fn bounds(&self) -> Option<LightBounds> {
-        Some(LightBounds::everywhere(Bounds { least: self.position, most: self.position }, luminance(self.intensity)))
+        Some(LightBounds::everywhere(Bounds { min: self.position, max: self.position }, luminance(self.intensity)))
     }
 
     #[inline(always)]

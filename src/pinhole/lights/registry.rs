@@ -84,7 +84,7 @@ macro_rules! registry {
                     $(Self::$kind(light) => Light::bounds(light),)+
                     Self::Custom(light) => light.0.bounds(),
                 };
-                bounds.map(|bounds| bounds.around.least)
+                bounds.map(|bounds| bounds.around.min)
             }
 
             /// The power that it emits, of which a light without a position sends what passes through `across` square

@@ -2,12 +2,12 @@
 
 use super::start::{LightStart, StartDraws};
 use crate::shapes::emitter::{cone_direction, cone_versine};
-use crate::shapes::{Body, Bounds, l1_norm};
+use crate::shapes::{AnyShape, Bounds, l1_norm};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
 /// With more specular shapes than this, one sphere bounds them all.
-pub const MOST_TARGETS: usize = 16;
+pub const MAX_TARGETS: usize = 16;
 /// The factor by which a bounding sphere is enlarged, so that no rounding of a ray leads past it.
 const MARGIN: f64 = 1.0 + 1e-5;
 /// The rounding error of a ray in f32, relative to its origin and to the distance travelled.
@@ -34,9 +34,9 @@ impl Target {
             let radius = DVec3::splat(target.radius);
             (target.centre - radius, target.centre + radius)
         });
-        let (least, most) =
+        let (min, max) =
             ends.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |all, own| (all.0.min(own.0), all.1.max(own.1)));
-        Self::around(Bounds { least, most }.sphere_around())
+        Self::around(Bounds { min, max }.sphere_around())
     }
 }
 
@@ -48,7 +48,7 @@ pub struct Targets {
     /// A sphere around every shape that is not infinite.
     pub scene: Target,
     /// The infinite shapes, none of them specular where there are targets: they hide targets from distant lights.
-    pub infinite: Vec<Body>,
+    pub infinite: Vec<AnyShape>,
 }
 
 impl Targets {
@@ -139,7 +139,7 @@ pub fn direction_to_targets(
     choice: f64,
     u: [f64; 2],
 ) -> Option<(DVec3, f64)> {
-    let mut cones = [(DVec3::Z, 0.0); MOST_TARGETS];
+    let mut cones = [(DVec3::Z, 0.0); MAX_TARGETS];
     let cones = &mut cones[..targets.len()];
     cones.iter_mut().zip(targets).for_each(|(cone, target)| *cone = cone_to(target, from));
     let all = TAU * cones.iter().map(|(_, whole)| whole).sum::<f64>();

@@ -126,8 +126,8 @@ fn why_unlit(scene: &Census<'_>, pilot: &Pilot, (does, samples): (&LightTranspor
     }
     let blocked: usize = pilot.blocked.values().sum();
     if pilot.to_lights > 0 && blocked == pilot.to_lights {
-        let most = pilot.blocked.iter().max_by_key(|(_, count)| **count);
-        let name = most.map_or_else(String::new, |(&shape, _)| shape_name(scene, shape as usize));
+        let max = pilot.blocked.iter().max_by_key(|(_, count)| **count);
+        let name = max.map_or_else(String::new, |(&shape, _)| shape_name(scene, shape as usize));
         return Ok(format!("all {blocked} shadow rays are blocked, most of them by the {name}"));
     }
     Ok(format!(

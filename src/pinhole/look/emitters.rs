@@ -7,7 +7,7 @@ use crate::scene::LightStrategy;
 use std::collections::HashMap;
 
 /// Lights are compared with one another up to this number.
-const MOST_COMPARED: usize = 4096;
+const MAX_COMPARED: usize = 4096;
 
 /// A sentence about emitters that light sampling cannot sample, where it is the only strategy, and one about emitters
 /// that coincide.
@@ -60,7 +60,7 @@ fn unsampled(scene: &Census<'_>) -> Result<Option<String>> {
 fn coincident(scene: &Census<'_>) -> Result<Option<String>> {
     let lights = scene.table::<AreaLightTable>()?;
     let mut seen = HashMap::new();
-    for (light, emitter) in lights.emitter.iter().enumerate().take(MOST_COMPARED) {
+    for (light, emitter) in lights.emitter.iter().enumerate().take(MAX_COMPARED) {
         if let Some(other) = seen.insert(format!("{emitter:?}"), light) {
             let [one, other] = [other, light].map(|light| shape_name(scene, lights.shape[light] as usize));
             return Ok(Some(format!(

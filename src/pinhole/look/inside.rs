@@ -40,7 +40,7 @@ fn triangles_around(triangles: &TriangleTable, shapes: &ShapeTable) -> Option<u3
     let mut filled: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
     for (row, &shape) in triangles.shape.iter().enumerate() {
         let corners = &triangles.row[row].corners;
-        let angle = triangle_solid_angle(corners).copysign(triangles.beside[row].normal.dot(corners[0]));
+        let angle = triangle_solid_angle(corners).copysign(triangles.surface_data[row].normal.dot(corners[0]));
         let of = filled.entry(shapes.material[shape as usize]).or_insert((0.0, shape));
         of.0 += if angle.is_finite() { angle } else { 0.0 };
     }

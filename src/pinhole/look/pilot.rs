@@ -18,7 +18,7 @@ const SIDE: u32 = 8;
 /// Half of the smallest step of an 8-bit PNG near black, as radiance.
 pub(super) const DARK: f32 = 1.5e-4;
 /// Every small tile is traced at most so many times.
-const MOST_ROUNDS: usize = 16;
+const MAX_ROUNDS: usize = 16;
 
 /// What a few rays, traced before a picture is rendered, hit and returned.
 #[derive(Clone, Debug, Default)]
@@ -124,15 +124,15 @@ pub fn pilot(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), patience:
         };
         for row in 0..rays {
             let [r, g, b] = light(row);
-            let most = r.max(g).max(b);
-            pilot.light[number].add(most);
-            pilot.black += usize::from(!(most >= DARK));
+            let max = r.max(g).max(b);
+            pilot.light[number].add(max);
+            pilot.black += usize::from(!(max >= DARK));
             pilot.beyond_white += usize::from(r.min(g).min(b) > 1.0);
             if runs <= tiles && pilot.last_first.get(row).is_some_and(|&shape| shape != NO_SHAPE) {
-                candidates.push((tile.pixel_of(row), most));
+                candidates.push((tile.pixel_of(row), max));
             }
         }
-        runs < tiles || !(pilot.is_settled(f64::from(samples)) && cost.is_known()) && runs < MOST_ROUNDS * tiles
+        runs < tiles || !(pilot.is_settled(f64::from(samples)) && cost.is_known()) && runs < MAX_ROUNDS * tiles
     });
     pilot.lit_pixel = lit_pixel(candidates, image);
     pilot.is_least = pilot.rays < pilot.tried;
@@ -201,10 +201,10 @@ impl Pilot {
 }
 
 impl TileLight {
-    fn add(&mut self, most: f32) {
+    fn add(&mut self, max: f32) {
         self.rays += 1;
-        self.lit += usize::from(most >= DARK);
-        self.sum += f64::from(if most.is_finite() { most } else { 0.0 });
+        self.lit += usize::from(max >= DARK);
+        self.sum += f64::from(if max.is_finite() { max } else { 0.0 });
     }
 }
 
@@ -234,8 +234,8 @@ fn lit_pixel(mut found: Vec<([u32; 2], f32)>, image: ImageFrame) -> Option<[u32;
 /// Small tiles, each in the middle of its part of the image, or the whole of a small image; ordered such that any first
 /// few are spread evenly.
 fn small_tiles(image: ImageFrame, side: u32) -> Vec<Tile> {
-    let along = |pixels: u32, most: u32| -> Vec<[u32; 2]> {
-        let count = (pixels / SIDE).clamp(1, most);
+    let along = |pixels: u32, max: u32| -> Vec<[u32; 2]> {
+        let count = (pixels / SIDE).clamp(1, max);
         let side = side.min(pixels);
         (0..count).map(|tile| [((2 * tile + 1) * pixels / (2 * count)).saturating_sub(side / 2), side]).collect()
     };

@@ -4,7 +4,7 @@ use crate::intersect::{Hits, NO_SHAPE};
 use crate::plan::{Column, ColumnKind, Stage};
 use crate::rays::{Depth, Tile};
 use crate::render::Hook;
-use crate::shade::{LightRays, ShadowHits};
+use crate::shade::{ShadowHits, ShadowRays};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ pub(super) fn counting_hook() -> Hook {
             [ColumnKind::of::<Hits>(), ColumnKind::of::<ShadowHits>()].map(|column| stage.writes.contains(&column));
         let count = move |world: &mut World,
                           tiles: &mut QueryState<
-            (&Depth, Option<&Hits>, Option<(&LightRays, &ShadowHits)>),
+            (&Depth, Option<&Hits>, Option<(&ShadowRays, &ShadowHits)>),
             With<Tile>,
         >| {
             if !(writes_hits || writes_shadows) {

@@ -63,8 +63,8 @@ fn is_angle_of_view(angle: f64) -> bool {
 }
 
 /// Whether a number lies between two and is no whole one: nobody writes 1 or 2 for a round angle in radians.
-fn is_fraction_within([least, most]: [f64; 2], angle: f64) -> bool {
-    (least..=most).contains(&angle) && angle.fract() != 0.0
+fn is_fraction_within([min, max]: [f64; 2], angle: f64) -> bool {
+    (min..=max).contains(&angle) && angle.fract() != 0.0
 }
 
 /// Whether a number is a multiple of 15° in radians, rounded to three to five places; 0 is not.

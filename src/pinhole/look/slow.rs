@@ -63,13 +63,13 @@ pub fn many_light_bounces(pilot: &Pilot, max_depth: u32) -> Option<String> {
 
 /// A warning that none of the small tiles that were traced was finished.
 pub fn never_done(pilot: &Pilot, why: &str, effort: Effort) -> String {
-    let least = pilot.seconds_a_ray.map_or_else(String::new, |seconds| {
+    let min = pilot.seconds_a_ray.map_or_else(String::new, |seconds| {
         let picture = effort.samples.map(|samples| samples * seconds / effort.threads.max(1) as f64);
         let picture = picture.filter(|&picture| picture >= LONG).map(long_span);
         let picture = picture.map_or_else(String::new, |span| format!(", so the picture will take more than {span}"));
         format!(": a ray takes more than {}{picture}", short_span(seconds))
     });
-    format!("none of {} test rays was finished when the time for them was up{least}; {why}", pilot.tried)
+    format!("none of {} test rays was finished when the time for them was up{min}; {why}", pilot.tried)
 }
 
 /// The reason why a ray takes long in this scene.
@@ -89,8 +89,8 @@ pub fn why_slow(scene: &Census<'_>, pilot: &Pilot, max_depth: u32, shapes: usize
 /// A time in minutes, hours, days or years, whichever gives a number that is easy to grasp.
 fn long_span(seconds: f64) -> String {
     let units = [("minutes", 60.0, 120.0), ("hours", 3600.0, 48.0), ("days", 86_400.0, 730.0)];
-    for (unit, length, most) in units {
-        if seconds < length * most {
+    for (unit, length, max) in units {
+        if seconds < length * max {
             return format!("{:.0} {unit}", seconds / length);
         }
     }

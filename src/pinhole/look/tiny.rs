@@ -11,7 +11,7 @@ use crate::scene::{OrthographicCamera, PerspectiveCamera};
 use glam::DVec3;
 
 /// So many shapes are looked at.
-const MOST: usize = 10_000;
+const MAX: usize = 10_000;
 /// So many small shapes are named beside others that are not.
 const FEW: usize = 3;
 
@@ -38,7 +38,7 @@ pub fn tiny_shapes(scene: &Census<'_>, pilot: &Pilot, shapes: &ShapeTable) -> Re
         is_inside.then_some(radius / half_height * f64::from(image.height))
     };
     let (mut tiny, mut others): (Vec<(usize, f64)>, usize) = (Vec::new(), pilot.shapes.len());
-    for shape in (0..shapes.kind.len().min(MOST)).filter(|&shape| !pilot.shapes.contains(&(shape as u32))) {
+    for shape in (0..shapes.kind.len().min(MAX)).filter(|&shape| !pilot.shapes.contains(&(shape as u32))) {
         let Some(listed) = listed_kind(scene, shapes.kind[shape]).filter(|listed| !listed.is_part) else { continue };
         let around = (listed.bounding_sphere)(scene, shapes.row[shape] as usize)?;
         let width = around.and_then(|(centre, radius)| width_in_pixels(centre, radius));

@@ -208,7 +208,7 @@ impl Trace {
             "shape" => format!("shape {}", self.shape_name(value).unwrap_or("none")),
             name => format!("{name} {value}"),
         };
-        let words: Vec<String> = components.iter().filter(|(name, _)| *name != "path").map(word).collect();
+        let words: Vec<String> = components.iter().filter(|(name, _)| *name != "row").map(word).collect();
         words.join("  ")
     }
 }

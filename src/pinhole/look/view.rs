@@ -62,11 +62,7 @@ fn paint_tile(column: ColumnKind, tile: &EntityRef<'_>, image: [u32; 2]) -> Radi
 /// The path of each row of a column, in order: the row's own number, unless a component `path` or `row` gives it.
 pub fn paths<'t>(column: ColumnKind, tile: &EntityRef<'t>) -> Vec<usize> {
     let components = (column.components)(tile);
-    match components
-        .iter()
-        .find(|component| component.name == "path" || component.name == "row")
-        .map(|component| component.values)
-    {
+    match components.iter().find(|component| component.name == "row").map(|component| component.values) {
         Some(ComponentValues::U32(paths)) => paths.iter().map(|&path| path as usize).collect(),
         _ => (0..(column.rows)(tile)).collect(),
     }

@@ -46,7 +46,7 @@ impl Parameters {
 
 /// What a BSDF is evaluated for: a row of its table, and what the scene says of the surface there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Site {
+pub struct ShadingContext {
     /// The row of the BSDF's table.
     pub row: usize,
     /// The surface's parameters, from textures or else from the [`MaterialTable`](super::MaterialTable).
@@ -59,7 +59,7 @@ pub struct Site {
     pub transport: Transport,
 }
 
-impl Site {
+impl ShadingContext {
     /// A row of a table of opaque materials, on a surface with these parameters.
     pub const fn opaque(row: usize, parameters: Parameters) -> Self {
         Self { row, parameters, eta: 1.0, reflectance: None, transport: Transport::Radiance }
@@ -189,18 +189,18 @@ pub trait Bsdf: Table + Named {
     }
 
     /// The BSDF in 1/sr: red, green, blue.
-    fn eval(&self, _site: &Site, _to_light: DVec3, _to_eye: DVec3) -> [f64; 3] {
+    fn eval(&self, _site: &ShadingContext, _to_light: DVec3, _to_eye: DVec3) -> [f64; 3] {
         [0.0; 3]
     }
 
     /// The pdf with which [`Self::sample`] chooses `to_light`, in 1/sr.
-    fn pdf(&self, _site: &Site, _to_light: DVec3, _to_eye: DVec3) -> f64 {
+    fn pdf(&self, _site: &ShadingContext, _to_light: DVec3, _to_eye: DVec3) -> f64 {
         0.0
     }
 
     /// Samples a direction to the light by two numbers in [0, 1), and by a third where it [`chooses`](Self::chooses);
     /// none where the sampled direction leads to the wrong side of the surface.
-    fn sample(&self, _site: &Site, _to_eye: DVec3, _numbers: [f64; 2], _choice: f64) -> Option<BsdfSample> {
+    fn sample(&self, _site: &ShadingContext, _to_eye: DVec3, _numbers: [f64; 2], _choice: f64) -> Option<BsdfSample> {
         None
     }
 
@@ -211,13 +211,19 @@ pub trait Bsdf: Table + Named {
 
     /// Both directions of a specular BSDF, by reflection and by refraction; the ray arrives along `direction`, and
     /// `normal` faces it.
-    fn specular_directions(&self, _site: &Site, _direction: DVec3, _normal: DVec3) -> [SpecularSample; 2] {
+    fn specular_directions(&self, _site: &ShadingContext, _direction: DVec3, _normal: DVec3) -> [SpecularSample; 2] {
         [SpecularSample::default(); 2]
     }
 
     /// One of the two, selected by a number in [0, 1) and divided by its probability.
-    fn sample_specular(&self, site: &Site, direction: DVec3, normal: DVec3, _number: f64) -> SpecularSample {
-        self.specular_directions(site, direction, normal)[0]
+    fn sample_specular(
+        &self,
+        context: &ShadingContext,
+        direction: DVec3,
+        normal: DVec3,
+        _number: f64,
+    ) -> SpecularSample {
+        self.specular_directions(context, direction, normal)[0]
     }
 
     /// Materials for the tests of all materials.

@@ -1,5 +1,6 @@
 use super::{
-    Bsdf, BsdfClass, Example, Interior, Parameters, Site, SpecularSample, Transport, fresnel, mirror_direction, refract,
+    Bsdf, BsdfClass, Example, Interior, Parameters, ShadingContext, SpecularSample, Transport, fresnel,
+    mirror_direction, refract,
 };
 use crate::check::{light_colour, number};
 use crate::plan::{Census, Table};
@@ -7,7 +8,7 @@ use crate::scene::{Glass, SceneError};
 use glam::DVec3;
 
 /// The least accepted index of refraction, and the reciprocal of the greatest.
-const LEAST_INDEX: f64 = 1e-3;
+const MIN_INDEX: f64 = 1e-3;
 
 // ANCHOR: glass_samples
 /// Both directions at a smooth surface to a medium of relative index η: specular reflection, and refraction with the
@@ -75,8 +76,8 @@ impl Table for SmoothGlass {
 /// Index, absorption and priority of a dielectric, checked.
 pub(super) fn checked_interior(who: &str, glass: &Glass) -> Result<Interior, SceneError> {
     let Glass { ior, absorption, priority } = *glass;
-    if !(LEAST_INDEX..=1.0 / LEAST_INDEX).contains(&ior) {
-        let accepted = format!("it must be a number from {LEAST_INDEX} to {}", 1.0 / LEAST_INDEX);
+    if !(MIN_INDEX..=1.0 / MIN_INDEX).contains(&ior) {
+        let accepted = format!("it must be a number from {MIN_INDEX} to {}", 1.0 / MIN_INDEX);
         return Err(SceneError::new(who, "ior", number(ior), accepted));
     }
     Ok(Interior { ior, absorption: light_colour(who, "absorption", absorption)?.to_array(), priority })
@@ -103,20 +104,26 @@ impl Bsdf for SmoothGlass {
     }
 
     #[inline(always)]
-    fn specular_directions(&self, site: &Site, direction: DVec3, normal: DVec3) -> [SpecularSample; 2] {
-        let [mut mirrored, mut bent] = glass_samples(direction, normal, site.eta);
-        if let Some(reflected) = site.reflectance {
+    fn specular_directions(&self, context: &ShadingContext, direction: DVec3, normal: DVec3) -> [SpecularSample; 2] {
+        let [mut mirrored, mut bent] = glass_samples(direction, normal, context.eta);
+        if let Some(reflected) = context.reflectance {
             mirrored.weight = [reflected; 3];
-            bent.weight = [if bent.through { (1.0 - reflected) / (site.eta * site.eta) } else { 0.0 }; 3];
+            bent.weight = [if bent.through { (1.0 - reflected) / (context.eta * context.eta) } else { 0.0 }; 3];
         }
         [mirrored, bent]
     }
 
     /// A ray from a light keeps all of its power, where radiance would get its 1/η² (Veach 1997, 5.2).
     #[inline(always)]
-    fn sample_specular(&self, site: &Site, direction: DVec3, normal: DVec3, number: f64) -> SpecularSample {
-        let sample = glass_event(self.specular_directions(site, direction, normal), site.eta, number);
-        match site.transport {
+    fn sample_specular(
+        &self,
+        context: &ShadingContext,
+        direction: DVec3,
+        normal: DVec3,
+        number: f64,
+    ) -> SpecularSample {
+        let sample = glass_event(self.specular_directions(context, direction, normal), context.eta, number);
+        match context.transport {
             Transport::Radiance => sample,
             Transport::Importance => SpecularSample { weight: [1.0; 3], ..sample },
         }

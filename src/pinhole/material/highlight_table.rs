@@ -1,5 +1,5 @@
 use super::registered::entities_of_kind;
-use super::{Bsdf, BsdfClass, BsdfSample, Example, Highlight, Lobe, Named, Parameters, Site};
+use super::{Bsdf, BsdfClass, BsdfSample, Example, Highlight, Lobe, Named, Parameters, ShadingContext};
 use crate::check::{kind_and_name, number, reflectance, triple};
 use crate::plan::{Census, Table};
 use crate::scene::{Feeds, Rgb, SceneError};
@@ -74,18 +74,18 @@ where
     }
 
     #[inline(always)]
-    fn eval(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        Highlight::new(self, site.row, site.parameters.colour).brdf(to_light, to_eye)
+    fn eval(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
+        Highlight::new(self, context.row, context.parameters.colour).brdf(to_light, to_eye)
     }
 
     #[inline(always)]
-    fn pdf(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> f64 {
-        Highlight::new(self, site.row, site.parameters.colour).pdf(to_light, to_eye)
+    fn pdf(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> f64 {
+        Highlight::new(self, context.row, context.parameters.colour).pdf(to_light, to_eye)
     }
 
     #[inline(always)]
-    fn sample(&self, site: &Site, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
-        Highlight::new(self, site.row, site.parameters.colour).sample(to_eye, numbers, choice)
+    fn sample(&self, context: &ShadingContext, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
+        Highlight::new(self, context.row, context.parameters.colour).sample(to_eye, numbers, choice)
     }
 
     fn chooses(&self) -> bool {

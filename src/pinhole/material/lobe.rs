@@ -179,20 +179,20 @@ mod tests {
 
     #[test]
     fn directions_have_their_pdf_and_weights_their_mean() {
-        let mut least = 1.0_f64;
+        let mut min = 1.0_f64;
         let mut tried = 0;
         for exponent in EXPONENTS {
             for (angle, colour) in SURFACES {
                 tried += 2;
                 let seed = 1600 + tried;
-                least = least.min(check("Phong", &phong(exponent), exponent, angle, colour, seed));
+                min = min.min(check("Phong", &phong(exponent), exponent, angle, colour, seed));
                 let lobes = blinn_phong(exponent);
-                least = least.min(check("Blinn–Phong", &lobes, exponent, angle, colour, seed + 1));
+                min = min.min(check("Blinn–Phong", &lobes, exponent, angle, colour, seed + 1));
             }
         }
-        eprintln!("highlights: {tried} materials and angles, least p {least:.4}");
+        eprintln!("highlights: {tried} materials and angles, least p {min:.4}");
         // Šidák: the least of so many is below this once in a thousand.
-        assert!(least > 1.0 - libm::pow(0.999, 1.0 / tried as f64), "{least}");
+        assert!(min > 1.0 - libm::pow(0.999, 1.0 / tried as f64), "{min}");
     }
 
     #[test]

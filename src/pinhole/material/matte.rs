@@ -1,4 +1,4 @@
-use super::{Bsdf, BsdfClass, BsdfSample, Example, Parameters, Site, cosine_direction, cosine_pdf};
+use super::{Bsdf, BsdfClass, BsdfSample, Example, Parameters, ShadingContext, cosine_direction, cosine_pdf};
 use crate::check::reflectance;
 use crate::plan::{Census, Table};
 use crate::scene::{Feeds, Matte, Rgb, SceneError};
@@ -46,13 +46,13 @@ impl Bsdf for MatteTable {
     // ANCHOR: eval_matte
     /// The same for all directions; that light arrives from above the surface, its cosine says.
     #[inline(always)]
-    fn eval(&self, site: &Site, _to_light: DVec3, _to_eye: DVec3) -> [f64; 3] {
-        lambertian(site.parameters.colour)
+    fn eval(&self, context: &ShadingContext, _to_light: DVec3, _to_eye: DVec3) -> [f64; 3] {
+        lambertian(context.parameters.colour)
     }
     // ANCHOR_END: eval_matte
 
     #[inline(always)]
-    fn pdf(&self, _: &Site, to_light: DVec3, _: DVec3) -> f64 {
+    fn pdf(&self, _: &ShadingContext, to_light: DVec3, _: DVec3) -> f64 {
         cosine_pdf(to_light.z)
     }
 
@@ -60,9 +60,9 @@ impl Bsdf for MatteTable {
     /// Samples a cosine-weighted direction: the BRDF colour / π times the cosine, divided by the pdf cosine / π, leaves
     /// the colour as weight.
     #[inline(always)]
-    fn sample(&self, site: &Site, _to_eye: DVec3, numbers: [f64; 2], _choice: f64) -> Option<BsdfSample> {
+    fn sample(&self, context: &ShadingContext, _to_eye: DVec3, numbers: [f64; 2], _choice: f64) -> Option<BsdfSample> {
         let to_light = cosine_direction(numbers);
-        Some(BsdfSample { to_light, pdf: to_light.z * FRAC_1_PI, weight: site.parameters.colour })
+        Some(BsdfSample { to_light, pdf: to_light.z * FRAC_1_PI, weight: context.parameters.colour })
     }
     // ANCHOR_END: sample_matte
 

@@ -1,7 +1,7 @@
 use super::registered::entities_of_kind;
 use super::{
-    Bsdf, BsdfClass, BsdfSample, Example, MaterialKind, MultipleScattering, Named, Parameters, Site, cosine_direction,
-    ggx_brdf, ggx_sample, visible_pdf,
+    Bsdf, BsdfClass, BsdfSample, Example, MaterialKind, MultipleScattering, Named, Parameters, ShadingContext,
+    cosine_direction, ggx_brdf, ggx_sample, visible_pdf,
 };
 use crate::check::{kind_and_name, number, reflectance};
 use crate::plan::{Census, Table};
@@ -85,33 +85,33 @@ impl Bsdf for MetalTable {
     }
 
     #[inline(always)]
-    fn eval(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        let once = ggx_brdf(to_light, to_eye, self.alpha[site.row]);
-        let once = self.colour[site.row].map(|colour| once * colour);
+    fn eval(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
+        let once = ggx_brdf(to_light, to_eye, self.alpha[context.row]);
+        let once = self.colour[context.row].map(|colour| once * colour);
         let Some(several) = &self.several else { return once };
-        let again = several.brdf(site.row, to_light, to_eye);
+        let again = several.brdf(context.row, to_light, to_eye);
         [0, 1, 2].map(|part| once[part] + again[part])
     }
 
     #[inline(always)]
-    fn pdf(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> f64 {
-        let visible = visible_pdf(to_light, to_eye, self.alpha[site.row]);
-        self.several.as_ref().map_or(visible, |several| several.pdf(site.row, to_light, to_eye, visible))
+    fn pdf(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> f64 {
+        let visible = visible_pdf(to_light, to_eye, self.alpha[context.row]);
+        self.several.as_ref().map_or(visible, |several| several.pdf(context.row, to_light, to_eye, visible))
     }
 
     /// By visible microfacet normals; `choice` selects the single- or the multiple-scattering lobe.
     #[inline(always)]
-    fn sample(&self, site: &Site, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
-        let microfacet_sample = || ggx_sample(to_eye, self.alpha[site.row], numbers);
+    fn sample(&self, context: &ShadingContext, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
+        let microfacet_sample = || ggx_sample(to_eye, self.alpha[context.row], numbers);
         let Some(several) = &self.several else {
-            let (sample, colour) = (microfacet_sample()?, self.colour[site.row]);
+            let (sample, colour) = (microfacet_sample()?, self.colour[context.row]);
             let weight = colour.map(|colour| colour * sample.weight);
             return Some(BsdfSample { to_light: sample.to_light, pdf: sample.pdf, weight });
         };
-        let is_lost = several.is_lost(site.row, to_eye, choice);
+        let is_lost = several.is_lost(context.row, to_eye, choice);
         let to_light = if is_lost { cosine_direction(numbers) } else { microfacet_sample()?.to_light };
-        let pdf = self.pdf(site, to_light, to_eye);
-        let weight = self.eval(site, to_light, to_eye).map(|brdf| brdf * to_light.z / pdf);
+        let pdf = self.pdf(context, to_light, to_eye);
+        let weight = self.eval(context, to_light, to_eye).map(|brdf| brdf * to_light.z / pdf);
         (pdf > 0.0).then_some(BsdfSample { to_light, pdf, weight })
     }
 

@@ -1,6 +1,6 @@
 use super::metal::smooth_colour;
 use super::registered::entities_of_kind;
-use super::{Bsdf, BsdfClass, Example, Named, Parameters, Site, SpecularSample, mirror_direction};
+use super::{Bsdf, BsdfClass, Example, Named, Parameters, ShadingContext, SpecularSample, mirror_direction};
 use crate::check::{kind_and_name, reflectance};
 use crate::plan::{Census, Table};
 use crate::scene::{Mirror, SceneError};
@@ -46,8 +46,8 @@ impl Bsdf for MirrorTable {
     // ANCHOR: sample_mirror
     /// The only direction of this specular BSDF is that of reflection.
     #[inline(always)]
-    fn specular_directions(&self, site: &Site, direction: DVec3, normal: DVec3) -> [SpecularSample; 2] {
-        let (direction, weight) = (mirror_direction(direction, normal), self.colour[site.row]);
+    fn specular_directions(&self, context: &ShadingContext, direction: DVec3, normal: DVec3) -> [SpecularSample; 2] {
+        let (direction, weight) = (mirror_direction(direction, normal), self.colour[context.row]);
         [SpecularSample { direction, weight, through: false }, SpecularSample::default()]
     }
     // ANCHOR_END: sample_mirror

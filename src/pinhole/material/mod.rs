@@ -101,7 +101,8 @@ pub use custom_bsdf;
 
 pub use blinn_phong::{BlinnPhongLobe, BlinnPhongTable, blinn_phong_peak, half_vector_cosine};
 pub use bsdf::{
-    Bsdf, BsdfClass, BsdfSample, Example, Interior, Named, Parameters, Site, SpecularSample, StageNames, Transport,
+    Bsdf, BsdfClass, BsdfSample, Example, Interior, Named, Parameters, ShadingContext, SpecularSample, StageNames,
+    Transport,
 };
 pub use erased::ErasedBsdf;
 pub use frame::{cosine_direction, cosine_pdf, frame_of};

@@ -158,7 +158,7 @@ impl MultipleScattering {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::{Bsdf, BsdfSample, MetalTable, Parameters, Site, ggx_brdf, ggx_g1};
+    use crate::material::{Bsdf, BsdfSample, MetalTable, Parameters, ShadingContext, ggx_brdf, ggx_g1};
     use crate::measure::chi_squared::{Bins, p_value};
     use crate::measure::hemisphere::Quadrature;
     use crate::measure::ray_aim::Draws;
@@ -166,7 +166,7 @@ mod tests {
 
     const ALPHAS: [f64; 7] = [0.01, 0.03, 0.05, 0.1, 0.3, 0.6, 1.0];
 
-    const FIRST: Site = Site::opaque(0, Parameters::coloured([0.0; 3]));
+    const FIRST: ShadingContext = ShadingContext::opaque(0, Parameters::coloured([0.0; 3]));
 
     fn lobes(alpha: f64, colour: f64) -> MultipleScattering {
         let mut several = MultipleScattering::default();
@@ -201,12 +201,12 @@ mod tests {
     /// coloured one less.
     #[test]
     fn furnace() {
-        let (rule, mut least, mut most) = (Quadrature::default(), f64::INFINITY, 0.0_f64);
+        let (rule, mut min, mut max) = (Quadrature::default(), f64::INFINITY, 0.0_f64);
         for alpha in ALPHAS {
             let rough = metal(alpha, 1.0);
             for angle in [0.0, 0.3, 0.7, 1.1, 1.4, 1.5, 89.0 * PI / 180.0] {
                 let all = rule.albedo(angle, 0.5 * alpha, |light, eye| rough.eval(&FIRST, light, eye)[0]);
-                (least, most) = (least.min(all), most.max(all));
+                (min, max) = (min.min(all), max.max(all));
                 assert!((1.0 - 3e-3..1.0 + 1e-3).contains(&all), "α {alpha}, {angle}: {all}");
             }
             let half = metal(alpha, 0.5);
@@ -214,7 +214,7 @@ mod tests {
             let once = 0.5 * rule.albedo(0.7, 0.5 * alpha, |light, eye| ggx_brdf(light, eye, alpha));
             assert!(all > once && all < 0.5, "α {alpha}: {once} once, {all} in all");
         }
-        eprintln!("furnace: 49 sums from {least:.5} to {most:.5}");
+        eprintln!("furnace: 49 sums from {min:.5} to {max:.5}");
         assert_eq!([multiple_scattering_albedo(1.0, 0.3), multiple_scattering_albedo(0.0, 0.3)], [1.0, 0.0]);
     }
 

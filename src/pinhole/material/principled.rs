@@ -1,8 +1,8 @@
 use super::principled_energy::{Energy, EnergyTable, alpha_of, grazing};
 use super::registered::entities_of_kind;
 use super::{
-    Bsdf, BsdfClass, BsdfSample, Example, Named, Parameters, Site, cosine_direction, cosine_pdf, ggx_brdf, ggx_sample,
-    visible_pdf,
+    Bsdf, BsdfClass, BsdfSample, Example, Named, Parameters, ShadingContext, cosine_direction, cosine_pdf, ggx_brdf,
+    ggx_sample, visible_pdf,
 };
 use crate::check::{kind_and_name, number, reflectance};
 use crate::plan::{Census, Table};
@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use std::f64::consts::FRAC_1_PI;
 
 /// The greatest index of refraction, at which all light is reflected.
-const MOST_INDEX: f64 = 1e9;
+const MAX_INDEX: f64 = 1e9;
 
 /// Principled materials, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -105,19 +105,19 @@ impl PrincipledTable {
 
     /// The surface at a point.
     #[inline(always)]
-    fn at(&self, site: &Site) -> Surface<'_> {
-        let Parameters { colour, metallic, roughness } = site.parameters;
+    fn at(&self, context: &ShadingContext) -> Surface<'_> {
+        let Parameters { colour, metallic, roughness } = context.parameters;
         // A material's own roughness has energies of its own; others lie between two of many.
-        let energy = if roughness == self.roughness[site.row] {
-            Energy::of(&self.energy[self.energy_of[site.row] as usize], roughness)
+        let energy = if roughness == self.roughness[context.row] {
+            Energy::of(&self.energy[self.energy_of[context.row] as usize], roughness)
         } else {
             Energy::between(self.by_roughness, roughness)
         };
-        let coat = self.coats.get(site.row).filter(|coat| coat.factor > 0.0).map(|coat| {
+        let coat = self.coats.get(context.row).filter(|coat| coat.factor > 0.0).map(|coat| {
             let energy = Energy::of(&self.energy[coat.energy_of as usize], coat.roughness);
             CoatHere { factor: coat.factor, alpha: alpha_of(coat.roughness), energy }
         });
-        Surface { colour, metallic, alpha: alpha_of(roughness), dielectric: self.dielectric[site.row], energy, coat }
+        Surface { colour, metallic, alpha: alpha_of(roughness), dielectric: self.dielectric[context.row], energy, coat }
     }
 }
 
@@ -267,7 +267,7 @@ impl Bsdf for PrincipledTable {
                 return Err(SceneError::new(who, field, number(value), "it must be a number from 0 to 1"));
             }
         }
-        if !(1.0..=MOST_INDEX).contains(&own.ior) {
+        if !(1.0..=MAX_INDEX).contains(&own.ior) {
             return Err(SceneError::new(who, "ior", number(own.ior), "it must be a number from 1 to 1e9"));
         }
         let colour = reflectance(who, "base_colour", own.base_colour)?.to_array();
@@ -275,18 +275,18 @@ impl Bsdf for PrincipledTable {
     }
 
     #[inline(always)]
-    fn eval(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        self.at(site).eval(to_light, to_eye)
+    fn eval(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
+        self.at(context).eval(to_light, to_eye)
     }
 
     #[inline(always)]
-    fn pdf(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> f64 {
-        self.at(site).pdf(to_light, to_eye)
+    fn pdf(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> f64 {
+        self.at(context).pdf(to_light, to_eye)
     }
 
     #[inline(always)]
-    fn sample(&self, site: &Site, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
-        self.at(site).sample(to_eye, numbers, choice)
+    fn sample(&self, context: &ShadingContext, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
+        self.at(context).sample(to_eye, numbers, choice)
     }
 
     fn chooses(&self) -> bool {

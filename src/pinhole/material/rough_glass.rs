@@ -1,8 +1,8 @@
 use super::glass::checked_interior;
 use super::registered::entities_of_kind;
 use super::{
-    Bsdf, BsdfClass, BsdfSample, Example, Interior, MaterialKind, Named, Parameters, SMOOTHEST_METAL, Site, Transport,
-    fresnel, ggx_brdf, ggx_d, ggx_g1, mirror_direction, refract, visible_normal, visible_pdf,
+    Bsdf, BsdfClass, BsdfSample, Example, Interior, MaterialKind, Named, Parameters, SMOOTHEST_METAL, ShadingContext,
+    Transport, fresnel, ggx_brdf, ggx_d, ggx_g1, mirror_direction, refract, visible_normal, visible_pdf,
 };
 use crate::check::{kind_and_name, number};
 use crate::plan::{Census, Table};
@@ -76,9 +76,9 @@ fn transmitted(half: DVec3, to_light: DVec3, to_eye: DVec3, eta: f64) -> f64 {
 
 /// The part of radiance that is kept on the way through: 1/η², and 1 for importance.
 #[inline(always)]
-fn scale(site: &Site) -> f64 {
-    match site.transport {
-        Transport::Radiance => 1.0 / (site.eta * site.eta),
+fn scale(context: &ShadingContext) -> f64 {
+    match context.transport {
+        Transport::Radiance => 1.0 / (context.eta * context.eta),
         Transport::Importance => 1.0,
     }
 }
@@ -107,8 +107,8 @@ impl Bsdf for RoughGlassTable {
 
     // ANCHOR: rough_glass
     #[inline(always)]
-    fn eval(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        let (alpha, eta) = (self.alpha[site.row], site.eta);
+    fn eval(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
+        let (alpha, eta) = (self.alpha[context.row], context.eta);
         if to_eye.z <= 0.0 || to_light.z == 0.0 {
             return [0.0; 3];
         }
@@ -117,15 +117,15 @@ impl Bsdf for RoughGlassTable {
             return [fresnel(facing, eta) * ggx_brdf(to_light, to_eye, alpha); 3];
         }
         let Some(half) = refracting_normal(to_light, to_eye, eta) else { return [0.0; 3] };
-        let through = transmitted(half, to_light, to_eye, eta) * scale(site);
+        let through = transmitted(half, to_light, to_eye, eta) * scale(context);
         let below = DVec3::new(to_light.x, to_light.y, -to_light.z);
         let masked = visible_normal_pdf(half, to_eye, alpha) * ggx_g1(below, alpha) / below.z;
         [through * masked * normals_per_direction(half, to_light, to_eye, eta); 3]
     }
 
     #[inline(always)]
-    fn pdf(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> f64 {
-        let (alpha, eta) = (self.alpha[site.row], site.eta);
+    fn pdf(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> f64 {
+        let (alpha, eta) = (self.alpha[context.row], context.eta);
         if to_eye.z <= 0.0 || to_light.z == 0.0 {
             return 0.0;
         }
@@ -141,8 +141,8 @@ impl Bsdf for RoughGlassTable {
     /// By a visible microfacet normal, at which the light is reflected with the Fresnel reflectance as probability, and
     /// else refracted; what is left as weight is the masking of the direction to the light.
     #[inline(always)]
-    fn sample(&self, site: &Site, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
-        let (alpha, eta) = (self.alpha[site.row], site.eta);
+    fn sample(&self, context: &ShadingContext, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
+        let (alpha, eta) = (self.alpha[context.row], context.eta);
         if eta == 1.0 {
             // Between equal media there is no surface, and what goes straight through has no pdf.
             return Some(BsdfSample { to_light: -to_eye, pdf: f64::INFINITY, weight: [1.0; 3] });
@@ -154,8 +154,8 @@ impl Bsdf for RoughGlassTable {
         let reflects = choice < fresnel(to_eye.dot(half).max(0.0), eta);
         let to_light = if reflects { mirror_direction(-to_eye, half) } else { refract(-to_eye, half, eta)? };
         let masking = ggx_g1(DVec3::new(to_light.x, to_light.y, to_light.z.abs()), alpha);
-        let weight = if reflects { masking } else { masking * scale(site) };
-        let pdf = self.pdf(site, to_light, to_eye);
+        let weight = if reflects { masking } else { masking * scale(context) };
+        let pdf = self.pdf(context, to_light, to_eye);
         let leaves = reflects == (to_light.z > 0.0) && to_light.z != 0.0 && pdf > 0.0;
         leaves.then_some(BsdfSample { to_light, pdf, weight: [weight; 3] })
     }

@@ -1,12 +1,12 @@
 use super::registered::entities_of_kind;
-use super::{Bsdf, BsdfClass, Example, Named, Parameters, Site, SpecularSample, fresnel, mirror_direction};
+use super::{Bsdf, BsdfClass, Example, Named, Parameters, ShadingContext, SpecularSample, fresnel, mirror_direction};
 use crate::check::{kind_and_name, number, reflectance};
 use crate::plan::{Census, Table};
 use crate::scene::{SceneError, ThinGlass};
 use glam::DVec3;
 
 /// The greatest index of refraction.
-const MOST_INDEX: f64 = 1000.0;
+const MAX_INDEX: f64 = 1000.0;
 
 /// The fraction of light that a pane of index η reflects, at a cosine to its normal: its first face reflects F, and of
 /// what enters some comes back after each reflection at the second, F + (1 − F)² F (1 + F² + F⁴ + …) = 2F/(1 + F).
@@ -55,8 +55,8 @@ impl Bsdf for ThinGlassTable {
     const TRANSMITS: bool = true;
 
     fn parameters(own: &ThinGlass, who: &str) -> Result<Parameters, SceneError> {
-        if !(1.0..=MOST_INDEX).contains(&own.ior) {
-            let accepted = format!("it must be a number from 1 to {MOST_INDEX}");
+        if !(1.0..=MAX_INDEX).contains(&own.ior) {
+            let accepted = format!("it must be a number from 1 to {MAX_INDEX}");
             return Err(SceneError::new(who, "ior", number(own.ior), accepted));
         }
         reflectance(who, "colour", own.colour).map(|_| Parameters::default())
@@ -68,10 +68,10 @@ impl Bsdf for ThinGlassTable {
 
     /// Reflection, and what goes straight on with the glass's colour.
     #[inline(always)]
-    fn specular_directions(&self, site: &Site, direction: DVec3, normal: DVec3) -> [SpecularSample; 2] {
-        let reflected = pane_reflectance((-direction.dot(normal)).max(0.0), self.ior[site.row]);
+    fn specular_directions(&self, context: &ShadingContext, direction: DVec3, normal: DVec3) -> [SpecularSample; 2] {
+        let reflected = pane_reflectance((-direction.dot(normal)).max(0.0), self.ior[context.row]);
         let mirrored = mirror_direction(direction, normal);
-        let through = self.colour[site.row].map(|part| (1.0 - reflected) * part);
+        let through = self.colour[context.row].map(|part| (1.0 - reflected) * part);
         [
             SpecularSample { direction: mirrored, weight: [reflected; 3], through: false },
             SpecularSample { direction, weight: through, through: true },
@@ -80,11 +80,17 @@ impl Bsdf for ThinGlassTable {
 
     /// One of the two, reflection with the reflectance as its probability.
     #[inline(always)]
-    fn sample_specular(&self, site: &Site, direction: DVec3, normal: DVec3, number: f64) -> SpecularSample {
-        let [mirrored, straight] = self.specular_directions(site, direction, normal);
+    fn sample_specular(
+        &self,
+        context: &ShadingContext,
+        direction: DVec3,
+        normal: DVec3,
+        number: f64,
+    ) -> SpecularSample {
+        let [mirrored, straight] = self.specular_directions(context, direction, normal);
         match number < mirrored.weight[0] {
             true => SpecularSample { weight: [1.0; 3], ..mirrored },
-            false => SpecularSample { weight: self.colour[site.row], ..straight },
+            false => SpecularSample { weight: self.colour[context.row], ..straight },
         }
     }
 
@@ -122,14 +128,14 @@ mod tests {
     fn sampling_agrees_with_splitting() {
         let table = ThinGlassTable { ior: vec![1.5], colour: vec![[1.0, 0.5, 0.0]] };
         let (direction, normal) = (DVec3::new(0.8, 0.0, -0.6), DVec3::Z);
-        let site = Site::opaque(0, Parameters::coloured([0.0; 3]));
-        let both = table.specular_directions(&site, direction, normal);
+        let context = ShadingContext::opaque(0, Parameters::coloured([0.0; 3]));
+        let both = table.specular_directions(&context, direction, normal);
         assert!(both[1].through && both[1].direction == direction && !both[0].through);
         let mut sums = [[0.0; 3]; 2];
         const STEPS: u32 = 100_000;
         for step in 0..STEPS {
             let number = (f64::from(step) + 0.5) / f64::from(STEPS);
-            let sample = table.sample_specular(&site, direction, normal, number);
+            let sample = table.sample_specular(&context, direction, normal, number);
             for (sum, part) in sums[usize::from(sample.through)].iter_mut().zip(sample.weight) {
                 *sum += part / f64::from(STEPS);
             }

@@ -305,11 +305,11 @@ impl ColumnKind {
         (self.components)(&world.entity(entity)).iter().map(|component| component.values.bytes_per_row()).sum()
     }
 
-    /// The rows that belong to a path: those that name it in the component `path`, or else the row of its number.
+    /// The rows that belong to a path: those that name it in the component `row`, or else the row of its number.
     pub fn rows_of_path(&self, tile: &EntityRef<'_>, path: u32) -> Vec<usize> {
         let components = (self.components)(tile);
-        match components.iter().find(|component| component.name == "path").map(|component| component.values) {
-            Some(ComponentValues::U32(paths)) => (0..paths.len()).filter(|&row| paths[row] == path).collect(),
+        match components.iter().find(|component| component.name == "row").map(|component| component.values) {
+            Some(ComponentValues::U32(rows)) => (0..rows.len()).filter(|&row| rows[row] == path).collect(),
             _ if (path as usize) < (self.rows)(tile) => vec![path as usize],
             _ => Vec::new(),
         }

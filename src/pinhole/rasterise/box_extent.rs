@@ -63,17 +63,17 @@ impl<'s> BoxExtents<'s> {
 
     /// That of anything in a box, whose corners are taken to camera space.
     fn of_box(&self, bounds: &Bounds, to_camera: impl Fn(DVec3) -> DVec3) -> Option<BoxExtent> {
-        let Bounds { least, most } = *bounds;
+        let Bounds { min, max } = *bounds;
         let Projection { half, is_perspective, .. } = *self.projection;
-        let farthest = least.abs().max(most.abs()).length();
+        let farthest = min.abs().max(max.abs()).length();
         let corner = |number: usize| {
-            let point = DVec3::from(by_axis(|axis| if number >> axis & 1 == 0 { least[axis] } else { most[axis] }));
+            let point = DVec3::from(by_axis(|axis| if number >> axis & 1 == 0 { min[axis] } else { max[axis] }));
             clip_from_camera(to_camera(point), half, is_perspective)
         };
         let corners: [ClipPoint; 8] = std::array::from_fn(corner);
-        let mut seen = Seen { least: DVec2::INFINITY, most: DVec2::NEG_INFINITY };
+        let mut seen = Seen { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY };
         let finite = corners.iter().all(|corner| (corner.x + corner.y + corner.depth).is_finite());
-        let (near, closest) = (NEAR * farthest, DVec3::ZERO.max(least).min(most).length());
+        let (near, closest) = (NEAR * farthest, DVec3::ZERO.max(min).min(max).length());
         // What a ray of the image hits before the near plane is closer to the eye than half of that.
         let is_close = closest <= 2.0 * self.greatest * near;
         if !finite || (is_perspective && (is_close || near < f64::MIN_POSITIVE || self.greatest > LONGEST)) {
@@ -84,14 +84,14 @@ impl<'s> BoxExtents<'s> {
             seen.add_in_front(self.projection, &corners, near);
             closest * (1.0 - NEAR)
         } else {
-            let depth = corners.iter().fold(f64::INFINITY, |least, corner| least.min(corner.depth));
+            let depth = corners.iter().fold(f64::INFINITY, |min, corner| min.min(corner.depth));
             if corners.iter().any(|corner| corner.depth >= -rounding) {
                 corners.iter().for_each(|&corner| seen.add(self.projection.raster(corner)));
             }
             depth - 2.0 * rounding
         };
         let room = DVec2::splat(rounding * self.per_unit + self.margin);
-        let pixels = self.pixels(&Seen { least: seen.least - room, most: seen.most + room })?;
+        let pixels = self.pixels(&Seen { min: seen.min - room, max: seen.max + room })?;
         Some(BoxExtent { pixels, nearest })
     }
 
@@ -123,10 +123,10 @@ impl<'s> BoxExtents<'s> {
     // ANCHOR_END: rounding
 
     /// The pixels of the image whose centres are in a rectangle.
-    fn pixels(&self, &Seen { least, most }: &Seen) -> Option<Extent> {
+    fn pixels(&self, &Seen { min, max }: &Seen) -> Option<Extent> {
         let along = |axis: usize| {
-            let first = (least[axis] - 0.5).ceil().max(0.0);
-            let last = (most[axis] - 0.5).floor().min(self.projection.size[axis] - 1.0);
+            let first = (min[axis] - 0.5).ceil().max(0.0);
+            let last = (max[axis] - 0.5).floor().min(self.projection.size[axis] - 1.0);
             (first <= last).then_some([first as u32, last as u32])
         };
         Some([along(0)?, along(1)?])
@@ -144,16 +144,16 @@ fn both(one: Extent, other: Extent) -> Option<Extent> {
 
 /// A rectangle of raster space.
 struct Seen {
-    least: DVec2,
-    most: DVec2,
+    min: DVec2,
+    max: DVec2,
 }
 
 impl Seen {
-    const ALL: Self = Self { least: DVec2::NEG_INFINITY, most: DVec2::INFINITY };
+    const ALL: Self = Self { min: DVec2::NEG_INFINITY, max: DVec2::INFINITY };
 
     #[inline(always)]
     fn add(&mut self, point: DVec2) {
-        (self.least, self.most) = (self.least.min(point), self.most.max(point));
+        (self.min, self.max) = (self.min.min(point), self.max.max(point));
     }
 
     /// Adds what is left of a box by the near plane: the corners in front of it, and where it crosses edges.

@@ -19,12 +19,12 @@ const NOTICED: f64 = 1.0 / (1_u64 << 20) as f64;
 const SLACK: f64 = 2.0;
 
 /// The vertices that a triangle has at most when it is clipped by five planes.
-const MOST: usize = 8;
+const MAX: usize = 8;
 
 /// A convex polygon in clip space.
 #[derive(Clone, Copy, Debug)]
 pub struct Polygon {
-    points: [ClipPoint; MOST],
+    points: [ClipPoint; MAX],
     count: usize,
 }
 
@@ -78,7 +78,7 @@ impl ClipPlanes {
     }
 
     fn clip_by_these(&self, triangle: [ClipPoint; 3]) -> Polygon {
-        let mut polygon = Polygon { points: [ClipPoint::default(); MOST], count: 0 };
+        let mut polygon = Polygon { points: [ClipPoint::default(); MAX], count: 0 };
         let finite = |point: &ClipPoint| (point.x + point.y + point.depth).is_finite();
         if triangle.iter().all(finite) {
             triangle.into_iter().for_each(|point| polygon.push(point));

@@ -166,8 +166,8 @@ fn set_up(waiting: &Waiting, image: Image<'_>, ready: &mut Ready) {
 #[inline(always)]
 pub(super) fn pixels([a, b, c]: [i32; 3], margin: i32, size: i32) -> [i32; 2] {
     const { assert!(SUBPIXELS == 256.0) };
-    let (least, most) = (lesser(lesser(a, b), c), -lesser(lesser(-a, -b), -c));
-    let (first, last) = ((least - margin + 127) >> 8, (most + margin - 128) >> 8);
+    let (min, max) = (lesser(lesser(a, b), c), -lesser(lesser(-a, -b), -c));
+    let (first, last) = ((min - margin + 127) >> 8, (max + margin - 128) >> 8);
     [-lesser(-first, 0), lesser(last, size - 1)]
 }
 

@@ -136,7 +136,7 @@ impl Table for RasterTriangles {
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (projection, triangles) = (scene.table::<Projection>()?, scene.table::<TriangleTable>()?);
         let meshes = scene.table::<MeshTable>()?;
-        let reaches = |mesh: &PlacedMesh| mesh.bounds.least.abs().max(mesh.bounds.most.abs()).length();
+        let reaches = |mesh: &PlacedMesh| mesh.bounds.min.abs().max(mesh.bounds.max.abs()).length();
         let farthest = triangles.row.iter().map(|row| row.size).chain(meshes.row.iter().map(reaches));
         let planes = ClipPlanes::new(&projection, farthest.fold(0.0, f64::max));
         let margin = match sampling_evidence(scene).needed {

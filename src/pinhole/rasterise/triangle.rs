@@ -78,9 +78,9 @@ fn difference([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> [f64; 3] {
 
 /// A number, or the end of a range that it is beyond.
 #[inline(always)]
-pub fn within(number: f64, [least, most]: [f64; 2]) -> f64 {
-    let number = if number < least { least } else { number };
-    if number > most { most } else { number }
+pub fn within(number: f64, [min, max]: [f64; 2]) -> f64 {
+    let number = if number < min { min } else { number };
+    if number > max { max } else { number }
 }
 
 /// A raster coordinate in 1/256 of a pixel.

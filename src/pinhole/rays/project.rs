@@ -55,8 +55,8 @@ pub fn join_camera(join: &CameraJoinTable, lens: DVec2, point: DVec3) -> Option<
         (camera.truncate(), join.camera_from_world.row(2) * depth, 1.0 / join.pixel_area())
     };
     let raster = raster_from_camera(projected, join.half_height, join.size);
-    let (least, most) = (DVec2::splat(-join.margin), join.size + join.margin);
-    let seen = raster.cmpge(least).all() && raster.cmple(most).all();
+    let (min, max) = (DVec2::splat(-join.margin), join.size + join.margin);
+    let seen = raster.cmpge(min).all() && raster.cmple(max).all();
     seen.then_some(CameraJoin { to_camera, raster, importance })
 }
 // ANCHOR_END: join_camera

@@ -39,13 +39,13 @@ pub fn planned_samples(pilot: &Film, error: f64) -> Vec<Vec<u32>> {
         |tile: &FilmTile, row: usize, variance: f64| samples_for(variance, mean_square(tile.shown_f64(row)), error);
     let rows = || pilot.tiles.iter().flat_map(|tile| (0..tile.tile.rows()).map(move |row| (tile, row)));
     let total: f64 = rows().zip(&first).map(|((tile, row), (known, _))| f64::from(planned(tile, row, *known))).sum();
-    let most = (total / all.pixels).ceil() as u32;
+    let max = (total / all.pixels).ceil() as u32;
     let mut first = first.into_iter();
     let of_tile = |tile: &FilmTile| {
         let of_row = |row: usize| {
             let (known, around) = first.next().unwrap_or_default();
             match (all.event_size(), around.event_size()) {
-                (Some(size), None) => planned(tile, row, around.one_event(Some(size))).min(most),
+                (Some(size), None) => planned(tile, row, around.one_event(Some(size))).min(max),
                 // Nothing was seen to vary anywhere: all samples together have just missed light like that of a white wall.
                 (None, _) => planned(tile, row, all.one_event(Some(1.0))),
                 _ => planned(tile, row, known),
@@ -145,8 +145,8 @@ pub struct Achieved {
     pub samples: (f64, u32, u32),
 }
 
-/// Estimates a film's errors and compares them with the target; `most` is the limit of samples per pixel.
-pub fn achieved(film: &Film, target: f64, most: u32) -> Achieved {
+/// Estimates a film's errors and compares them with the target; `max` is the limit of samples per pixel.
+pub fn achieved(film: &Film, target: f64, max: u32) -> Achieved {
     let mut found = Achieved { samples: (0.0, u32::MAX, 0), ..Achieved::default() };
     let (mut squares, mut sum) = (0.0, 0_u64);
     for (number, tile) in film.tiles.iter().enumerate() {
@@ -154,7 +154,7 @@ pub fn achieved(film: &Film, target: f64, most: u32) -> Achieved {
             let variance = mean_of(film.variance_of_mean(number, row));
             let square = variance / (mean_square(tile.shown_f64(row)) + EPSILON);
             let above = square > target * target;
-            let wanted_more = film.planned.get(number).is_some_and(|planned| planned[row] > most);
+            let wanted_more = film.planned.get(number).is_some_and(|planned| planned[row] > max);
             squares += square;
             found.pixels += 1;
             found.above += u64::from(above);

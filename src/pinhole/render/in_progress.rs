@@ -298,14 +298,14 @@ impl RenderWorld {
     fn run_all(&mut self, film: &mut Film, to: u32) {
         let tiles = self.tiles.clone();
         loop {
-            let least = film.done.iter().copied().min().unwrap_or(to);
-            if least >= to {
+            let min = film.done.iter().copied().min().unwrap_or(to);
+            if min >= to {
                 return;
             }
-            let next = film.done.iter().copied().filter(|&done| done > least).min().unwrap_or(to).min(to);
-            let behind: Vec<bool> = film.done.iter().map(|&done| done == least).collect();
+            let next = film.done.iter().copied().filter(|&done| done > min).min().unwrap_or(to).min(to);
+            let behind: Vec<bool> = film.done.iter().map(|&done| done == min).collect();
             tiles.iter().zip(film_parts(film)).for_each(|(&tile, mut part)| self.swap_part(tile, &mut part));
-            for run in runs(least, next) {
+            for run in runs(min, next) {
                 let mut active = 0;
                 for (number, &tile) in tiles.iter().enumerate() {
                     let planned = film.planned.get(number).map(Vec::as_slice);
@@ -316,7 +316,7 @@ impl RenderWorld {
                 }
             }
             tiles.iter().zip(film_parts(film)).for_each(|(&tile, mut part)| self.swap_part(tile, &mut part));
-            film.done.iter_mut().filter(|done| **done == least).for_each(|done| *done = next);
+            film.done.iter_mut().filter(|done| **done == min).for_each(|done| *done = next);
         }
     }
 

@@ -62,7 +62,7 @@ pub fn render_in_passes(
         limits: *limits,
     };
     let mut outcome = Outcome::default();
-    let most = render.sampling.samples;
+    let max = render.sampling.samples;
     if let Some(adaptive) = limits.adaptive {
         if render.film.planned.is_empty() {
             if !render.film.pilot {
@@ -74,11 +74,11 @@ pub fn render_in_passes(
             let planned = planned_samples(&render.film, adaptive.error);
             render.begin_planned(planned);
         }
-        let end = steps_of(render.film.most_planned().min(most));
+        let end = steps_of(render.film.most_planned().min(max));
         passes.run_to(render, end, watch, keep, &mut outcome)?;
-        outcome.achieved = Some(achieved(&render.film, adaptive.error, most));
+        outcome.achieved = Some(achieved(&render.film, adaptive.error, max));
     } else {
-        passes.run_to(render, steps_of(most), watch, keep, &mut outcome)?;
+        passes.run_to(render, steps_of(max), watch, keep, &mut outcome)?;
     }
     passes.ended(render, outcome)
 }
@@ -168,11 +168,11 @@ impl Passes {
         }
         let longest = self.limits.write_every.unwrap_or(LONGEST_PASS).min(LONGEST_PASS);
         let left = self.limits.time.map(|time| time.saturating_sub(self.started.elapsed() + self.writing));
-        let most = left.map_or(longest, |left| left.min(longest));
+        let max = left.map_or(longest, |left| left.min(longest));
         // Twice as many samples as there are, or as many as fit into the time; at least one, unless even that does not
         // fit.
         let mut samples = samples_after(done).min(end - done);
-        while samples > 1 && predicted(done + samples) > most {
+        while samples > 1 && predicted(done + samples) > max {
             samples = samples.div_ceil(2);
         }
         let fits = left.is_none_or(|left| predicted(done + samples) <= left);

@@ -6,8 +6,8 @@ use std::thread::available_parallelism;
 ///
 /// Starting a thousand workers for one tile would take longer than rendering it.
 pub(super) fn workers(execution: &Execution, tiles: u64, batches: u64) -> usize {
-    let most = usize::try_from(tiles.max(batches).max(1)).unwrap_or(usize::MAX);
-    execution.threads.filter(|&threads| threads > 0).unwrap_or_else(by_default).min(most)
+    let max = usize::try_from(tiles.max(batches).max(1)).unwrap_or(usize::MAX);
+    execution.threads.filter(|&threads| threads > 0).unwrap_or_else(by_default).min(max)
 }
 
 /// What `rayon` would choose by default, which must be known here so that it can be limited.

@@ -35,15 +35,9 @@ pub fn light_colour(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, 
     colour_within(who, field, colour, f64::from(f32::MAX), "each part must be a finite number from 0 to 3.4e38")
 }
 
-/// Checks that each component of a colour lies from 0 to `most`.
-pub fn colour_within(
-    who: &str,
-    field: &'static str,
-    colour: Rgb,
-    most: f64,
-    accepted: &str,
-) -> Result<Rgb, SceneError> {
-    if colour.to_array().iter().all(|part| (0.0..=most).contains(part)) {
+/// Checks that each component of a colour lies from 0 to `max`.
+pub fn colour_within(who: &str, field: &'static str, colour: Rgb, max: f64, accepted: &str) -> Result<Rgb, SceneError> {
+    if colour.to_array().iter().all(|part| (0.0..=max).contains(part)) {
         Ok(colour)
     } else {
         Err(SceneError::new(who, field, triple(colour.to_vec()), accepted))

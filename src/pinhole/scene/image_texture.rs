@@ -5,7 +5,7 @@ use glam::DMat3;
 use serde::{Deserialize, Serialize};
 
 /// The kind of file that a texture or an environment names.
-pub const IMAGE_FILE: FileKind = FileKind { name: "an image", most: 1 << 30 };
+pub const IMAGE_FILE: FileKind = FileKind { name: "an image", max: 1 << 30 };
 
 /// On a material: an image texture, in place of the material's own colour.
 ///

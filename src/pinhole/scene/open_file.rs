@@ -15,7 +15,7 @@ pub struct FileKind {
     /// With its article, such as `a texture`.
     pub name: &'static str,
     /// The largest number of bytes.
-    pub most: u64,
+    pub max: u64,
 }
 
 /// A regular file that is open for reading.
@@ -59,12 +59,12 @@ pub struct FileError {
 
 impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { shown, kind: FileKind { name, most }, why } = self;
+        let Self { shown, kind: FileKind { name, max }, why } = self;
         match why {
             Unopened::Missing => write!(f, "there is no file {shown}"),
             Unopened::Folder => write!(f, "{shown} is a folder, but {name} is a file"),
             Unopened::NotRegular => write!(f, "{shown} is not a regular file"),
-            Unopened::TooLong(bytes) => write!(f, "{shown} has {bytes} bytes, but {name} has at most {most}"),
+            Unopened::TooLong(bytes) => write!(f, "{shown} has {bytes} bytes, but {name} has at most {max}"),
             Unopened::TooLittleMemory(said) => write!(f, "{shown} cannot be read: it {said}"),
             Unopened::System(said) => write!(f, "{shown} cannot be read: {said}"),
         }
@@ -113,7 +113,7 @@ fn open(path: &Path, kind: FileKind) -> Result<(File, Metadata), Unopened> {
 
 fn check_kind(metadata: &Metadata, kind: FileKind) -> Result<(), Unopened> {
     match metadata.is_file() {
-        true if metadata.len() > kind.most => Err(Unopened::TooLong(metadata.len())),
+        true if metadata.len() > kind.max => Err(Unopened::TooLong(metadata.len())),
         true => Ok(()),
         false if metadata.is_dir() => Err(Unopened::Folder),
         false => Err(Unopened::NotRegular),
@@ -131,10 +131,10 @@ impl OpenFile {
             return Err(FileError { shown, kind, why: Unopened::TooLittleMemory(too_little) });
         }
         let mut bytes = Vec::with_capacity(metadata.len() as usize);
-        let read = file.take(kind.most.saturating_add(1)).read_to_end(&mut bytes);
+        let read = file.take(kind.max.saturating_add(1)).read_to_end(&mut bytes);
         let why = match read {
             Err(error) => Unopened::from(error),
-            Ok(_) if bytes.len() as u64 > kind.most => Unopened::TooLong(bytes.len() as u64),
+            Ok(_) if bytes.len() as u64 > kind.max => Unopened::TooLong(bytes.len() as u64),
             Ok(_) => return Ok(bytes),
         };
         Err(FileError { shown, kind, why })
@@ -145,7 +145,7 @@ impl OpenFile {
 mod tests {
     use super::*;
 
-    const NOTE: FileKind = FileKind { name: "a note", most: 8 };
+    const NOTE: FileKind = FileKind { name: "a note", max: 8 };
 
     #[test]
     fn only_regular_files_within_their_bound_are_read() {

@@ -8,15 +8,15 @@ const LONGEST_PATH: usize = 160;
 const LONGEST_MESSAGE: usize = 2000;
 
 /// Text from a file or a command line, made safe for a message: on one line, with control characters and invisible
-/// characters escaped, and shortened in the middle to at most `most` characters.
-pub fn printable(text: &str, most: usize) -> String {
+/// characters escaped, and shortened in the middle to at most `max` characters.
+pub fn printable(text: &str, max: usize) -> String {
     // No text has more characters than bytes, so a short one need not be counted, nor a long one to its end.
-    let is_long = text.len() > most && text.chars().nth(most).is_some();
+    let is_long = text.len() > max && text.chars().nth(max).is_some();
     if !is_long {
         return escaped(text.chars());
     }
-    let after = most.saturating_sub(1) / 3;
-    let before = most.saturating_sub(1) - after;
+    let after = max.saturating_sub(1) / 3;
+    let before = max.saturating_sub(1) - after;
     let end: Vec<char> = text.chars().rev().take(after).collect();
     format!("{}…{}", escaped(text.chars().take(before)), escaped(end.into_iter().rev()))
 }

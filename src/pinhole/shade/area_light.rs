@@ -1,4 +1,4 @@
-use super::LightRays;
+use super::ShadowRays;
 use super::light::{ShadowRay, cosine_of, shadow_t_max};
 use super::receivers::{LightRay, LightRows, RayLists, append_sampled};
 use super::view::{LightSamplingView, LightSamplingViewItem};
@@ -109,7 +109,7 @@ fn sample_rows<D: Draw>(
 pub fn area_light_stage() -> Stage {
     Stage::new("Sample area lights", TileSystems::SampleLights, sample_area_lights)
         .kind(StageKind::Alternative)
-        .appends::<LightRays>()
+        .appends::<ShadowRays>()
         .when(|scene| {
             area_light_evidence(scene).and(|| light_sampling_evidence(scene)).and(|| material_evidence(scene))
         })

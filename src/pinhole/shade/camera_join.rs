@@ -1,6 +1,6 @@
 use super::light::{ShadowRay, shadow_t_max};
 use super::receivers::{LightRay, LightRows, append_sampled};
-use super::{LightRays, TransmissiveRows};
+use super::{ShadowRays, TransmissiveRows};
 use crate::extract::{CameraJoinTable, LensTable, SamplingTable, lens_evidence, traced_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
@@ -91,7 +91,7 @@ pub struct ConnectionView {
     list: &'static MaterialRows,
     far: Option<&'static TransmissiveRows>,
     points: Option<&'static JoinPoints>,
-    rays: &'static mut LightRays,
+    rays: &'static mut ShadowRays,
 }
 
 // ANCHOR: connect_to_camera
@@ -126,6 +126,6 @@ pub fn camera_join_stage() -> Stage {
         .on_light_paths()
         .kind(StageKind::Alternative)
         .reads_where::<JoinPoints>(lens_evidence)
-        .appends::<LightRays>()
+        .appends::<ShadowRays>()
         .when(traced_evidence)
 }

@@ -1,7 +1,7 @@
 //! One stage for each registered light without an area: a shadow ray from each surface to each of its lights, or to one
 //! chosen of many.
 
-use super::LightRays;
+use super::ShadowRays;
 use super::light::{ShadowRay, cosine_of, shadow_t_max};
 use super::receivers::{LightRay, LightRows, MakesRays, RayLists, append_rays, append_sampled, is_apart};
 use super::view::{LightSamplingView, LightSamplingViewItem};
@@ -99,7 +99,7 @@ fn sample_rows<L: Light>(receivers: &LightRows<'_>, light: &L, casts_shadows: bo
 /// The stage that runs [`sample_lights`].
 pub fn light_sampling_stage<L: ListedLight>() -> Stage {
     Stage::new(L::NAMES.sample, TileSystems::SampleLights, sample_lights::<L>)
-        .appends::<LightRays>()
+        .appends::<ShadowRays>()
         .table_where::<SamplingTable>(many_lights_evidence::<L>)
         .when(|scene| unless_occlusion(scene, lights_evidence::<L>(scene).and(|| material_evidence(scene))))
 }

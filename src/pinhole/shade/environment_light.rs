@@ -1,7 +1,7 @@
 use super::light::{ShadowRay, cosine_of};
 use super::receivers::{LightRay, LightRows, append_sampled};
 use super::view::{LightSamplingView, LightSamplingViewItem};
-use super::{LightRays, environment_radiance, equirectangular, irradiance_from_area};
+use super::{ShadowRays, environment_radiance, equirectangular, irradiance_from_area};
 use crate::extract::{
     EnvironmentLightTable, EnvironmentTable, SamplingTable, environment_light_evidence, light_sampling_evidence,
     material_evidence,
@@ -94,7 +94,7 @@ pub fn sample_environment(
 pub fn environment_light_stage() -> Stage {
     Stage::new("Sample the environment", TileSystems::SampleLights, sample_environment)
         .kind(StageKind::Alternative)
-        .appends::<LightRays>()
+        .appends::<ShadowRays>()
         .when(|scene| {
             environment_light_evidence(scene).and(|| light_sampling_evidence(scene)).and(|| material_evidence(scene))
         })

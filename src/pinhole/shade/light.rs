@@ -12,9 +12,9 @@ use glam::{DVec3, Vec3};
 column! {
     /// Shadow rays from surfaces to the lights that they face, light after light, with the irradiance that each carries
     /// if it is not blocked.
-    pub struct LightRays("light", "world, from the eye", "scene units", Ray, begun in Start) {
+    pub struct ShadowRays("shadow ray", "world, from the eye", "scene units", Ray, begun in Start) {
         /// The row of the tile whose surface it starts on.
-        path: u32,
+        row: u32,
         /// Origin, x: offset from the surface by its error bound.
         ox: f32,
         /// Origin, y.
@@ -39,10 +39,10 @@ column! {
 }
 
 column! {
-    /// The pdf of each shadow ray, row by row as in [`LightRays`]; exists where something reads it.
+    /// The pdf of each shadow ray, row by row as in [`ShadowRays`]; exists where something reads it.
     pub struct LightPdfs("light pdf", "directions", "1/sr", Ray) {
         /// The row of the tile whose surface the shadow ray starts on.
-        path: u32,
+        row: u32,
         /// In 1/sr, including the probability of choosing that light; 0 for a light without an area, which BSDF
         /// sampling cannot find.
         pdf: f64,
@@ -56,9 +56,9 @@ impl LightPdfs {
     }
 }
 
-ray_vectors!(LightRays);
+ray_vectors!(ShadowRays);
 
-impl LightRays {
+impl ShadowRays {
     /// The direction, each component mapped from [−1, 1] to [0, 1].
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
@@ -78,13 +78,13 @@ impl LightRays {
     }
 }
 
-impl RayColumn for LightRays {
+impl RayColumn for ShadowRays {
     fn ray_components(&self) -> RaySlices<'_> {
         RaySlices { origin: [&self.ox, &self.oy, &self.oz], direction: [&self.dx, &self.dy, &self.dz] }
     }
 
     fn path_component(&self) -> Option<&[u32]> {
-        Some(&self.path)
+        Some(&self.row)
     }
 }
 
@@ -120,7 +120,7 @@ pub fn light_distance(t_max: f32) -> f64 {
 }
 
 /// Clears every tile's list of shadow rays.
-pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightPdfs>)>) {
+pub fn start_shadow_rays(mut tiles: Query<(&mut ShadowRays, Option<&mut LightPdfs>)>) {
     for (mut rays, pdfs) in &mut tiles {
         rays.clear();
         if let Some(mut pdfs) = pdfs {
@@ -130,8 +130,8 @@ pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightPdfs>)>) {
 }
 
 /// The stage that clears the list.
-pub fn start_light_stage() -> Stage {
-    Stage::new("Clear light rays", TileSystems::Start, start_light)
+pub fn start_shadow_rays_stage() -> Stage {
+    Stage::new("Clear shadow rays", TileSystems::Start, start_shadow_rays)
         .when(|scene| either(lit_evidence(scene), occlusion_evidence(scene)))
 }
 

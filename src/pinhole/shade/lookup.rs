@@ -89,7 +89,7 @@ pub fn trilinear(pyramid: &Pyramid, at: DVec2, width: f64, wrap: [WrapMode; 2]) 
 }
 
 /// The greatest number of lookups for a long footprint.
-const MOST_LOOKUPS: f64 = 16.0;
+const MAX_LOOKUPS: f64 = 16.0;
 
 // ANCHOR: image_mean
 /// An approximation of the mean of an image over a pixel's footprint (anisotropic filtering).
@@ -107,7 +107,7 @@ pub fn image_mean(pyramid: &Pyramid, at: &TexturePoint, wrap: [WrapMode; 2]) -> 
     }
     // Two offsets in the same direction cover less than their lengths suggest: the area of their parallelogram counts.
     let across = if length > 0.0 { long.perp_dot(short).abs() / length } else { 0.0 };
-    let lookups = (length / across.max(1.0)).ceil().clamp(1.0, MOST_LOOKUPS);
+    let lookups = (length / across.max(1.0)).ceil().clamp(1.0, MAX_LOOKUPS);
     let width = across.max(length / lookups);
     let mut sum: Option<([f64; 3], [f64; 3])> = None;
     for number in 0..lookups as usize {

@@ -2,7 +2,7 @@
 //!
 //! Reads: [`Hits`](crate::intersect::Hits), [`Surfaces`](crate::intersect::Surfaces), the tables of materials and
 //! lights.
-//! Writes: [`LightRays`] towards lights, [`ShadowHits`] along them, [`Radiance`] in linear Rec. 709.
+//! Writes: [`ShadowRays`] towards lights, [`ShadowHits`] along them, [`Radiance`] in linear Rec. 709.
 //! Space: render space.
 //!
 //! ```
@@ -83,7 +83,8 @@ pub use image_mask::{image_mask_stage, image_mask_stages, mask_image};
 pub use image_texture::{evaluate_images, image_stage};
 #[doc(hidden)]
 pub use light::{
-    LightPdfs, LightRays, light_distance, light_evidence, lit_evidence, shadow_t_max, start_light, start_light_stage,
+    LightPdfs, ShadowRays, light_distance, light_evidence, lit_evidence, shadow_t_max, start_shadow_rays,
+    start_shadow_rays_stage,
 };
 #[doc(hidden)]
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};

@@ -1,7 +1,7 @@
 //! Rays and surfaces that are not opaque everywhere: where they are, they are hit; elsewhere rays go on.
 
 use super::material_maps::looked_up;
-use super::{LightRays, ShadowHits, shadow_evidence};
+use super::{ShadowHits, ShadowRays, shadow_evidence};
 use crate::extract::TexturePoint;
 use crate::extract::{Coverage, NO_TEXTURE, NonOpaqueTable, SamplingTable, non_opaque_evidence};
 use crate::intersect::{HitColumn, HitPrimitives, Hits, NO_SHAPE, RayColumn};
@@ -125,7 +125,7 @@ pub fn non_opaque_stage() -> Stage {
 
 /// The stage that intersects shadow rays.
 pub fn non_opaque_shadow_stage() -> Stage {
-    let intersect = intersect_non_opaque::<LightRays, ShadowHits>;
+    let intersect = intersect_non_opaque::<ShadowRays, ShadowHits>;
     Stage::new("Trace shadow rays: non-opaque shapes", TileSystems::TraceShadowRays, intersect)
         .when(|scene| non_opaque_evidence(scene).and(|| shadow_evidence(scene)))
 }

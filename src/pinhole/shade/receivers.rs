@@ -1,7 +1,7 @@
 //! The surfaces for which lights are sampled, and the shadow rays that are appended for them.
 
 use super::light::ShadowRay;
-use super::{LightPdfs, LightRays, TransmissiveRows};
+use super::{LightPdfs, ShadowRays, TransmissiveRows};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces};
 use crate::plan::Column;
 use glam::{DVec3, Vec3};
@@ -50,7 +50,7 @@ impl<'a> LightRows<'a> {
 }
 
 /// The columns that shadow rays are appended to.
-pub(super) type RayLists<'a> = (&'a mut LightRays, Option<&'a mut LightPdfs>);
+pub(super) type RayLists<'a> = (&'a mut ShadowRays, Option<&'a mut LightPdfs>);
 
 /// What makes shadow rays.
 ///
@@ -80,7 +80,7 @@ pub(super) fn append_rays(
     }
     if let Some(pdfs) = pdfs {
         let (path, _) = pdfs.slices_mut(rays.rows());
-        path.copy_from_slice(&rays.path);
+        path.copy_from_slice(&rays.row);
     }
 }
 
@@ -136,7 +136,7 @@ struct SurfaceBlock {
     normal: [[f64; AT_ONCE]; 3],
 }
 
-/// Their shadow rays: the components in the order of [`LightRays`], and 1 for each that carries light.
+/// Their shadow rays: the components in the order of [`ShadowRays`], and 1 for each that carries light.
 struct LightRayBlock {
     components: [[f32; AT_ONCE]; 10],
     counts: [u32; AT_ONCE],
@@ -175,7 +175,7 @@ impl SurfaceBlock {
 impl LightRayBlock {
     #[inline(always)]
     fn set(&mut self, lane: usize, LightRay { ray, t_max, irradiance }: &LightRay) {
-        let [r, g, b] = irradiance.map(|part| if part < MOST { part as f32 } else { f32::MAX });
+        let [r, g, b] = irradiance.map(|part| if part < MAX { part as f32 } else { f32::MAX });
         let (origin, direction) = (ray.origin, ray.direction);
         let all = [origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, *t_max, r, g, b];
         for component in 0..10 {
@@ -196,7 +196,13 @@ fn make(light: &impl MakesRays, block: &SurfaceBlock, made: &mut LightRayBlock) 
 
 /// Appends the rays of all rows that carry light.
 #[inline(always)]
-fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, light: &impl MakesRays, receivers: &impl Receivers) {
+fn append(
+    rows: &[u32],
+    rays: &mut ShadowRays,
+    casts_shadows: bool,
+    light: &impl MakesRays,
+    receivers: &impl Receivers,
+) {
     let (mut block, mut made) =
         (SurfaceBlock::NONE, LightRayBlock { components: [[0.0; AT_ONCE]; 10], counts: [0; AT_ONCE] });
     let mut path = [0; AT_ONCE];
@@ -221,8 +227,8 @@ fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, light: &impl 
         if !casts_shadows {
             made.components[T_MAX] = [0.0; AT_ONCE];
         }
-        rays.path.extend_from_slice(&path[..count]);
-        let LightRays { ox, oy, oz, dx, dy, dz, t_max, r, g, b, .. } = rays;
+        rays.row.extend_from_slice(&path[..count]);
+        let ShadowRays { ox, oy, oz, dx, dy, dz, t_max, r, g, b, .. } = rays;
         for (column, component) in [ox, oy, oz, dx, dy, dz, t_max, r, g, b].into_iter().zip(&made.components) {
             column.extend_from_slice(&component[..count]);
         }
@@ -253,9 +259,9 @@ pub(super) fn append_sampled(
 #[inline(always)]
 fn append_sampled_rows(rows: &[u32], (rays, mut pdfs): RayLists<'_>, ray_of: impl Fn(usize) -> (LightRay, f64)) {
     let length = rays.rows();
-    let most = length + rows.len();
-    let (path, ox, oy, oz, dx, dy, dz, t_max, r, g, b) = rays.slices_mut(most);
-    let mut pdf_columns = pdfs.as_deref_mut().map(|pdfs| pdfs.slices_mut(most));
+    let max = length + rows.len();
+    let (path, ox, oy, oz, dx, dy, dz, t_max, r, g, b) = rays.slices_mut(max);
+    let mut pdf_columns = pdfs.as_deref_mut().map(|pdfs| pdfs.slices_mut(max));
     let mut at = length;
     for &row in rows {
         let (light_ray, pdf) = ray_of(row as usize);
@@ -263,7 +269,7 @@ fn append_sampled_rows(rows: &[u32], (rays, mut pdfs): RayLists<'_>, ray_of: imp
         (ox[at], oy[at], oz[at]) = light_ray.ray.origin.into();
         (dx[at], dy[at], dz[at]) = light_ray.ray.direction.into();
         t_max[at] = light_ray.t_max;
-        [r[at], g[at], b[at]] = light_ray.irradiance.map(|part| part.min(MOST) as f32);
+        [r[at], g[at], b[at]] = light_ray.irradiance.map(|part| part.min(MAX) as f32);
         if let Some(columns) = &mut pdf_columns {
             (columns.0[at], columns.1[at]) = (row, pdf);
         }
@@ -276,4 +282,4 @@ fn append_sampled_rows(rows: &[u32], (rays, mut pdfs): RayLists<'_>, ray_of: imp
 }
 
 /// The greatest irradiance of a ray: more than f32 can represent is clamped.
-const MOST: f64 = f32::MAX as f64;
+const MAX: f64 = f32::MAX as f64;

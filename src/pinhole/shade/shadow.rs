@@ -1,4 +1,4 @@
-use super::LightRays;
+use super::ShadowRays;
 use super::light::{either, or_light};
 use crate::extract::{
     HierarchyOf, delta_light_evidence, hierarchy_evidence, kind_evidence, light_kinds, material_evidence,
@@ -11,13 +11,13 @@ use bevy_ecs::prelude::*;
 
 column! {
     /// The shape, if any, that blocks each shadow ray.
-    pub struct ShadowHits("shadow", "along the light ray", "scene units", Ray, begun in ClearShadows) {
+    pub struct ShadowHits("shadow hit", "along the shadow ray", "scene units", Ray, begun in ClearShadows) {
         /// The distance to the blocking shape, or the shadow ray's t_max where it is not blocked.
         t: f64,
         /// The number of the blocking shape; none where the light is visible.
         shape: u32,
         /// The row of the tile whose surface the shadow ray starts on.
-        path: u32,
+        row: u32,
     }
 }
 
@@ -36,14 +36,14 @@ impl HitColumn for ShadowHits {
 }
 
 /// Sets every shadow ray to unblocked up to its t_max.
-pub fn start_shadows(mut tiles: Query<(&LightRays, &mut ShadowHits)>) {
+pub fn start_shadows(mut tiles: Query<(&ShadowRays, &mut ShadowHits)>) {
     for (rays, mut hits) in &mut tiles {
         let (t, shape, path) = hits.slices_mut(rays.rows());
         for (t, &t_max) in t.iter_mut().zip(&rays.t_max) {
             *t = f64::from(t_max);
         }
         shape.fill(NO_SHAPE);
-        path.copy_from_slice(&rays.path);
+        path.copy_from_slice(&rays.row);
     }
 }
 
@@ -55,7 +55,7 @@ pub fn start_shadow_stage() -> Stage {
 // ANCHOR: shape_shadow_stage
 /// The stage that intersects shadow rays with one kind of shape.
 pub fn shape_shadow_stage<S: Listed>() -> Stage {
-    let intersect = intersect_shapes::<S, LightRays, ShadowHits>;
+    let intersect = intersect_shapes::<S, ShadowRays, ShadowHits>;
     Stage::new(S::NAMES.shadow, TileSystems::TraceShadowRays, intersect)
         .table_where::<HierarchyOf<S>>(hierarchy_evidence::<S>)
         .when(|scene| kind_evidence::<S>(scene).and(|| shadow_evidence(scene)))
@@ -78,7 +78,7 @@ pub fn shape_shadow_stages() -> Vec<(bool, fn() -> Stage)> {
     struct Collected(Vec<(bool, fn() -> Stage)>);
     impl ShapeVisitor for Collected {
         fn visit<S: Listed>(&mut self) {
-            self.0.push((S::UNEVEN == Some(true), shape_shadow_stage::<S>));
+            self.0.push((S::NON_UNIFORM == Some(true), shape_shadow_stage::<S>));
         }
     }
     let mut collected = Collected(Vec::new());
@@ -88,7 +88,7 @@ pub fn shape_shadow_stages() -> Vec<(bool, fn() -> Stage)> {
 
 /// The stage that intersects shadow rays with moving shapes, each at the time of the ray that hit the surface.
 pub fn moving_shadow_stage() -> Stage {
-    let intersect = intersect_moving::<LightRays, ShadowHits>;
+    let intersect = intersect_moving::<ShadowRays, ShadowHits>;
     Stage::new("Trace shadow rays: moving shapes", TileSystems::TraceShadowRays, intersect)
         .when(|scene| moving_evidence(scene).and(|| shadow_evidence(scene)))
 }

@@ -6,7 +6,7 @@ use crate::extract::{MeshTable, MovingTable, ShapeTable, TintTable, tint_evidenc
 use crate::intersect::{HitPrimitives, Hits, MaterialRows, Surfaces, at_rest};
 use crate::plan::{Shared, Stage, TileSystems};
 use crate::rays::{RayTimes, WorldRays};
-use crate::shapes::{Body, PlacedMesh, RayHit, ShapeKind};
+use crate::shapes::{AnyShape, PlacedMesh, RayHit, ShapeKind};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use bevy_ecs::system::SystemParam;
@@ -40,7 +40,7 @@ impl ColouredMeshes<'_> {
         let (origin, own) = (hit.rays.origin_of(row), shapes.row[shape] as usize);
         let (mesh, origin): (&PlacedMesh, _) = match (shapes.kind[shape], &self.moving, hit.times) {
             (ShapeKind::Moving, Some(moving), Some(times)) => match &moving.body[own] {
-                Body::Mesh(mesh, ()) => (mesh, at_rest(origin, moving.velocity[own], times.time[row])),
+                AnyShape::Mesh(mesh, ()) => (mesh, at_rest(origin, moving.velocity[own], times.time[row])),
                 _ => return None,
             },
             (ShapeKind::Mesh, ..) => (&self.meshes.as_ref()?.row[own], origin),

@@ -1,4 +1,4 @@
-use super::{LightPdfs, LightRays, Radiance, ShadowHits, TransmissiveRows};
+use super::{LightPdfs, Radiance, ShadowHits, ShadowRays, TransmissiveRows};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::rays::WorldRays;
 use bevy_ecs::query::QueryData;
@@ -16,7 +16,7 @@ pub struct LightSamplingView {
     /// Those that are lit from behind as well.
     pub far: Option<&'static TransmissiveRows>,
     /// Shadow rays, with the irradiance that each brings.
-    pub rays: &'static mut LightRays,
+    pub rays: &'static mut ShadowRays,
     /// The probabilities with which they were sampled, where something reads them.
     pub pdfs: Option<&'static mut LightPdfs>,
 }
@@ -32,7 +32,7 @@ pub struct ReflectionView {
     /// Their shading normals, where they have any.
     pub shading: Option<&'static ShadingNormals>,
     /// Shadow rays, with the irradiance that each brings.
-    pub light: &'static LightRays,
+    pub light: &'static ShadowRays,
     /// What they hit; none where nothing casts a shadow.
     pub shadow: Option<&'static ShadowHits>,
     /// The sum.

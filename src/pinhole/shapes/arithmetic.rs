@@ -116,9 +116,9 @@ impl Div for Bounded {
     /// |a/b − a′/b′| ≤ (e_a + |a/b| e_b) / (|b| − e_b); infinite where b may be 0.
     #[inline(always)]
     fn div(self, other: Self) -> Self {
-        let (quotient, least) = (self.value / other.value, other.value.abs() - other.error);
-        let error = (self.error + quotient.abs() * GROWN * other.error) / least * GROWN;
-        Self::rounded(quotient, if least > 0.0 { error } else { f64::INFINITY })
+        let (quotient, min) = (self.value / other.value, other.value.abs() - other.error);
+        let error = (self.error + quotient.abs() * GROWN * other.error) / min * GROWN;
+        Self::rounded(quotient, if min > 0.0 { error } else { f64::INFINITY })
     }
 }
 

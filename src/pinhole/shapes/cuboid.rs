@@ -64,10 +64,10 @@ impl SceneShape for Cuboid {
 
 impl Shape for Slabs {
     type Component = Cuboid;
-    type Beside = ();
+    type SurfaceData = ();
     type Emitter = EmittingCuboid;
 
-    const MANY: usize = 64;
+    const HIERARCHY_FROM: usize = 64;
 
     fn has_inside(_: &Cuboid) -> bool {
         true
@@ -172,7 +172,7 @@ fn slab(f: DVec3, direction: DVec3, normal: DVec3, half: f64) -> [Interval; 2] {
     let unsure = if along { in_a_face } else { relative.is_nan() | (relative >= 0.25) };
     let error = |t: f64| if along { 0.0 } else { 2.0 * (lost / speed + relative * t.abs()) };
     let bounds = |t: f64| {
-        if unsure { Interval { t, least: f64::NEG_INFINITY, most: f64::INFINITY } } else { Interval::new(t, error(t)) }
+        if unsure { Interval { t, min: f64::NEG_INFINITY, max: f64::INFINITY } } else { Interval::new(t, error(t)) }
     };
     [bounds(near), bounds(far)]
 }
@@ -189,12 +189,12 @@ pub fn cuboid_intersection(origin: DVec3, direction: DVec3, slabs: &Slabs) -> In
     let enters = near_x.max(near_y).max(near_z);
     let leaves = far_x.min(far_y).min(far_z);
 
-    let surely_not = (enters.least > leaves.most) | (leaves.most < 0.0);
-    let surely_inside = enters.most <= leaves.least;
-    let from_outside = enters.least > 0.0;
-    let from_inside = (enters.most < 0.0) & (leaves.least > 0.0);
+    let surely_not = (enters.min > leaves.max) | (leaves.max < 0.0);
+    let surely_inside = enters.max <= leaves.min;
+    let from_outside = enters.min > 0.0;
+    let from_inside = (enters.max < 0.0) & (leaves.min > 0.0);
     let (t, open) =
-        if from_outside { (enters.t, enters.most - enters.least) } else { (leaves.t, leaves.most - leaves.least) };
+        if from_outside { (enters.t, enters.max - enters.min) } else { (leaves.t, leaves.max - leaves.min) };
     let sure = surely_inside & (from_outside | from_inside) & (open <= SMALL * t);
     Intersection { t: if surely_not { f64::INFINITY } else { t }, uncertain: !surely_not & !sure }
 }
@@ -213,12 +213,12 @@ pub fn cuboid_face(origin: DVec3, direction: DVec3, slabs: &Slabs) -> usize {
     let f = slabs.centre - origin;
     let along = |axis: usize| slab(f, direction, slabs.normal[axis], slabs.half[axis]);
     let all = [along(0), along(1), along(2)];
-    let from_outside = all.iter().any(|[near, _]| near.least > 0.0);
-    let from_inside = all.iter().all(|[near, _]| near.most < 0.0);
+    let from_outside = all.iter().any(|[near, _]| near.min > 0.0);
+    let from_inside = all.iter().all(|[near, _]| near.max < 0.0);
     let is_first = |axis: usize| {
         let before = |other: usize| match (from_outside, from_inside) {
-            (true, _) => all[axis][0].least > all[other][0].most,
-            (_, true) => all[axis][1].most < all[other][1].least,
+            (true, _) => all[axis][0].min > all[other][0].max,
+            (_, true) => all[axis][1].max < all[other][1].min,
             _ => false,
         };
         before((axis + 1) % 3) && before((axis + 2) % 3)

@@ -27,10 +27,10 @@ impl SceneShape for Disk {
 
 impl Shape for PlacedDisk {
     type Component = Disk;
-    type Beside = ();
+    type SurfaceData = ();
     type Emitter = EmittingDisk;
 
-    const MANY: usize = 24;
+    const HIERARCHY_FROM: usize = 24;
 
     fn has_inside(_: &Disk) -> bool {
         false

@@ -43,8 +43,8 @@ pub fn double_double_disk_t(origin: DVec3, direction: DVec3, planar: &Planar) ->
 #[inline(never)]
 pub fn double_double_rectangle_t(origin: DVec3, direction: DVec3, planar: &Planar) -> f64 {
     let crossing = DoubleDoubleCrossing::of(origin, direction, planar);
-    let most = magnitude(crossing.approach);
-    crossing.t_if(crossing.at.iter().all(|&coordinate| add(magnitude(coordinate), negated(most)).0 <= 0.0))
+    let max = magnitude(crossing.approach);
+    crossing.t_if(crossing.at.iter().all(|&coordinate| add(magnitude(coordinate), negated(max)).0 <= 0.0))
 }
 
 /// A t as a quotient with positive denominator, and the axis of the face there.

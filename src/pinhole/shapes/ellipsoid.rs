@@ -41,11 +41,11 @@ impl Ellipsoid {
 
 impl Shape for Ellipsoid {
     type Component = Sphere;
-    type Beside = ();
+    type SurfaceData = ();
     type Emitter = NeverSampled;
 
     const NOUN: &'static str = "unevenly scaled sphere";
-    const UNEVEN: Option<bool> = Some(true);
+    const NON_UNIFORM: Option<bool> = Some(true);
 
     fn has_inside(_: &Sphere) -> bool {
         true

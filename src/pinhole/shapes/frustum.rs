@@ -75,8 +75,8 @@ impl Frustum {
         let (r, change) = (N::from(self.profile[0]) + slope * y, slope * v);
         let [c0, c1, c2] = [x * x + z * z - r * r, x * u + z * w - r * change, u * u + w * w - change * change];
         let longest = N::from(UnitRay::<N>::LONGEST);
-        let most = longest * (c1.abs() + c1.abs() + longest * c2.abs());
-        if !(c0.abs() - most).is_surely_positive() {
+        let max = longest * (c1.abs() + c1.abs() + longest * c2.abs());
+        if !(c0.abs() - max).is_surely_positive() {
             let discriminant = c1 * c1 - c2 * c0;
             if discriminant.sign()? >= 0 {
                 let root = discriminant.root();
@@ -121,15 +121,15 @@ impl Frustum {
     /// Moves a hit from inside along the part that it is on, if it is closer than two bounds to another part.
     ///
     /// `other` is that part's normal in unit space, and the distance to it; `away` points along the hit's own part and
-    /// away from the other, and `most` is the distance to the middle in that direction.
+    /// away from the other, and `max` is the distance to the middle in that direction.
     #[inline(always)]
-    fn inward(&self, surface: SurfacePoint, other: (DVec3, f64), (away, most): (DVec3, f64)) -> SurfacePoint {
+    fn inward(&self, surface: SurfacePoint, other: (DVec3, f64), (away, max): (DVec3, f64)) -> SurfacePoint {
         let steps = (self.space.unit_from_world.transpose() * other.0).length();
         let lacking = 2.0 * f64::from(surface.bound) * steps - other.1;
         if surface.outside || !self.capped || !(lacking > 0.0) {
             return surface;
         }
-        let moved = self.space.world_from_unit * (away * lacking.min(most));
+        let moved = self.space.world_from_unit * (away * lacking.min(max));
         SurfacePoint { point: surface.point + moved, ..surface }
     }
 

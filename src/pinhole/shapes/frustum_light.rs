@@ -1,4 +1,4 @@
-use super::emitter::{Emitting, LeavingSpot, LightPoint, pdf_from_area};
+use super::emitter::{AreaSample, Emitting, LightPoint, pdf_from_area};
 use super::frustum::Frustum;
 use super::offset::l1_norm;
 use glam::DVec3;
@@ -145,9 +145,9 @@ impl Emitting for EmittingFrustum {
         if intersection.uncertain { self.frustum.precise_t(from, direction) } else { intersection.t }
     }
 
-    fn spot(&self, u: [f64; 2]) -> LeavingSpot {
+    fn spot(&self, u: [f64; 2]) -> AreaSample {
         let (position, normal, area) = self.sample(&self.whole(), u);
         let size = l1_norm(self.frustum.space.centre) + self.frustum.space.culling_sphere().1;
-        LeavingSpot { position, normal, area, size }
+        AreaSample { position, normal, area, size }
     }
 }

@@ -9,7 +9,7 @@ const LEAF: usize = 4;
 
 /// The hierarchy over shapes of one kind; none where one of them is infinite.
 pub fn hierarchy_of<S: Shape>(shapes: &[S]) -> Option<Bvh> {
-    let around = |shape: &S| shape.bounds().map(|bounds| BoundingBox::around(bounds.least, bounds.most));
+    let around = |shape: &S| shape.bounds().map(|bounds| BoundingBox::around(bounds.min, bounds.max));
     let boxes: Option<Vec<BoundingBox>> = shapes.iter().map(around).collect();
     Some(Bvh::build::<LEAF>(&boxes?))
 }

@@ -137,12 +137,12 @@ impl PlacedMesh {
 
 impl Shape for PlacedMesh {
     type Component = MeshInstance;
-    type Beside = ();
+    type SurfaceData = ();
     type Emitter = EmittingTriangle;
 
     const HAS_PRIMITIVES: bool = true;
     const IS_TRIANGULAR: bool = true;
-    const MANY: usize = 6;
+    const HIERARCHY_FROM: usize = 6;
 
     fn has_inside(mesh: &MeshInstance) -> bool {
         is_closed(&mesh.geometry)
@@ -162,7 +162,7 @@ impl Shape for PlacedMesh {
         // What rounding in object space amounts to in render space.
         let stretch = norm(world_from_object) * norm(object_from_world);
         let size = stretch * (l1_norm(position) + norm(world_from_object) * size);
-        if !(size.is_finite() && bounds.least.is_finite() && bounds.most.is_finite()) {
+        if !(size.is_finite() && bounds.min.is_finite() && bounds.max.is_finite()) {
             return Err(SceneError::new(who, "placed size", number(size), "it must be finite"));
         }
         let (centre, radius) = bounds.sphere_around();
@@ -217,14 +217,14 @@ impl Shape for PlacedMesh {
     }
 
     /// Together where all of them are of one mesh.
-    fn fill_surfaces(meshes: &[Self], beside: &[()], hits: &mut HitBlock, count: usize) {
+    fn fill_surfaces(meshes: &[Self], surface_data: &[()], hits: &mut HitBlock, count: usize) {
         let is_one = hits.shape[..count].windows(2).all(|pair| pair[0] == pair[1]);
         if is_one {
             meshes[hits.shape[0] as usize].interpolate(hits, count);
         }
         for lane in 0..count {
             if !(is_one && hits.is_certain(lane)) {
-                Self::fill_surface(meshes, beside, hits, lane);
+                Self::fill_surface(meshes, surface_data, hits, lane);
             }
         }
     }
@@ -260,7 +260,7 @@ impl Shape for PlacedMesh {
     }
 
     /// The geometry and the hierarchy of each mesh, however many instances it has.
-    fn bytes_beside(meshes: &[Self]) -> usize {
+    fn bytes_of_surface_data(meshes: &[Self]) -> usize {
         let mut seen: Vec<(*const MeshHierarchy, usize)> = meshes
             .iter()
             .map(|mesh| (Arc::as_ptr(&mesh.hierarchy), mesh.geometry.bytes() + mesh.hierarchy.bytes()))

@@ -16,14 +16,14 @@ const CONE: f64 = 1.0 / 8.0;
 const SPREAD: f64 = 1.0 / 8.0;
 /// The least cos² between directions that are looked at closer: a little wider than the cone, which is one of object
 /// space.
-const LEAST_COS2: f32 = 0.9;
+const MIN_COS2: f32 = 0.9;
 
 /// The leaves after which a packet is given up: where triangles are smaller than what lies between rays, each leaf is
 /// entered by a ray or two, which get on faster apart.
-const MOST_LEAVES: usize = 2 * PACKET;
+const MAX_LEAVES: usize = 2 * PACKET;
 
 /// The nodes of which a number of 32 bits can hold one and a child of it.
-const MOST_NODES: usize = 1 << 29;
+const MAX_NODES: usize = 1 << 29;
 
 /// Whether the directions of a packet's rows are close enough to look at them closer.
 ///
@@ -32,12 +32,12 @@ const MOST_NODES: usize = 1 << 29;
 pub fn may_be_coherent(rays: RaySlices<'_>) -> bool {
     let [x, y, z] = rays.direction.map(|part| &part[..PACKET]);
     let (first_x, first_y, first_z) = (x[0], y[0], z[0]);
-    let least = LEAST_COS2 * (first_x * first_x + first_y * first_y + first_z * first_z);
+    let min = MIN_COS2 * (first_x * first_x + first_y * first_y + first_z * first_z);
     let mut close = true;
     for i in 0..PACKET {
         let cosine = x[i] * first_x + y[i] * first_y + z[i] * first_z;
         let length = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
-        close &= (cosine > 0.0) & (cosine * cosine >= least * length);
+        close &= (cosine > 0.0) & (cosine * cosine >= min * length);
     }
     close
 }
@@ -79,7 +79,7 @@ impl MeshPacket {
         let first = DVec3::from([0, 1, 2].map(|axis| self.direction[axis][0][0]));
         let z = longest_axis(first);
         self.axes = [(z + 1) % 3, (z + 2) % 3, z];
-        if !(all_near && self.signs_agree() && hierarchy.bvh.nodes.len() < MOST_NODES) {
+        if !(all_near && self.signs_agree() && hierarchy.bvh.nodes.len() < MAX_NODES) {
             return false;
         }
         self.set_shear(hierarchy.size);
@@ -202,7 +202,7 @@ impl MeshPacket {
                     ChildKind::Node(number) => at = number,
                     ChildKind::Leaf(leaf) => {
                         leaves += 1;
-                        if leaves > MOST_LEAVES {
+                        if leaves > MAX_LEAVES {
                             return false;
                         }
                         let mut tested = false;

@@ -110,7 +110,7 @@ pub(crate) use ray_block::{LANES, RayBlock, vector};
 pub use ray_hit::{HITS, HitBlock, RayHit, SurfacePoint};
 pub use rectangle::{PlacedRectangle, rectangle_intersection, rectangle_t};
 pub use registry::{
-    Body, CustomBody, Emitter, LeavingPoint, Listed, ShapeVisitor, custom_shape, distance_to, leaving_point,
+    AnyShape, CustomShape, Emitter, LeavingPoint, Listed, ShapeVisitor, custom_shape, distance_to, leaving_point,
     pdf_towards, point_on, shape_names, visit_shapes,
 };
 pub use shape::{Placed, SceneShape, Shape, ShapeNames};

@@ -36,10 +36,10 @@ pub struct PlacedFrustum<C> {
 // ANCHOR: frustum_shape
 impl<C: FrustumShape> Shape for PlacedFrustum<C> {
     type Component = C;
-    type Beside = ();
+    type SurfaceData = ();
     type Emitter = EmittingFrustum;
 
-    const MANY: usize = 48;
+    const HIERARCHY_FROM: usize = 48;
 
     fn has_inside(component: &C) -> bool {
         component.is_capped()

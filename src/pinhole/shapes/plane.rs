@@ -30,7 +30,7 @@ impl SceneShape for Plane {
 
 impl Shape for PlacedPlane {
     type Component = Plane;
-    type Beside = ();
+    type SurfaceData = ();
     type Emitter = NeverSampled;
 
     const IS_BOUNDED: bool = false;

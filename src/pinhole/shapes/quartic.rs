@@ -33,8 +33,8 @@ fn value<N: Arithmetic>(c: &[N; 5], at: f64) -> N {
 /// of the derivative cannot add up to its constant either, the quartic is monotonic and the signs at the ends decide;
 /// otherwise, its halves are searched, the first half first.
 /// A root is to be certain relative to its distance from a point this far `before` 0.
-pub(super) fn first_root<N: Arithmetic>(quartic: &[N; 5], least: f64, most: f64, before: f64) -> Option<Option<f64>> {
-    let (middle, half) = (0.5 * (least + most), 0.5 * (most - least));
+pub(super) fn first_root<N: Arithmetic>(quartic: &[N; 5], min: f64, max: f64, before: f64) -> Option<Option<f64>> {
+    let (middle, half) = (0.5 * (min + max), 0.5 * (max - min));
     let c = shifted(quartic, middle);
     let [w, ww] = [half, half * half].map(N::from);
     let (linear, square) = (c[1].abs() * w, c[2].abs() * ww);
@@ -44,17 +44,17 @@ pub(super) fn first_root<N: Arithmetic>(quartic: &[N; 5], least: f64, most: f64,
     }
     let twice = |n: N| n + n;
     if (linear - (twice(square + cube + twice(fourth)) + cube)).is_surely_positive() {
-        let [sign, end] = [value(quartic, least).sign()?, value(quartic, most).sign()?];
+        let [sign, end] = [value(quartic, min).sign()?, value(quartic, max).sign()?];
         if sign * end > 0 || sign == 0 {
             return Some(None);
         }
-        return refined(quartic, [least, most], end > 0, before).map(Some);
+        return refined(quartic, [min, max], end > 0, before).map(Some);
     }
     if half < if N::IS_LAST { NARROWEST } else { NARROW } {
         return N::IS_LAST.then_some(Some(middle));
     }
-    match first_root(quartic, least, middle, before)? {
-        None => first_root(quartic, middle, most, before),
+    match first_root(quartic, min, middle, before)? {
+        None => first_root(quartic, middle, max, before),
         found => Some(found),
     }
 }
@@ -63,17 +63,17 @@ pub(super) fn first_root<N: Arithmetic>(quartic: &[N; 5], least: f64, most: f64,
 /// it is uncertain.
 fn refined<N: Arithmetic>(c: &[N; 5], [first, last]: [f64; 2], rises: bool, before: f64) -> Option<f64> {
     const ROUNDS: u32 = 200;
-    let (mut least, mut most, mut at) = (first, last, 0.5 * (first + last));
+    let (mut min, mut max, mut at) = (first, last, 0.5 * (first + last));
     let [_, c1, c2, c3, c4] = c.map(N::value);
     for _ in 0..ROUNDS {
         let f = value(c, at).value();
         if (f > 0.0) == rises {
-            most = at;
+            max = at;
         } else {
-            least = at;
+            min = at;
         }
         let newton = at - f / (((4.0 * c4 * at + 3.0 * c3) * at + 2.0 * c2) * at + c1);
-        let next = if newton > least && newton < most { newton } else { 0.5 * (least + most) };
+        let next = if newton > min && newton < max { newton } else { 0.5 * (min + max) };
         let moved = (next - at).abs();
         at = next;
         if moved <= f64::EPSILON * at.abs() {

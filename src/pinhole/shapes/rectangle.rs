@@ -28,10 +28,10 @@ impl SceneShape for Rectangle {
 
 impl Shape for PlacedRectangle {
     type Component = Rectangle;
-    type Beside = ();
+    type SurfaceData = ();
     type Emitter = Parallelogram;
 
-    const MANY: usize = 24;
+    const HIERARCHY_FROM: usize = 24;
 
     fn has_inside(_: &Rectangle) -> bool {
         false

@@ -21,10 +21,10 @@ pub trait Listed: Shape {
     const NAMES: ShapeNames;
 
     /// The shape as one of any kind.
-    fn into_body(self, beside: Self::Beside) -> Body;
+    fn into_any_shape(self, surface_data: Self::SurfaceData) -> AnyShape;
 
     /// The shape as a light of any kind; none where it cannot be sampled.
-    fn listed_emitter(&self, beside: &Self::Beside) -> Option<Emitter>;
+    fn listed_emitter(&self, surface_data: &Self::SurfaceData) -> Option<Emitter>;
 }
 
 /// Something to be done once for each registered shape.
@@ -75,12 +75,12 @@ macro_rules! registry {
             const KIND: ShapeKind = ShapeKind::$kind;
             const NAMES: ShapeNames = shape_names!(concat!(stringify!($field), " rows"), $plural);
 
-            fn into_body(self, beside: Self::Beside) -> Body {
-                Body::$kind(self, beside)
+            fn into_any_shape(self, surface_data: Self::SurfaceData) -> AnyShape {
+                AnyShape::$kind(self, surface_data)
             }
 
-            fn listed_emitter(&self, beside: &Self::Beside) -> Option<Emitter> {
-                self.emitter(beside).map(Emitter::$kind)
+            fn listed_emitter(&self, surface_data: &Self::SurfaceData) -> Option<Emitter> {
+                self.emitter(surface_data).map(Emitter::$kind)
             }
         })+
 
@@ -92,13 +92,13 @@ macro_rules! registry {
         /// A shape of any kind, with what its surface needs.
         #[derive(Clone, Debug, PartialEq)]
         #[allow(clippy::large_enum_variant, reason = "few shapes move, and each is read where it stands")]
-        pub enum Body {
-            $(#[doc = concat!("One of the ", $plural, ".")] $kind($shape, <$shape as Shape>::Beside),)+
+        pub enum AnyShape {
+            $(#[doc = concat!("One of the ", $plural, ".")] $kind($shape, <$shape as Shape>::SurfaceData),)+
             /// A shape that a program adds.
-            Custom(CustomBody),
+            Custom(CustomShape),
         }
 
-        impl Body {
+        impl AnyShape {
             /// The smallest t > 0 at which O + tR intersects it, or infinity.
             pub fn t(&self, origin: DVec3, direction: DVec3) -> f64 {
                 match self {
@@ -141,7 +141,7 @@ macro_rules! registry {
             /// The surface where a ray hits it.
             pub fn surface(&self, hit: &RayHit) -> SurfacePoint {
                 match self {
-                    $(Self::$kind(shape, beside) => shape.surface(beside, hit),)+
+                    $(Self::$kind(shape, surface_data) => shape.surface(surface_data, hit),)+
                     Self::Custom(body) => body.0.surface(hit),
                 }
             }
@@ -149,7 +149,7 @@ macro_rules! registry {
             /// u and v where a ray hits it; `at` is what its surface has, `own` the hit in its uv space.
             pub fn uv(&self, hit: &RayHit, at: DVec3, own: DVec3) -> [f64; 2] {
                 match self {
-                    $(Self::$kind(shape, beside) => shape.uv(beside, hit, at, own),)+
+                    $(Self::$kind(shape, surface_data) => shape.uv(surface_data, hit, at, own),)+
                     Self::Custom(body) => body.0.uv(hit, at, own),
                 }
             }
@@ -252,11 +252,17 @@ macro_rules! custom_shape {
             const NAMES: $crate::shapes::ShapeNames =
                 $crate::shapes::shape_names!(concat!("rows of ", $plural), $plural);
 
-            fn into_body(self, beside: <Self as $crate::shapes::Shape>::Beside) -> $crate::shapes::Body {
-                $crate::shapes::Body::custom(self, beside)
+            fn into_any_shape(
+                self,
+                surface_data: <Self as $crate::shapes::Shape>::SurfaceData,
+            ) -> $crate::shapes::AnyShape {
+                $crate::shapes::AnyShape::custom(self, surface_data)
             }
 
-            fn listed_emitter(&self, _: &<Self as $crate::shapes::Shape>::Beside) -> Option<$crate::shapes::Emitter> {
+            fn listed_emitter(
+                &self,
+                _: &<Self as $crate::shapes::Shape>::SurfaceData,
+            ) -> Option<$crate::shapes::Emitter> {
                 None
             }
         }
@@ -266,23 +272,23 @@ pub use custom_shape;
 
 /// A shape that a program adds where a shape may be of any kind: that of a few shapes, each of which is tested alone.
 #[derive(Clone, Debug)]
-pub struct CustomBody(Arc<dyn AnyShape>);
+pub struct CustomShape(Arc<dyn ErasedShape>);
 
-impl PartialEq for CustomBody {
+impl PartialEq for CustomShape {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
 }
 
-impl Body {
+impl AnyShape {
     /// A shape that a program adds.
-    pub fn custom<S: Shape>(shape: S, beside: S::Beside) -> Self {
-        Self::Custom(CustomBody(Arc::new((shape, beside))))
+    pub fn custom<S: Shape>(shape: S, surface_data: S::SurfaceData) -> Self {
+        Self::Custom(CustomShape(Arc::new((shape, surface_data))))
     }
 }
 
-/// What is asked of [`Body`], of a shape without its type.
-trait AnyShape: Debug + Send + Sync {
+/// What is asked of [`AnyShape`], of a shape without its type.
+trait ErasedShape: Debug + Send + Sync {
     fn t(&self, origin: DVec3, direction: DVec3) -> f64;
     fn primitive_at(&self, origin: DVec3, direction: DVec3, t: f64) -> u32;
     fn keep_closest(&self, rays: &RayBlock, number: u32, hits: ClosestHits<'_>);
@@ -300,7 +306,7 @@ trait AnyShape: Debug + Send + Sync {
     fn bounds(&self) -> Option<Bounds>;
 }
 
-impl<S: Shape> AnyShape for (S, S::Beside) {
+impl<S: Shape> ErasedShape for (S, S::SurfaceData) {
     fn t(&self, origin: DVec3, direction: DVec3) -> f64 {
         self.0.t(origin, direction)
     }

@@ -51,7 +51,7 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// The component of the scene that it is made from.
     type Component: SceneShape;
     /// What its surface needs besides, kept apart from what intersection reads; often nothing.
-    type Beside: Clone + Debug + Default + PartialEq + Send + Sync + 'static;
+    type SurfaceData: Clone + Debug + Default + PartialEq + Send + Sync + 'static;
     /// The shape as a light that is sampled; [`NeverSampled`](super::emitter::NeverSampled) for shapes whose emission is found by
     /// BSDF sampling only.
     type Emitter: Emitting;
@@ -59,7 +59,7 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// What it is called where the plan counts the entities that need its stages.
     const NOUN: &'static str = Self::Component::WORD;
     /// For a component that has a shape of its own where the placement's scale is not uniform: whether this is that one.
-    const UNEVEN: Option<bool> = None;
+    const NON_UNIFORM: Option<bool> = None;
     /// Whether it has a bounding box.
     const IS_BOUNDED: bool = true;
     /// Whether it consists of several primitives, so that a hit has to say which.
@@ -74,7 +74,7 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     ///
     /// `cargo bench --bench curves` prints both times for rays of a camera and for random ones: this lies between the
     /// numbers from which on either gain.
-    const MANY: usize = 160;
+    const HIERARCHY_FROM: usize = 160;
 
     /// Whether it can be made of glass: it has an inside, alone or together with others.
     fn has_inside(component: &Self::Component) -> bool;
@@ -82,7 +82,7 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// The shape of a component and its placement.
     ///
     /// Errors: a number of the component, or of the placed shape, that is not accepted.
-    fn place(component: &Self::Component, placed: &Placed<'_>) -> Result<(Self, Self::Beside), SceneError>;
+    fn place(component: &Self::Component, placed: &Placed<'_>) -> Result<(Self, Self::SurfaceData), SceneError>;
 
     /// The smallest t > 0 at which O + tR intersects it, in f64, and whether rounding leaves that uncertain.
     fn intersection(&self, origin: DVec3, direction: DVec3) -> Intersection;
@@ -135,24 +135,24 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// The surface where a ray hits it.
-    fn surface(&self, beside: &Self::Beside, hit: &RayHit) -> SurfacePoint;
+    fn surface(&self, surface_data: &Self::SurfaceData, hit: &RayHit) -> SurfacePoint;
 
     /// The surface of one hit of a block, each of which is given with the row of its shape.
     #[inline(always)]
-    fn fill_surface(shapes: &[Self], beside: &[Self::Beside], hits: &mut HitBlock, lane: usize) {
+    fn fill_surface(shapes: &[Self], surface_data: &[Self::SurfaceData], hits: &mut HitBlock, lane: usize) {
         let (row, hit) = hits.hit(lane);
-        hits.set_surface(lane, &shapes[row as usize].surface(&beside[row as usize], &hit));
+        hits.set_surface(lane, &shapes[row as usize].surface(&surface_data[row as usize], &hit));
     }
 
     /// The surfaces of the first `count` hits; a shape that computes several together answers with the same bits.
     #[inline(always)]
-    fn fill_surfaces(shapes: &[Self], beside: &[Self::Beside], hits: &mut HitBlock, count: usize) {
-        (0..count).for_each(|lane| Self::fill_surface(shapes, beside, hits, lane));
+    fn fill_surfaces(shapes: &[Self], surface_data: &[Self::SurfaceData], hits: &mut HitBlock, count: usize) {
+        (0..count).for_each(|lane| Self::fill_surface(shapes, surface_data, hits, lane));
     }
 
     /// u and v where a ray hits it: at [`SurfacePoint::at`], and at `own` in its uv space, which is given where
     /// [`Self::HAS_UV_SPACE`] says so.
-    fn uv(&self, beside: &Self::Beside, hit: &RayHit, at: DVec3, own: DVec3) -> [f64; 2];
+    fn uv(&self, surface_data: &Self::SurfaceData, hit: &RayHit, at: DVec3, own: DVec3) -> [f64; 2];
 
     /// The linear map from world space to its uv space, which is its object space unless it says otherwise.
     fn uv_from_world(_component: &Self::Component, entity_from_world: DMat3) -> DMat3 {
@@ -160,10 +160,10 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// The gradients of u and v along it; `uv_from_world` is the linear map to its uv space.
-    fn uv_slope(&self, beside: &Self::Beside, uv_from_world: DMat3) -> UvSlope;
+    fn uv_slope(&self, surface_data: &Self::SurfaceData, uv_from_world: DMat3) -> UvSlope;
 
     /// The gradients of u and v along one of its primitives, where [`UvSlope::OfPrimitive`] says that each has its own.
-    fn uv_slope_of(&self, _beside: &Self::Beside, _primitive: u32) -> UvSlope {
+    fn uv_slope_of(&self, _beside: &Self::SurfaceData, _primitive: u32) -> UvSlope {
         UvSlope::Nowhere
     }
 
@@ -178,7 +178,7 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     fn bounds(&self) -> Option<Bounds>;
 
     /// The memory that these shapes take besides their rows, in bytes.
-    fn bytes_beside(_shapes: &[Self]) -> usize {
+    fn bytes_of_surface_data(_shapes: &[Self]) -> usize {
         0
     }
 
@@ -208,7 +208,7 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// The shape as a light that is sampled; none where it cannot be, or where each of its primitives is one.
-    fn emitter(&self, _beside: &Self::Beside) -> Option<Self::Emitter> {
+    fn emitter(&self, _beside: &Self::SurfaceData) -> Option<Self::Emitter> {
         None
     }
 }

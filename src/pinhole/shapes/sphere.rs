@@ -1,6 +1,6 @@
 use super::bounds::Bounds;
 use super::double_double::double_double_sphere_t;
-use super::emitter::{Emitting, LeavingSpot, LightPoint, sphere_direction, sphere_distance, sphere_pdf, sphere_point};
+use super::emitter::{AreaSample, Emitting, LightPoint, sphere_direction, sphere_distance, sphere_pdf, sphere_point};
 use super::offset::l1_norm;
 use super::ray_block::{Intersection, UNIT_ROUNDOFF};
 use super::ray_hit::{RayHit, SurfacePoint};
@@ -31,10 +31,10 @@ impl SceneShape for Sphere {
 
 impl Shape for PlacedSphere {
     type Component = Sphere;
-    type Beside = ();
+    type SurfaceData = ();
     type Emitter = Self;
 
-    const UNEVEN: Option<bool> = Some(false);
+    const NON_UNIFORM: Option<bool> = Some(false);
     const HAS_UV_SPACE: bool = true;
 
     fn has_inside(_: &Sphere) -> bool {
@@ -133,10 +133,10 @@ impl Emitting for PlacedSphere {
     }
 
     #[inline(always)]
-    fn spot(&self, u: [f64; 2]) -> LeavingSpot {
+    fn spot(&self, u: [f64; 2]) -> AreaSample {
         let normal = sphere_direction(u);
         let size = l1_norm(self.centre) + self.radius;
-        LeavingSpot { position: self.centre + self.radius * normal, normal, area: self.area(), size }
+        AreaSample { position: self.centre + self.radius * normal, normal, area: self.area(), size }
     }
 }
 

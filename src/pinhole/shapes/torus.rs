@@ -42,10 +42,10 @@ impl SceneShape for Torus {
 
 impl Shape for PlacedTorus {
     type Component = Torus;
-    type Beside = ();
+    type SurfaceData = ();
     type Emitter = NeverSampled;
 
-    const MANY: usize = 16;
+    const HIERARCHY_FROM: usize = 16;
 
     fn has_inside(_: &Torus) -> bool {
         true
@@ -150,7 +150,7 @@ impl PlacedTorus {
     fn closest<N: Arithmetic>(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
         let Some(ray) = self.space.ray::<N>(origin, direction) else { return Some(f64::INFINITY) };
         let ([p, q], two) = ([ray.origin, ray.direction], N::from(2.0));
-        let Some([least, most]) = self.range(&ray) else { return Some(f64::INFINITY) };
+        let Some([min, max]) = self.range(&ray) else { return Some(f64::INFINITY) };
         let (a, b) = (N::from(self.major), N::from(self.minor));
         let (e, pq, qq) = (dot_of(p, p) + (a - b) * (a + b), dot_of(p, q), dot_of(q, q));
         let flat = |v: [N; 3], w: [N; 3]| two * a * (two * a) * (v[0] * w[0] + v[2] * w[2]);
@@ -161,7 +161,7 @@ impl PlacedTorus {
             two * two * pq * qq,
             qq * qq,
         ];
-        let Some(tau) = first_root(&quartic, least, most, ray.start / ray.unit)? else {
+        let Some(tau) = first_root(&quartic, min, max, ray.start / ray.unit)? else {
             return Some(f64::INFINITY);
         };
         let t = ray.t(N::from(tau)).value();
@@ -178,16 +178,16 @@ impl PlacedTorus {
         let middle = -p.dot(q);
         let half = (1.0 + SLACK + 4.0 * error - (p.dot(p) - middle * middle)).max(0.0).sqrt() + SLACK;
         let high = self.minor * (1.0 + SLACK) + 2.0 * error;
-        let (mut least, mut most) = (middle - half, middle + half);
+        let (mut min, mut max) = (middle - half, middle + half);
         if q.y.abs() > SLACK {
             let (at, around) = (-p.y / q.y, high / q.y.abs() + SLACK * self.minor);
-            (least, most) = (least.max(at - around), most.min(at + around));
+            (min, max) = (min.max(at - around), max.min(at + around));
         } else if p.y.abs() > high + q.y.abs() * UnitRay::<N>::LONGEST {
             return None;
         }
         if ray.start == 0.0 {
-            least = least.max(0.0);
+            min = min.max(0.0);
         }
-        (least < most).then_some([least, most])
+        (min < max).then_some([min, max])
     }
 }

@@ -14,7 +14,7 @@ use crate::scene::{SceneError, Triangle, finite_point, number, triple};
 use glam::{DMat3, DVec2, DVec3};
 
 /// A triangle whose least height is at most this fraction of its longest edge has lost its normal to rounding.
-const LEAST_HEIGHT: f64 = 1.0 / (1_u64 << 48) as f64;
+const MIN_HEIGHT: f64 = 1.0 / (1_u64 << 48) as f64;
 /// Coordinates below this, 2⁻²⁰⁰ scene units, count as 0, so that exact arithmetic has room below them.
 const SMALLEST_COORDINATE: f64 = f64::from_bits((1023 - 200) << 52);
 /// The texture coordinates of a triangle without any: b₁ and b₂.
@@ -65,7 +65,7 @@ impl SceneShape for Triangle {
 
 impl Shape for TriangleRow {
     type Component = Triangle;
-    type Beside = TriangleFace;
+    type SurfaceData = TriangleFace;
     type Emitter = EmittingTriangle;
 
     const IS_TRIANGULAR: bool = true;
@@ -133,7 +133,7 @@ impl Shape for TriangleRow {
 
     fn bounds(&self) -> Option<Bounds> {
         let [a, b, c] = self.corners;
-        Some(Bounds { least: a.min(b).min(c), most: a.max(b).max(c) })
+        Some(Bounds { min: a.min(b).min(c), max: a.max(b).max(c) })
     }
 
     fn emitter(&self, face: &TriangleFace) -> Option<EmittingTriangle> {
@@ -167,7 +167,7 @@ pub(super) fn placed_corners(
     let edges = [b - a, c - a, c - b];
     let longest = edges.map(|edge| edge.abs().max_element()).into_iter().fold(0.0, f64::max);
     let across = (edges[0] / longest).cross(edges[1] / longest);
-    if longest == 0.0 || across.length() <= LEAST_HEIGHT {
+    if longest == 0.0 || across.length() <= MIN_HEIGHT {
         let value = triangle.vertices.map(triple).join(", ");
         return Err(SceneError::new(who, "vertices", value, "the three corners must not lie on one line"));
     }

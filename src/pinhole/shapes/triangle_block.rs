@@ -160,14 +160,14 @@ fn vertex_of([x, y, z]: [&[f32; BLOCK]; 3], lane: usize) -> [f64; 3] {
 /// 1 unless two of the areas certainly have opposite signs, or the error is not finite; 0 or 1, for a mask of bytes.
 #[inline(always)]
 pub(super) fn may_be_hit([u, v, w]: [f64; 3], error: f64) -> u8 {
-    u8::from(((least(u, v, w) >= -error) | (most(u, v, w) <= error)) & (error < f64::INFINITY))
+    u8::from(((min(u, v, w) >= -error) | (max(u, v, w) <= error)) & (error < f64::INFINITY))
 }
 
 /// The t > 0 of a triangle that may be hit, or infinity; none where exact arithmetic has to say.
 #[inline(always)]
 pub(super) fn certain_t(([u, v, w], [az, bz, cz], error): EdgeValues, shear_z: f64) -> Option<f64> {
-    let (least, most) = (least(u, v, w), most(u, v, w));
-    let inside = (least > error) | (most < -error);
+    let (min, max) = (min(u, v, w), max(u, v, w));
+    let inside = (min > error) | (max < -error);
     let (whole, sum) = (u + v + w, u * az + v * bz + w * cz);
     let t = sum / whole * shear_z;
     let sum_error = 2.0 * error * (az.abs() + bz.abs() + cz.abs());
@@ -178,13 +178,13 @@ pub(super) fn certain_t(([u, v, w], [az, bz, cz], error): EdgeValues, shear_z: f
 
 /// The least of three numbers, by comparisons that compile to one instruction each.
 #[inline(always)]
-fn least(a: f64, b: f64, c: f64) -> f64 {
-    let least = if a < b { a } else { b };
-    if c < least { c } else { least }
+fn min(a: f64, b: f64, c: f64) -> f64 {
+    let min = if a < b { a } else { b };
+    if c < min { c } else { min }
 }
 
 #[inline(always)]
-fn most(a: f64, b: f64, c: f64) -> f64 {
-    let most = if a > b { a } else { b };
-    if c > most { c } else { most }
+fn max(a: f64, b: f64, c: f64) -> f64 {
+    let max = if a > b { a } else { b };
+    if c > max { c } else { max }
 }

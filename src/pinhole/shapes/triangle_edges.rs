@@ -99,9 +99,9 @@ pub fn intersection<const Z: usize>(
     ray_size: f64,
 ) -> Intersection {
     let Edges { areas: [u, v, w], depths: [az, bz, cz], error } = edges::<Z>(origin, shear, triangle, ray_size);
-    let (least, most) = (u.min(v).min(w), u.max(v).max(w));
-    let misses = (least < -error) & (most > error);
-    let inside = (least > error) | (most < -error);
+    let (min, max) = (u.min(v).min(w), u.max(v).max(w));
+    let misses = (min < -error) & (max > error);
+    let inside = (min > error) | (max < -error);
 
     let (whole, sum) = (u + v + w, u * az + v * bz + w * cz);
     let t = sum / whole * shear.z;

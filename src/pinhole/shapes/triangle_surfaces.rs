@@ -38,13 +38,13 @@ fn norm([x, y, z]: [f64; 3]) -> f64 {
 
 #[inline(always)]
 fn size_of_corners([a, b, c]: [[f64; 3]; 3]) -> f64 {
-    most(norm(a), most(norm(b), norm(c)))
+    max(norm(a), max(norm(b), norm(c)))
 }
 
 /// The largest magnitude of a component.
 #[inline(always)]
 fn largest(vector: DVec3) -> f64 {
-    most(vector.x.abs(), most(vector.y.abs(), vector.z.abs()))
+    max(vector.x.abs(), max(vector.y.abs(), vector.z.abs()))
 }
 
 #[inline(always)]
@@ -54,7 +54,7 @@ fn not_negative(number: f64) -> f64 {
 
 /// The greater of two numbers, in the one instruction that `f64::max` is not.
 #[inline(always)]
-fn most(one: f64, other: f64) -> f64 {
+fn max(one: f64, other: f64) -> f64 {
     if one > other { one } else { other }
 }
 

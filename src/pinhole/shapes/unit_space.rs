@@ -154,9 +154,9 @@ impl UnitSpace {
     pub fn bounds_of_ends(&self, radii: [f64; 2]) -> Bounds {
         let [x, y, z] = [0, 1, 2].map(|axis| self.world_from_unit.col(axis));
         let wide = DVec3::from([0, 1, 2].map(|axis| (x[axis] * x[axis] + z[axis] * z[axis]).sqrt()));
-        let least = (-y - wide * radii[0]).min(y - wide * radii[1]);
-        let most = (-y + wide * radii[0]).max(y + wide * radii[1]);
-        Bounds::about(self.centre + 0.5 * (least + most), 0.5 * (most - least))
+        let min = (-y - wide * radii[0]).min(y - wide * radii[1]);
+        let max = (-y + wide * radii[0]).max(y + wide * radii[1]);
+        Bounds::about(self.centre + 0.5 * (min + max), 0.5 * (max - min))
     }
 
     /// The lengths of the half axes in object space, whose linear map from world space this is: across and along y.

@@ -8,8 +8,8 @@ use crate::material::{BsdfClass, MaterialKind};
 use crate::{intersect, rasterise, rays, shade};
 
 /// The group of a shape's stages: those that only a non-uniform scale makes are offered with the transforms.
-fn group_of(group: Group, is_uneven: bool) -> Group {
-    if is_uneven { Transforms } else { group }
+fn group_of(group: Group, is_non_uniform: bool) -> Group {
+    if is_non_uniform { Transforms } else { group }
 }
 
 pub(super) fn image_plane_rays() -> Vec<Grouped> {
@@ -28,7 +28,7 @@ pub(super) fn image_masks() -> Vec<Grouped> {
 
 pub(super) fn intersections() -> Vec<Grouped> {
     let stages = intersect::shape_stages().into_iter();
-    stages.map(|(is_uneven, [stage, _])| (group_of(Intersection, is_uneven), stage)).collect()
+    stages.map(|(is_non_uniform, [stage, _])| (group_of(Intersection, is_non_uniform), stage)).collect()
 }
 
 pub(super) fn raster_boxes() -> Vec<Grouped> {
@@ -37,7 +37,7 @@ pub(super) fn raster_boxes() -> Vec<Grouped> {
 
 pub(super) fn surface_points() -> Vec<Grouped> {
     let stages = intersect::shape_stages().into_iter();
-    stages.map(|(is_uneven, [_, stage])| (group_of(Surfaces, is_uneven), stage)).collect()
+    stages.map(|(is_non_uniform, [_, stage])| (group_of(Surfaces, is_non_uniform), stage)).collect()
 }
 
 /// The stages that sample lights without a position, or those with one.
@@ -48,7 +48,7 @@ pub(super) fn light_samples(is_distant: bool) -> Vec<Grouped> {
 
 pub(super) fn shadow_rays() -> Vec<Grouped> {
     let stages = shade::shape_shadow_stages().into_iter();
-    stages.map(|(is_uneven, stage)| (group_of(Shadows, is_uneven), stage)).collect()
+    stages.map(|(is_non_uniform, stage)| (group_of(Shadows, is_non_uniform), stage)).collect()
 }
 
 /// The stages of all BSDFs for one purpose; specular BSDFs come before the others.

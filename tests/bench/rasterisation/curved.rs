@@ -20,7 +20,7 @@ const SIZES: [[u32; 2]; 2] = [[640, 360], [1920, 1080]];
 /// The greatest distances between the spheres and their triangles, in pixels.
 const ERRORS: [f64; 2] = [1.0 / 2.0, 1.0 / 256.0];
 /// More triangles than this are left out.
-const MOST: usize = 4_000_000;
+const MAX: usize = 4_000_000;
 /// How far the spheres are from the origin at most.
 const FARTHEST: f64 = 3.0;
 /// How far the eye is from the origin where it is close.
@@ -79,7 +79,7 @@ fn scene(method: Method, count: u32, view: View, [width, height]: [u32; 2]) -> O
     let pixels = f64::from(height) / (2.0 * libm::tan(Degrees(FOV).radians() / 2.0));
     let mesh = tessellated_sphere(error * nearest / pixels / radius);
     let triangles = mesh.triangles.len() * places.len();
-    if triangles > MOST {
+    if triangles > MAX {
         return None;
     }
     let geometry = MeshGeometry::new(mesh);
@@ -96,7 +96,7 @@ struct Frames {
     render: RenderInProgress,
     triangles: usize,
     /// The least times so far.
-    least: [f64; 2],
+    min: [f64; 2],
 }
 
 impl Frames {
@@ -104,9 +104,9 @@ impl Frames {
         let (world, triangles) = scene(method, count, view, size)?;
         let execution = Execution { threads: Some(1), ..Execution::default() };
         let render = RenderInProgress::begin(&Census::of(&world), &stages_of(), &execution).expect("begins");
-        let mut frames = Self { world, render, triangles, least: [f64::INFINITY; 2] };
+        let mut frames = Self { world, render, triangles, min: [f64::INFINITY; 2] };
         frames.next();
-        frames.least = [f64::INFINITY; 2];
+        frames.min = [f64::INFINITY; 2];
         Some(frames)
     }
 
@@ -117,7 +117,7 @@ impl Frames {
         let tables = started.elapsed().as_secs_f64();
         self.render.advance(self.render.steps(), &()).expect("renders");
         let times = [tables, started.elapsed().as_secs_f64() - tables];
-        self.least = [0, 1].map(|part| self.least[part].min(times[part]));
+        self.min = [0, 1].map(|part| self.min[part].min(times[part]));
         times
     }
 
@@ -132,18 +132,18 @@ impl Frames {
     }
 
     fn printed(&self) -> String {
-        format!("{:7.2} + {:8.2}", 1e3 * self.least[0], 1e3 * self.least[1])
+        format!("{:7.2} + {:8.2}", 1e3 * self.min[0], 1e3 * self.min[1])
     }
 }
 
 /// The cost of a picture of spheres by each method.
 pub fn curved() {
-    let (rounds, most) = (after("--rounds", 15), after("--spheres", COUNTS[COUNTS.len() - 1]));
+    let (rounds, max) = (after("--rounds", 15), after("--spheres", COUNTS[COUNTS.len() - 1]));
     println!("first hits of spheres, one thread, processor time a frame in ms: tables made anew + the picture");
     println!("boxes are so many times as fast as rays; as rays whose hierarchy is kept; as triangles");
     for view in [View::Outside, View::Close, View::Overlapping] {
         // Neither one sphere nor ten overlap more than others.
-        for count in COUNTS.into_iter().filter(|&count| count <= most && (view != View::Overlapping || count > 10)) {
+        for count in COUNTS.into_iter().filter(|&count| count <= max && (view != View::Overlapping || count > 10)) {
             for size in SIZES {
                 compare(count, view, size, rounds);
             }
@@ -191,7 +191,7 @@ fn compare(count: u32, view: View, size: [u32; 2], rounds: usize) {
                 frames.printed(),
                 ratio(logs),
             ),
-            None => println!("    within 1/{} pixel: more than {MOST} triangles, left out", 1.0 / error),
+            None => println!("    within 1/{} pixel: more than {MAX} triangles, left out", 1.0 / error),
         }
     }
 }

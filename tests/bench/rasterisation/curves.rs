@@ -111,8 +111,8 @@ fn by_triangles() -> Curve {
     let both = |at| [format!("rays {}", size(at)), format!("projection {}", size(at))];
     let columns = SIZES.into_iter().flat_map(both).chain(["hierarchy".into()]).collect();
     let mut curve = Curve::new("triangles of a torus knot, first hits", columns);
-    let most = after("--most", 2_000_000);
-    for knot in KNOTS.into_iter().filter(|[along, around]| 2 * along * around <= most) {
+    let max = after("--most", 2_000_000);
+    for knot in KNOTS.into_iter().filter(|[along, around]| 2 * along * around <= max) {
         let count = 2 * knot[0] * knot[1];
         let times = SIZES.map(|at| first_hits(&format!("{count:8} triangles, {}", size(at)), knot, at));
         let mesh = MeshGeometry::new(torus_knot(knot[0], knot[1]));

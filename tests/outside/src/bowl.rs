@@ -54,7 +54,7 @@ impl PlacedBowl {
 
 impl Shape for PlacedBowl {
     type Component = Bowl;
-    type Beside = ();
+    type SurfaceData = ();
     type Emitter = NeverSampled;
 
     fn has_inside(_: &Bowl) -> bool {

@@ -64,24 +64,24 @@ impl Bsdf for ChalkTable {
 
     /// sin α tan β cos Δφ is the product of both directions along the surface over the larger of the two cosines.
     #[inline(always)]
-    fn eval(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        let [everywhere, one_side] = self.parts[site.row];
+    fn eval(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
+        let [everywhere, one_side] = self.parts[context.row];
         let along = (to_light.x * to_eye.x + to_light.y * to_eye.y).max(0.0);
         let factor = everywhere + one_side * along / to_light.z.max(to_eye.z).max(f64::MIN_POSITIVE);
-        site.parameters.colour.map(|part| part * factor * FRAC_1_PI)
+        context.parameters.colour.map(|part| part * factor * FRAC_1_PI)
     }
 
     #[inline(always)]
-    fn pdf(&self, _: &Site, to_light: DVec3, _: DVec3) -> f64 {
+    fn pdf(&self, _: &ShadingContext, to_light: DVec3, _: DVec3) -> f64 {
         to_light.z.max(0.0) * FRAC_1_PI
     }
 
     /// By the cosine, so that the weight is the BRDF times π.
     #[inline(always)]
-    fn sample(&self, site: &Site, to_eye: DVec3, [u, v]: [f64; 2], _: f64) -> Option<BsdfSample> {
+    fn sample(&self, context: &ShadingContext, to_eye: DVec3, [u, v]: [f64; 2], _: f64) -> Option<BsdfSample> {
         let (radius, angle) = (u.sqrt(), TAU * v);
         let to_light = DVec3::new(radius * libm::cos(angle), radius * libm::sin(angle), (1.0 - u).sqrt());
-        let weight = self.eval(site, to_light, to_eye).map(|part| part / FRAC_1_PI);
+        let weight = self.eval(context, to_light, to_eye).map(|part| part / FRAC_1_PI);
         Some(BsdfSample { to_light, pdf: to_light.z * FRAC_1_PI, weight })
     }
 

@@ -71,7 +71,7 @@ impl Light for PlacedLantern {
     }
 
     fn bounds(&self) -> Option<LightBounds> {
-        let at = Bounds { least: self.position, most: self.position };
+        let at = Bounds { min: self.position, max: self.position };
         Some(LightBounds::everywhere(at, luminance(self.intensity)))
     }
 

@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Counts samples, and stops the render after so many.
 struct Patience {
     taken: AtomicU64,
-    most: u64,
+    max: u64,
 }
 
 impl Watch for Patience {
@@ -20,7 +20,7 @@ impl Watch for Patience {
     }
 
     fn stopped(&self) -> bool {
-        self.taken.load(Ordering::Relaxed) >= self.most
+        self.taken.load(Ordering::Relaxed) >= self.max
     }
 }
 
@@ -46,7 +46,7 @@ fn main() -> pinhole::Result {
     let (scene, offer) = (table(72, 24), stages());
     let census = Census::of(&scene);
     let mut progress = RenderInProgress::begin(&census, &offer, &Execution::default())?;
-    let patience = Patience { taken: AtomicU64::new(0), most: 8 * 72 * 24 };
+    let patience = Patience { taken: AtomicU64::new(0), max: 8 * 72 * 24 };
     let stopped = matches!(progress.advance(progress.steps(), &patience), Err(pinhole::Error::Interrupted));
     let (taken, seen) = (patience.taken.load(Ordering::Relaxed), progress.film.mean(36, 12));
     say(format!("stopped: {stopped}, after {taken} of {} samples; the middle is {seen:.3?}", 16 * 72 * 24))

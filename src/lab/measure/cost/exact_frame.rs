@@ -6,11 +6,11 @@ use crate::measure::oracle_sphere::Sphere;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::Result;
-use pinhole::extract::{CameraAxes, ShapeTable, camera_entity, shape_bodies};
+use pinhole::extract::{CameraAxes, ShapeTable, any_shapes, camera_entity};
 use pinhole::plan::{Census, Table};
 use pinhole::render::Inspection;
 use pinhole::scene::{OrthographicCamera, PerspectiveCamera};
-use pinhole::shapes::{Body, Ellipsoid, PlacedPlane, PlacedSphere, Planar, ShapeKind, Slabs, TriangleRow};
+use pinhole::shapes::{AnyShape, Ellipsoid, PlacedPlane, PlacedSphere, Planar, ShapeKind, Slabs, TriangleRow};
 
 /// What the frame is compared with.
 pub(super) struct Exact {
@@ -39,20 +39,20 @@ impl Exact {
         let axes = CameraAxes::extract(census)?.world_from_camera;
         let PerspectiveCamera { fov, axis } = scene.get::<PerspectiveCamera>(camera).copied().unwrap_or_default();
         let half_height = scene.get::<OrthographicCamera>(camera).map(|camera| camera.view_height / 2.0);
-        let shape = |body: Body| {
+        let shape = |body: AnyShape| {
             Some(match body {
-                Body::Sphere(PlacedSphere { centre, radius }, ()) => ExactShape::Sphere(Sphere { centre, radius }),
-                Body::Plane(PlacedPlane { normal, offset }, ()) => ExactShape::Plane(Plane { normal, offset }),
-                Body::Ellipsoid(ellipsoid, ()) => ExactShape::Ellipsoid(ellipsoid),
-                Body::Disk(disk, ()) => ExactShape::Disk(disk.planar),
-                Body::Rectangle(rectangle, ()) => ExactShape::Rectangle(rectangle.planar),
-                Body::Cuboid(slabs, ()) => ExactShape::Cuboid(slabs),
-                Body::Triangle(triangle, face) => ExactShape::Triangle(triangle, face.normal),
+                AnyShape::Sphere(PlacedSphere { centre, radius }, ()) => ExactShape::Sphere(Sphere { centre, radius }),
+                AnyShape::Plane(PlacedPlane { normal, offset }, ()) => ExactShape::Plane(Plane { normal, offset }),
+                AnyShape::Ellipsoid(ellipsoid, ()) => ExactShape::Ellipsoid(ellipsoid),
+                AnyShape::Disk(disk, ()) => ExactShape::Disk(disk.planar),
+                AnyShape::Rectangle(rectangle, ()) => ExactShape::Rectangle(rectangle.planar),
+                AnyShape::Cuboid(slabs, ()) => ExactShape::Cuboid(slabs),
+                AnyShape::Triangle(triangle, face) => ExactShape::Triangle(triangle, face.normal),
                 _ => return None,
             })
         };
         let moves = ShapeTable::extract(census)?.kind.contains(&ShapeKind::Moving);
-        let bodies = if moves { Vec::new() } else { shape_bodies(census)? };
+        let bodies = if moves { Vec::new() } else { any_shapes(census)? };
         let shapes = bodies.into_iter().map(shape).collect::<Option<Vec<_>>>().unwrap_or_default();
         Ok(Self { camera: ExactCamera::new(width, height, fov.0, axis, axes), half_height, shapes })
     }

@@ -4,7 +4,7 @@ use pinhole::scene::{FileKind, read_file};
 use pinhole::{Error, Result};
 use std::path::{Path, PathBuf};
 
-const KEPT: FileKind = FileKind { name: "kept costs", most: 1 << 20 };
+const KEPT: FileKind = FileKind { name: "kept costs", max: 1 << 20 };
 /// What stands before the digest of the film that the errors are of.
 pub const FILM: &str = "; film ";
 
@@ -59,9 +59,9 @@ mod tests {
     fn kept_costs_are_read_from_the_table_alone() {
         let text = "cost of x: 20 x 10 pixels of 2 samples on one thread\nerrors: the worst of 3 pixels; u = 2^-24; film 12ab\n\
                     what ran    rows ns a row        10 to 90 %\nTrace shadow rays: meshes  200   8.00    1 to 9   -\n\
-                    Clear light rays   0    -   -   -\nmachine: M, 2 threads\nmeasured on 25 Nov 2026 at commit 1\n";
+                    Clear shadow rays  0    -   -   -\nmachine: M, 2 threads\nmeasured on 25 Nov 2026 at commit 1\n";
         let stage = |name: &str, rows, nanoseconds| KeptStage { name: name.into(), rows, nanoseconds };
-        let stages = [stage("Trace shadow rays: meshes", 200.0, Some(8.0)), stage("Clear light rays", 0.0, None)];
+        let stages = [stage("Trace shadow rays: meshes", 200.0, Some(8.0)), stage("Clear shadow rays", 0.0, None)];
         assert_eq!(kept_stages(text), stages);
         assert_eq!(kept_film(text), Some("12ab"));
         assert_eq!(kept_film("errors: the worst of 3 pixels"), None);

@@ -153,7 +153,7 @@ pub struct Trial {
     /// What it tries.
     pub name: String,
     methods: Vec<Method>,
-    most: u64,
+    max: u64,
     check: Box<dyn Fn(Range<u64>) -> Tally + Send + Sync>,
 }
 
@@ -165,18 +165,18 @@ impl Trial {
         methods: &[Method],
         check: impl Fn(Range<u64>) -> Tally + Send + Sync + 'static,
     ) -> Self {
-        Self { group, name: name.into(), methods: methods.to_vec(), most: u64::MAX, check: Box::new(check) }
+        Self { group, name: name.into(), methods: methods.to_vec(), max: u64::MAX, check: Box::new(check) }
     }
 
     /// Has no more than so many inputs.
     pub fn at_most(mut self, inputs: u64) -> Self {
-        self.most = inputs;
+        self.max = inputs;
         self
     }
 
     /// Tries so many rays, the same on any number of threads; fewer if the one who watches stops it.
     pub fn run(&self, rays: u64, watch: &dyn Watch) -> Case {
-        let rays = rays.min(self.most);
+        let rays = rays.min(self.max);
         let chunks = (0..rays.div_ceil(CHUNK)).into_par_iter();
         let tally = chunks
             .filter(|_| !watch.stopped())
@@ -196,7 +196,7 @@ impl Trial {
         let input = outcomes[method].score.worst_input();
         // The only input has just been checked.
         let alone = || (self.check)(input..input + 1).scores;
-        let scores = if self.most == 1 { outcomes.iter().map(|outcome| outcome.score).collect() } else { alone() };
+        let scores = if self.max == 1 { outcomes.iter().map(|outcome| outcome.score).collect() } else { alone() };
         // A check that takes several inputs together may say something else of one alone.
         (scores[method].wrong > 0 || scores[method].worst > 0.0).then_some(Worst { method, input, scores })
     }

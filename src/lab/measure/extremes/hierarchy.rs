@@ -4,7 +4,7 @@ use super::{Group, Method, Tally, Trial};
 use crate::measure::oracle::Oracle;
 use crate::measure::ray_aim::{AimedRay, Draws, rounded_ray};
 use crate::measure::specimen::Specimen;
-use crate::measure::torus_knot::{LEAST_RADIUS, curve, torus_knot};
+use crate::measure::torus_knot::{MIN_RADIUS, curve, torus_knot};
 use glam::{DQuat, DVec3, Vec3};
 use pinhole::intersect::NO_SHAPE;
 use pinhole::scene::{MeshGeometry, MeshInstance, Placement};
@@ -173,7 +173,7 @@ fn check_leaks(offset: DVec3, range: Range<u64>) -> Tally {
     for index in range {
         let mut draws = Draws::new(904, index);
         let Some(mesh) = knot_at(offset, &mut draws) else { continue };
-        let near = draws.unit_vector() * (0.5 * LEAST_RADIUS * draws.unit());
+        let near = draws.unit_vector() * (0.5 * MIN_RADIUS * draws.unit());
         let inside = mesh.world_from_object * (curve(draws.between(0.0, TAU)) + near) + mesh.position;
         let origin = inside.as_vec3();
         let ray = rounded_ray(origin, corner_or_edge(&mesh, &mut draws) - origin.as_dvec3());

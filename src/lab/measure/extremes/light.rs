@@ -16,7 +16,7 @@ use pinhole::lights::{
 };
 use pinhole::material::{BlinnPhongTable, MatteTable, PhongTable, highlight, mirror_cosine, phong_peak};
 use pinhole::scene::Degrees;
-use pinhole::shade::{self, LightRays, Radiance};
+use pinhole::shade::{self, Radiance, ShadowRays};
 use pinhole::shapes::offset_bound;
 use std::ops::Range;
 
@@ -115,7 +115,7 @@ fn edge_of(degrees: f64) -> f64 {
 /// Irradiance from a sun by pinhole's stage, against E cos θ.
 fn check_suns(range: Range<u64>) -> Tally {
     let (mut tally, mut bench) =
-        (Tally::new(SUN.len()), Bench::new(&[shade::start_light_stage(), shade::directional_light_stage()]));
+        (Tally::new(SUN.len()), Bench::new(&[shade::start_shadow_rays_stage(), shade::directional_light_stage()]));
     bench.put(first_row());
     for index in range {
         let mut draws = Draws::new(403, index);
@@ -136,7 +136,7 @@ fn check_suns(range: Range<u64>) -> Tally {
         let sun = PlacedDirectionalLight { to_light, irradiance: [1.0; 3] };
         bench.insert(DirectionalLightTable { row: vec![sun], casts_shadows: vec![true], choice: None });
         bench.run();
-        let rays = bench.column::<LightRays>();
+        let rays = bench.column::<ShadowRays>();
         let (pinhole, t_max) =
             rays.r.first().zip(rays.t_max.first()).map_or((0.0, f32::INFINITY), |(&r, &t_max)| (r, t_max));
         tally.scores[0].check(t_max == f32::INFINITY);
@@ -150,7 +150,7 @@ fn check_suns(range: Range<u64>) -> Tally {
 /// Point lights, suns and spots of any strength at any distance on surfaces of every kind, by all stages together.
 fn check_numbers(range: Range<u64>) -> Tally {
     let stages = [
-        shade::start_light_stage(),
+        shade::start_shadow_rays_stage(),
         shade::point_light_stage(),
         shade::directional_light_stage(),
         shade::spot_light_stage(),
@@ -187,7 +187,7 @@ fn check_numbers(range: Range<u64>) -> Tally {
         black.slices_mut(1);
         bench.put(black);
         bench.run();
-        let rays = bench.column::<LightRays>();
+        let rays = bench.column::<ShadowRays>();
         let radiance = bench.column::<Radiance>();
         tally.count(!rays.r.is_empty());
         let sound = |part: f32| part >= 0.0;

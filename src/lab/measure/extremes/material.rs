@@ -9,8 +9,8 @@ use crate::naive::material::{
 };
 use glam::{DVec3, Vec3};
 use pinhole::material::{
-    Bsdf, MetalTable, MultipleScattering, Parameters, Site, cosine_direction, frame_of, fresnel, ggx_brdf, ggx_d,
-    ggx_sample, refract, visible_normal, visible_pdf,
+    Bsdf, MetalTable, MultipleScattering, Parameters, ShadingContext, cosine_direction, frame_of, fresnel, ggx_brdf,
+    ggx_d, ggx_sample, refract, visible_normal, visible_pdf,
 };
 use std::f64::consts::{FRAC_PI_2, LN_2};
 use std::ops::Range;
@@ -238,11 +238,11 @@ fn check_several(range: Range<u64>) -> Tally {
         let mut several = MultipleScattering::default();
         several.push([1.0; 3], Some(alpha));
         for (score, several) in tally.scores.iter_mut().zip([Some(several), None]) {
-            let (rough, site) = (
+            let (rough, context) = (
                 MetalTable { colour: vec![[1.0; 3]], alpha: vec![alpha], several },
-                Site::opaque(0, Parameters::default()),
+                ShadingContext::opaque(0, Parameters::default()),
             );
-            score.measure((rule.albedo(angle, 0.5 * alpha, |l, v| rough.eval(&site, l, v)[0]) - 1.0).abs());
+            score.measure((rule.albedo(angle, 0.5 * alpha, |l, v| rough.eval(&context, l, v)[0]) - 1.0).abs());
         }
     }
     tally

@@ -156,8 +156,7 @@ fn check_pairs(range: Range<u64>) -> Tally {
         let mut draws = Draws::new(1602, index);
         // Steps of 16, 256 or 4096 make level, upright and diagonal edges, and samples exactly on them, frequent.
         let step = [1, 16, 256, 4096][(draws.unit() * 4.0) as usize];
-        let mut point =
-            |most: f64| [(); 2].map(|()| (draws.between(-most, most) / f64::from(step)).round() as i32 * step);
+        let mut point = |max: f64| [(); 2].map(|()| (draws.between(-max, max) / f64::from(step)).round() as i32 * step);
         let [from, to, left, right] = [point(20_000.0), point(20_000.0), point(20_000.0), point(20_000.0)];
         let sides = [left, right].map(|apex| edge_function(from, to, apex));
         if sides[0].signum() * sides[1].signum() != -1 {

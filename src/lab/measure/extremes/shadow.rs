@@ -48,8 +48,8 @@ const U: f64 = crate::measure::exact::UNIT_ROUNDOFF_F32;
 
 /// The cases of rays that leave every shape, of lights before walls and of small things before lights.
 pub fn trials() -> Vec<Trial> {
-    let facing = Standing { seed: 61, flattest: 0.7, least: 0.0, closest: -12.0 };
-    let along = Standing { seed: 62, flattest: 8.0, least: 4.0 * U, closest: -9.0 };
+    let facing = Standing { seed: 61, flattest: 0.7, min: 0.0, closest: -12.0 };
+    let along = Standing { seed: 62, flattest: 8.0, min: 4.0 * U, closest: -9.0 };
     let wall = |name, standing| Trial::new(Group::Shadow, name, &WALL, move |range| check_walls(standing, range));
     let mut trials = shapes::leaving_trials();
     trials.extend([
@@ -67,7 +67,7 @@ struct Standing {
     /// The wall faces the light with a cosine from 10 to minus this.
     flattest: f64,
     /// Its distance from the wall is at least this times that from the surface.
-    least: f64,
+    min: f64,
     /// And 10 to this more.
     closest: f64,
 }
@@ -104,7 +104,7 @@ fn shadow_before_wall(standing: Standing, index: u64, stages: &mut ShadowStages)
     let ahead = away.normalize();
     let across = draws.unit_vector_across(ahead) * libm::sqrt(1.0 - cosine * cosine);
     let facing = (across - ahead * cosine).as_vec3().as_dvec3();
-    let off = away.length() * (standing.least + draws.power_of_ten(standing.closest, 0.0));
+    let off = away.length() * (standing.min + draws.power_of_ten(standing.closest, 0.0));
     let wall = Plane { normal: facing, offset: facing.dot(light) - off };
 
     stages.planes(&[floor, wall]);
@@ -113,7 +113,7 @@ fn shadow_before_wall(standing: Standing, index: u64, stages: &mut ShadowStages)
     let shadow = stages.shadow(surface, light).filter(|_| shape == 0)?;
     let before = |point: DVec3| side_of_plane(point, wall) == Ordering::Greater;
     let distance = (light - shadow.origin.as_dvec3()).length();
-    let clear = depth(light, wall) >= standing.least * distance;
+    let clear = depth(light, wall) >= standing.min * distance;
     (before(light) && before(shadow.origin.as_dvec3()) && clear).then_some((shadow, wall, distance))
 }
 

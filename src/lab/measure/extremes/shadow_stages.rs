@@ -9,7 +9,7 @@ use pinhole::extract::{MaterialKind, MaterialTable, NO_ROW, PointLightTable, Sha
 use pinhole::intersect::{self, Hits, MaterialRows, NO_SHAPE, Surface, Surfaces};
 use pinhole::lights::PlacedPointLight;
 use pinhole::plan::{Column, Stage};
-use pinhole::shade::{self, LightRays, ShadowHits};
+use pinhole::shade::{self, ShadowHits, ShadowRays};
 use pinhole::shapes::ShapeKind;
 
 /// A shadow ray as the stages made it, and what they found along it.
@@ -47,7 +47,7 @@ impl ShadowStages {
     fn of(to_surface: &[Stage], shadow_stage: Stage) -> Self {
         let to_surface = [&[intersect::start_stage()], to_surface].concat();
         let to_light =
-            [shade::start_light_stage(), shade::point_light_stage(), shade::start_shadow_stage(), shadow_stage];
+            [shade::start_shadow_rays_stage(), shade::point_light_stage(), shade::start_shadow_stage(), shadow_stage];
         let mut stages = Self { to_surface: Bench::new(&to_surface), to_light: Bench::new(&to_light) };
         stages.to_light.insert(MaterialTable::opaque(vec![MaterialKind::Matte], vec![[0.5; 3]]));
         let mut first = MaterialRows::default();
@@ -95,7 +95,7 @@ impl ShadowStages {
         let light = PlacedPointLight { position: light, intensity: [1.0; 3] };
         self.to_light.insert(PointLightTable { row: vec![light], casts_shadows: vec![true], choice: None });
         self.to_light.run();
-        let (rays, hits) = (self.to_light.column::<LightRays>(), self.to_light.column::<ShadowHits>());
+        let (rays, hits) = (self.to_light.column::<ShadowRays>(), self.to_light.column::<ShadowHits>());
         (rays.rows() == 1).then(|| Shadow {
             origin: Vec3::new(rays.ox[0], rays.oy[0], rays.oz[0]),
             direction: Vec3::new(rays.dx[0], rays.dy[0], rays.dz[0]),

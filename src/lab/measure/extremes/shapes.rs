@@ -169,7 +169,7 @@ fn from_the_eye<S: Oracle>(draws: &mut Draws) -> Option<Shot<S>> {
 fn grazing<S: Oracle>(draws: &mut Draws) -> Option<Shot<S>> {
     let (specimen, seen) = from_the_eye::<S>(draws)?;
     let hit = specimen.hit(seen.origin.as_dvec3(), seen.direction.as_dvec3())?;
-    let surface = specimen.shape.surface(&specimen.beside, &hit);
+    let surface = specimen.shape.surface(&specimen.surface_data, &hit);
     let away = specimen.sphere_around().1 * draws.power_of_ten(-2.0, 4.0);
     let origin = (surface.point + leaving(draws, surface.normal.as_vec3(), 8.0) * away).as_vec3();
     let towards = surface.point - origin.as_dvec3();
@@ -180,10 +180,10 @@ fn grazing<S: Oracle>(draws: &mut Draws) -> Option<Shot<S>> {
 /// parts of 0 with either sign.
 fn along_axes<S: Oracle>(draws: &mut Draws) -> Option<Shot<S>> {
     let scale = libm::ldexp(1.0, draws.between(-20.0, 21.0).floor() as i32);
-    let grid = |draws: &mut Draws, most: f64| DVec3::from([(); 3].map(|()| draws.between(-most, most + 1.0).floor()));
+    let grid = |draws: &mut Draws, max: f64| DVec3::from([(); 3].map(|()| draws.between(-max, max + 1.0).floor()));
     let (position, point) = (grid(draws, 8.0) * (scale / 8.0), grid(draws, 4.0) * (scale / 4.0));
-    let uneven = if S::UNEVEN == Some(true) { DVec3::new(1.0, 0.5, 2.0) } else { DVec3::ONE };
-    let placement = Placement { position, scale: uneven * scale, ..Placement::default() };
+    let non_uniform = if S::NON_UNIFORM == Some(true) { DVec3::new(1.0, 0.5, 2.0) } else { DVec3::ONE };
+    let placement = Placement { position, scale: non_uniform * scale, ..Placement::default() };
     let specimen = Specimen::<S>::of(S::Component::default(), placement)?;
     let mut zero = || if draws.unit() < 0.5 { 0.0 } else { -0.0 };
     let mut direction = Vec3::new(zero(), zero(), zero());
@@ -243,7 +243,7 @@ fn check_normals<S: Oracle>(naive: &NaiveNormal<S>, range: Range<u64>) -> Tally 
         let checked = found(&mut Draws::new(619, index), |draws| {
             let (specimen, ray) = grazing::<S>(draws)?;
             let hit = specimen.hit(ray.origin.as_dvec3(), ray.direction.as_dvec3())?;
-            let normal = specimen.shape.surface(&specimen.beside, &hit).normal.as_vec3();
+            let normal = specimen.shape.surface(&specimen.surface_data, &hit).normal.as_vec3();
             let naive = (naive.normal)(&specimen.shape, ray, hit.t);
             let facing = if naive.dot(ray.direction) > 0.0 { -naive } else { naive };
             Some((normal, specimen.shape.normal_angles(ray, [normal, facing])?))
@@ -313,7 +313,7 @@ fn left<S: Oracle>(specimen: &Specimen<S>, inside: bool, draws: &mut Draws) -> O
     let towards = if inside { draws.unit_vector() } else { specimen.aim(draws) - origin.as_dvec3() };
     let arriving = rounded_ray(origin, towards);
     let hit = specimen.hit(arriving.origin.as_dvec3(), arriving.direction.as_dvec3())?;
-    let surface = shape.surface(&specimen.beside, &hit);
+    let surface = shape.surface(&specimen.surface_data, &hit);
     let (normal, bound) = (surface.normal.as_vec3(), surface.bound);
     let side = if shape.parts_space() { from } else { 2 * i32::from(surface.outside) - 1 };
     let room = surface.point + surface.normal * (ROOM * f64::from(bound));

@@ -168,8 +168,8 @@ fn check_refusals(range: Range<u64>) -> Tally {
             scale[(draws.unit() * 3.0) as usize] = 0.0;
         }
         let even = Placement { orientation: turn(&mut draws), ..Placement::default() };
-        let uneven = Placement { scale, orientation: turn(&mut draws), ..Placement::default() };
-        let chain = if parent { vec![even, uneven] } else { vec![uneven] };
+        let non_uniform = Placement { scale, orientation: turn(&mut draws), ..Placement::default() };
+        let chain = if parent { vec![even, non_uniform] } else { vec![non_uniform] };
         let (world, _) = scene(Sphere::default(), &chain);
         let refused = pinhole::extract::validate(&Census::of(&world)).is_err();
         tally.count(!refused);

@@ -151,7 +151,7 @@ fn check_on_edges(range: Range<u64>) -> Tally {
     bench.insert(table.clone());
     for index in range {
         let mut draws = Draws::new(235, index);
-        let mut eighth = |most: f64| draws.between(-most, most + 1.0).floor() / 8.0;
+        let mut eighth = |max: f64| draws.between(-max, max + 1.0).floor() / 8.0;
         let origin = DVec3::new(eighth(2.0), eighth(2.0), eighth(2.0));
         let fraction = eighth(4.0) + 0.5;
         let face = &table.row[(draws.unit() * 8.0) as usize];

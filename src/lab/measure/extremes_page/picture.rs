@@ -54,7 +54,7 @@ impl Picture {
 /// The most that one part differs; all there is where a part is NaN.
 fn off(one: [f32; 3], other: [f32; 3]) -> f32 {
     let parts = one.iter().zip(other).map(|(one, other)| (one.min(1.0) - other.min(1.0)).abs());
-    parts.fold(0.0, |most, part| if part <= most { most } else { part })
+    parts.fold(0.0, |max, part| if part <= max { max } else { part })
 }
 
 #[cfg(test)]

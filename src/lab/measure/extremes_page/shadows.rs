@@ -10,10 +10,10 @@ use pinhole::film::{Curve, FilmTile};
 use pinhole::intersect::Surfaces;
 use pinhole::plan::{Census, Stage, Table};
 use pinhole::render::inspect;
-use pinhole::shade::LightRays;
+use pinhole::shade::ShadowRays;
 use pinhole::shapes::{plane_t, sphere_t};
 
-/// The frame's own picture, and the same where every light ray starts as `start` has it; nothing where no light falls.
+/// The frame's own picture, and the same where every shadow ray starts as `start` has it; nothing where no light falls.
 ///
 /// The naive rays go the same way and look as far, and their kernels are pinhole's: only the start differs.
 pub fn with_start(
@@ -27,7 +27,7 @@ pub fn with_start(
     let (spheres, planes) = (SphereTable::extract(census)?, PlaneTable::extract(census)?);
     let tile = frame.world.entity(frame.tiles[0]);
     let (Some(film), Some(surfaces), Some(rays)) =
-        (tile.get::<FilmTile>(), tile.get::<Surfaces>(), tile.get::<LightRays>())
+        (tile.get::<FilmTile>(), tile.get::<Surfaces>(), tile.get::<ShadowRays>())
     else {
         return Ok(None);
     };
@@ -35,8 +35,8 @@ pub fn with_start(
     let mut naive = own.clone();
     let is_lit = |row: usize| surfaces.get(row).normal != Vec3::ZERO;
     (0..naive.len()).filter(|&row| is_lit(row)).for_each(|row| naive[row] = [0.0; 3]);
-    for ray in 0..rays.path.len() {
-        let row = rays.path[ray] as usize;
+    for ray in 0..rays.row.len() {
+        let row = rays.row[ray] as usize;
         let surface = surfaces.get(row);
         let ShadowStart { origin, t_min } = start(surface.position, surface.normal);
         let direction = Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]);

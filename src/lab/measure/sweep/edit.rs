@@ -67,7 +67,7 @@ struct Scaled<'e, 'w>(&'e mut EntityWorldMut<'w>, f64);
 impl ShapeVisitor for Scaled<'_, '_> {
     fn visit<S: Listed>(&mut self) {
         // One component may be listed as two shapes, and is scaled as the one that needs no uneven scale.
-        if let Some(mut shape) = self.0.get_mut::<S::Component>().filter(|_| S::UNEVEN != Some(true)) {
+        if let Some(mut shape) = self.0.get_mut::<S::Component>().filter(|_| S::NON_UNIFORM != Some(true)) {
             shape.scale(self.1);
         }
     }

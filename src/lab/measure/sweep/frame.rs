@@ -4,13 +4,13 @@ use crate::measure::film_bits::FilmBits;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::Result;
-use pinhole::extract::{ShapeTable, shape_bodies};
+use pinhole::extract::{ShapeTable, any_shapes};
 use pinhole::film::FilmTile;
 use pinhole::intersect::{Hits, NO_SHAPE};
 use pinhole::plan::{Census, Stage, Table};
 use pinhole::rays::{Tile, WorldRays};
 use pinhole::render::{first_bounce_only, inspect};
-use pinhole::shapes::{Body, RayHit, ShapeKind};
+use pinhole::shapes::{AnyShape, RayHit, ShapeKind};
 use serde::Serialize;
 
 /// The side of a tile.
@@ -47,7 +47,7 @@ impl Frame {
         let frame = inspect(scene, &first_bounce_only(offer), SIDE)?;
         let tiles = || frame.tiles.iter().map(|&tile| frame.world.entity(tile));
         let (width, height) = (frame.image.width, frame.image.height);
-        let shapes = Shapes { all: ShapeTable::extract(&Census::of(scene))?, body: shape_bodies(&Census::of(scene))? };
+        let shapes = Shapes { all: ShapeTable::extract(&Census::of(scene))?, body: any_shapes(&Census::of(scene))? };
         let film = FilmBits::of_tiles(width, height, tiles().filter_map(|tile| tile.get::<FilmTile>()));
         let pixel_hits = tiles().flat_map(|tile| pixel_hits(&tile, &shapes)).collect();
         let mut middle: Vec<(u32, DVec3)> = tiles().flat_map(|tile| on_line(&tile, height / 2)).collect();
@@ -60,7 +60,7 @@ impl Frame {
 /// The shapes of a scene, for the normals where its stages ask for none.
 struct Shapes {
     all: ShapeTable,
-    body: Vec<Body>,
+    body: Vec<AnyShape>,
 }
 
 fn pixel_hits(tile: &EntityRef<'_>, shapes: &Shapes) -> Vec<PixelHit> {

@@ -10,7 +10,7 @@ use pinhole::intersect::{EmissiveRows, Surfaces};
 use pinhole::lights::irradiance_from_point;
 use pinhole::material::lambertian;
 use pinhole::plan::{Column, Shared};
-use pinhole::shade::{LightRays, Radiance, ShadowHits};
+use pinhole::shade::{Radiance, ShadowHits, ShadowRays};
 use std::mem::swap;
 
 /// Radiance that does not start at 0.
@@ -31,8 +31,8 @@ pub fn background_everywhere(background: Res<Shared<BackgroundTable>>, mut tiles
     }
 }
 
-/// A row of light rays is there before any light has been sampled.
-pub fn light_left_over(mut tiles: Query<&mut LightRays>) {
+/// A row of shadow rays is there before any light has been sampled.
+pub fn light_left_over(mut tiles: Query<&mut ShadowRays>) {
     for mut rays in &mut tiles {
         rays.clear();
         let (_, _, _, _, _, dy, ..) = rays.slices_mut(1);
@@ -41,7 +41,7 @@ pub fn light_left_over(mut tiles: Query<&mut LightRays>) {
 }
 
 /// Parallel light that falls obliquely counts in full: what each ray brings is as much as the strongest brings.
-pub fn sun_without_cosine(suns: Res<Shared<DirectionalLightTable>>, mut tiles: Query<&mut LightRays>) {
+pub fn sun_without_cosine(suns: Res<Shared<DirectionalLightTable>>, mut tiles: Query<&mut ShadowRays>) {
     for mut rays in &mut tiles {
         let rays = &mut *rays;
         for ray in 0..rays.rows() {
@@ -53,7 +53,7 @@ pub fn sun_without_cosine(suns: Res<Shared<DirectionalLightTable>>, mut tiles: Q
 }
 
 /// A light with an area as bright from afar as from a distance of 1: the square of the distance left out of the pdf.
-pub fn no_distance(mut tiles: Query<&mut LightRays>) {
+pub fn no_distance(mut tiles: Query<&mut ShadowRays>) {
     for mut rays in &mut tiles {
         let rays = &mut *rays;
         for ray in 0..rays.rows() {
@@ -66,7 +66,7 @@ pub fn no_distance(mut tiles: Query<&mut LightRays>) {
 }
 
 /// A spot's edge is as sharp as its inner cone: what has faded shines in full.
-pub fn spot_without_fading(spots: Res<Shared<SpotLightTable>>, mut tiles: Query<(&Surfaces, &mut LightRays)>) {
+pub fn spot_without_fading(spots: Res<Shared<SpotLightTable>>, mut tiles: Query<(&Surfaces, &mut ShadowRays)>) {
     for (surfaces, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
             let origin = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));
@@ -75,7 +75,7 @@ pub fn spot_without_fading(spots: Res<Shared<SpotLightTable>>, mut tiles: Query<
             if offset.normalize().dot(direction) < 1.0 - 1e-9 || rays.t_max[ray] == f32::INFINITY {
                 continue;
             }
-            let cosine = surfaces.get(rays.path[ray] as usize).normal.as_dvec3().dot(direction);
+            let cosine = surfaces.get(rays.row[ray] as usize).normal.as_dvec3().dot(direction);
             let whole = irradiance_from_point(spots.row[0].intensity, cosine, offset.length_squared());
             [rays.r[ray], rays.g[ray], rays.b[ray]] = whole.map(|part| part as f32);
         }
@@ -101,10 +101,10 @@ pub fn emitted_twice(emissive: Res<Shared<EmissiveTable>>, mut tiles: Query<(&Em
 }
 
 /// Light that falls obliquely counts in full.
-pub fn no_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
+pub fn no_cosine(mut tiles: Query<(&Surfaces, &mut ShadowRays)>) {
     for (surfaces, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
-            let normal = surfaces.get(rays.path[ray] as usize).normal;
+            let normal = surfaces.get(rays.row[ray] as usize).normal;
             let cosine = normal.dot(Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]));
             rays.r[ray] /= cosine;
             rays.g[ray] /= cosine;
@@ -136,7 +136,7 @@ pub fn rectangles_ignored() {}
 pub fn cuboids_ignored() {}
 
 /// A plane behind the ray counts as before it.
-pub fn behind_counts(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&LightRays, &mut ShadowHits)>) {
+pub fn behind_counts(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&ShadowRays, &mut ShadowHits)>) {
     for (rays, mut hits) in &mut tiles {
         for ray in 0..rays.rows() {
             let origin = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
@@ -154,11 +154,11 @@ pub fn behind_counts(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&LightRa
 /// Light arrives whatever stands in between.
 pub fn shadow_forgotten(
     materials: Res<Shared<MaterialTable>>,
-    mut tiles: Query<(&Surfaces, &LightRays, &mut Radiance)>,
+    mut tiles: Query<(&Surfaces, &ShadowRays, &mut Radiance)>,
 ) {
     for (surfaces, rays, mut radiance) in &mut tiles {
         for ray in 0..rays.rows() {
-            let path = rays.path[ray] as usize;
+            let path = rays.row[ray] as usize;
             let colour = materials.parameters[surfaces.material[path] as usize].colour;
             let (brdf, irradiance) = (lambertian(colour), rays.irradiance(ray));
             let [r, g, b] = [0, 1, 2].map(|part| brdf[part] * irradiance[part]);

@@ -3,7 +3,7 @@
 use crate::scene::printable;
 
 /// The longest quotation, in characters.
-const MOST_LETTERS: usize = 40;
+const MAX_LETTERS: usize = 40;
 
 /// The token at a byte offset: a word, a number, a quoted string, or a single character.
 pub fn found(text: &str, at: usize) -> String {
@@ -23,5 +23,5 @@ pub fn found(text: &str, at: usize) -> String {
 /// A part of a file on one line, with its white space collapsed, shortened if it is long.
 pub fn shown(part: &str) -> String {
     let words: Vec<&str> = part.split_whitespace().collect();
-    printable(&words.join(" "), MOST_LETTERS)
+    printable(&words.join(" "), MAX_LETTERS)
 }

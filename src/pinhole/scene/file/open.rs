@@ -3,7 +3,7 @@ use crate::scene::{FileError, FileKind, Unopened, read_file};
 use std::io::Read;
 use std::path::Path;
 
-const SCENE_FILE: FileKind = FileKind { name: "a scene file", most: 16 << 20 };
+const SCENE_FILE: FileKind = FileKind { name: "a scene file", max: 16 << 20 };
 
 impl SceneFile {
     /// Reads a scene from a file.
@@ -20,11 +20,11 @@ impl SceneFile {
     /// Errors: as for [`open`](Self::open).
     pub fn read(name: &Path, from: impl Read) -> Result<Self, FileProblem> {
         let mut bytes = Vec::new();
-        let most = SCENE_FILE.most;
-        let read = from.take(most + 1).read_to_end(&mut bytes);
+        let max = SCENE_FILE.max;
+        let read = from.take(max + 1).read_to_end(&mut bytes);
         read.map_err(|error| FileProblem::of(name, format!("it cannot be read: {error}")))?;
-        if bytes.len() as u64 > most {
-            let what = format!("there are more than {most} bytes, but a scene file has at most that many");
+        if bytes.len() as u64 > max {
+            let what = format!("there are more than {max} bytes, but a scene file has at most that many");
             return Err(FileProblem::of(name, what));
         }
         Self::parse_bytes(name, bytes)
@@ -50,12 +50,12 @@ impl SceneFile {
 
 /// Why a scene file was not read, as a clause after the file's name.
 fn reason(error: FileError) -> String {
-    let FileKind { name, most } = error.kind;
+    let FileKind { name, max } = error.kind;
     match error.why {
         Unopened::Missing => "there is no such file".into(),
         Unopened::Folder => format!("this is a folder, but {name} is a text file"),
         Unopened::NotRegular => format!("this is not a regular file, but {name} is a text file"),
-        Unopened::TooLong(bytes) => format!("the file has {bytes} bytes, but {name} has at most {most}"),
+        Unopened::TooLong(bytes) => format!("the file has {bytes} bytes, but {name} has at most {max}"),
         Unopened::TooLittleMemory(said) => format!("the file cannot be read: it {said}"),
         Unopened::System(said) => format!("the file cannot be read: {said}"),
     }

@@ -198,8 +198,8 @@ fn token_at(text: &str, value: &Range<usize>, stopped: usize) -> usize {
 
 /// The whole numbers that a field may hold.
 fn whole_number(field: &str) -> String {
-    let most = if field == "seed" { u64::MAX } else { u32::MAX.into() };
-    format!("a whole number from 0 to {most}")
+    let max = if field == "seed" { u64::MAX } else { u32::MAX.into() };
+    format!("a whole number from 0 to {max}")
 }
 
 /// What `ron` expected.

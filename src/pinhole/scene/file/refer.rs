@@ -8,7 +8,7 @@ use super::scan::Part;
 use std::collections::HashMap;
 
 /// The greatest depth of the hierarchy.
-const MOST_PARENTS: usize = 64;
+const MAX_PARENTS: usize = 64;
 
 /// Looks up every parent and every material by name, and checks that the hierarchy has no cycle.
 pub fn resolve(text: &str, entities: &mut [FileEntity]) -> Result<(), Mistake> {
@@ -69,13 +69,13 @@ fn check_parents(entities: &[FileEntity]) -> Result<(), Mistake> {
         while let Some(parent) = entities[at].parent {
             steps += 1;
             let circle = above.contains(&parent);
-            if circle || steps > MOST_PARENTS {
+            if circle || steps > MAX_PARENTS {
                 let found = if circle {
                     format!("forms a cycle through {}", who(&entities[parent]))
                 } else {
-                    format!("has more than {MOST_PARENTS} ancestors")
+                    format!("has more than {MAX_PARENTS} ancestors")
                 };
-                let accepted = format!("parents must lead to a root entity in at most {MOST_PARENTS} steps");
+                let accepted = format!("parents must lead to a root entity in at most {MAX_PARENTS} steps");
                 let place = entity.parts.iter().find(|part| part.word == "parent");
                 let place = place.map_or(entity.at, |part| part.value.start);
                 return Err(Mistake::new(place, format!("{}: parent {found}, but {accepted}", who(entity))));

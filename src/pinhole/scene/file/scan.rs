@@ -11,7 +11,7 @@ use std::ops::Range;
 const DEEPEST: usize = 16;
 
 /// The largest number of entities; each takes some hundreds of bytes of memory, however short its text.
-const MOST_ENTITIES: usize = 1 << 20;
+const MAX_ENTITIES: usize = 1 << 20;
 
 /// A word, and the value after its colon.
 #[derive(Clone, Debug)]
@@ -49,10 +49,10 @@ pub fn entities(text: &str) -> Result<Vec<EntityText<'_>>, Mistake> {
     cursor.skip_space()?;
     while !cursor.take(']') {
         let at = cursor.at;
-        if entities.len() == MOST_ENTITIES {
+        if entities.len() == MAX_ENTITIES {
             return Err(Mistake::new(
                 at,
-                format!("one more entity begins here, but a file has at most {MOST_ENTITIES}"),
+                format!("one more entity begins here, but a file has at most {MAX_ENTITIES}"),
             ));
         }
         if !cursor.take('(') {

@@ -7,9 +7,9 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 /// The greatest number of texels of an image that extraction accepts.
-const MOST_TEXELS: u64 = 1 << 26;
+const MAX_TEXELS: u64 = 1 << 26;
 /// The greatest number of texels that a byte of an image can hold: eight of one bit, in the tightest deflate.
-const MOST_TEXELS_A_BYTE: u64 = 8 * 1032;
+const MAX_TEXELS_A_BYTE: u64 = 8 * 1032;
 
 /// The ending of an image's name by its first bytes, if it is of a kind that is read.
 pub fn ending_of(bytes: &[u8]) -> &'static str {
@@ -83,11 +83,11 @@ fn check(path: &Path, bytes: &[u8]) -> Result<(), String> {
     let decoder = ImageReader::with_format(Cursor::new(bytes), format).into_decoder().map_err(|_| damaged())?;
     let (width, height) = decoder.dimensions();
     let texels = u64::from(width) * u64::from(height);
-    if texels > MOST_TEXELS {
-        return Err(format!("it has {width} × {height} texels, and an image may have {MOST_TEXELS}"));
+    if texels > MAX_TEXELS {
+        return Err(format!("it has {width} × {height} texels, and an image may have {MAX_TEXELS}"));
     }
     // A byte of a PNG holds no more texels than this, so that less of them does not fill the memory.
-    if texels == 0 || texels / MOST_TEXELS_A_BYTE > bytes.len() as u64 {
+    if texels == 0 || texels / MAX_TEXELS_A_BYTE > bytes.len() as u64 {
         return Err(damaged());
     }
     check_memory(decoder.total_bytes())

@@ -69,7 +69,7 @@ pub fn spawn_material(
     let [r, g, b] = own.base_colour;
     let base_colour = Rgb::new(r, g, b);
     // 0 stands for a dielectric that reflects all light.
-    let ior = |[least, most]: [f64; 2]| if own.ior == 0.0 { most } else { own.ior.clamp(least, most) };
+    let ior = |[min, max]: [f64; 2]| if own.ior == 0.0 { max } else { own.ior.clamp(min, max) };
     let transmits = transmits(&own, || model.is_closed(material));
     let alpha = own.roughness * own.roughness;
     let entity = match transmits {

@@ -23,7 +23,7 @@ const FILLED: f64 = 0.9;
 /// What the exposure scales.
 const ALL_LIGHT: &str = "all light of the file, its lights' and its surfaces',";
 /// The greatest aspect ratio that a picture takes from a camera.
-const MOST_OBLONG: f64 = 20.0;
+const MAX_OBLONG: f64 = 20.0;
 /// The most that a surface emits, well within what f32 holds.
 const BRIGHTEST: f64 = 1e30;
 
@@ -160,8 +160,7 @@ fn is_clipped(model: &Model) -> bool {
 /// A picture of 640 × 360 pixels, or of about as many with another aspect ratio.
 fn resolution_of(aspect: Option<f64>) -> Resolution {
     let [width, height] = [640.0, 360.0_f64];
-    let aspect =
-        aspect.filter(|aspect| aspect.is_finite()).map(|aspect| aspect.clamp(MOST_OBLONG.recip(), MOST_OBLONG));
+    let aspect = aspect.filter(|aspect| aspect.is_finite()).map(|aspect| aspect.clamp(MAX_OBLONG.recip(), MAX_OBLONG));
     let [width, height] = aspect.map_or([width, height], |aspect| {
         let across = (width * height * aspect).sqrt();
         [across, across / aspect]

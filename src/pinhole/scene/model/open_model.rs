@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 /// The kind of file that a mesh names.
-pub const MODEL_FILE: FileKind = FileKind { name: "a model", most: 4 << 30 };
+pub const MODEL_FILE: FileKind = FileKind { name: "a model", max: 4 << 30 };
 
 /// What an instance of a mesh takes in a scene with all that is made of it, in bytes.
 const BYTES_A_PART: u64 = 4096;

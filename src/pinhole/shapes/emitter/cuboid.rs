@@ -1,4 +1,4 @@
-use super::emitting::{Emitting, LeavingSpot, LightPoint};
+use super::emitting::{AreaSample, Emitting, LightPoint};
 use super::parallelogram::{Parallelogram, across, parallelogram_pdf, parallelogram_point, parallelogram_solid_angle};
 use crate::shapes::offset::l1_norm;
 use glam::DVec3;
@@ -69,7 +69,7 @@ impl Emitting for EmittingCuboid {
     }
 
     #[inline(always)]
-    fn spot(&self, u: [f64; 2]) -> LeavingSpot {
+    fn spot(&self, u: [f64; 2]) -> AreaSample {
         let area = |axis: usize| self.half_edges[(axis + 1) % 3].cross(self.half_edges[(axis + 2) % 3]).length();
         let areas = [area(0), area(1), area(2)];
         let all: f64 = areas.iter().sum();
@@ -86,7 +86,7 @@ impl Emitting for EmittingCuboid {
         let edges = [self.half_edges[(axis + 1) % 3], self.half_edges[(axis + 2) % 3]];
         let position = self.centre + sign * self.half_edges[axis] + along[0] * edges[0] + along[1] * edges[1];
         let size = l1_norm(self.centre) + self.half_edges.map(l1_norm).iter().sum::<f64>();
-        LeavingSpot { position, normal: sign * self.normals[axis], area: self.area(), size }
+        AreaSample { position, normal: sign * self.normals[axis], area: self.area(), size }
     }
 }
 

@@ -1,4 +1,4 @@
-use super::emitting::{Emitting, LeavingSpot, LightPoint, pdf_from_area};
+use super::emitting::{AreaSample, Emitting, LightPoint, pdf_from_area};
 use super::parallelogram::{Parallelogram, RectangleSeen};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 /// From farther away than this many of its longest radii, a disk is sampled by area.
 const FAR: f64 = 3.0;
 /// It is also sampled by area where its bounding rectangle subtends less than this many sr.
-const LEAST_SOLID_ANGLE: f64 = 1e-6;
+const MIN_SOLID_ANGLE: f64 = 1e-6;
 
 /// A disk, or the ellipse that a non-uniform scale makes of it, as a light: its bounding rectangle with sides along its
 /// axes.
@@ -45,9 +45,9 @@ impl Emitting for EmittingDisk {
     }
 
     #[inline(always)]
-    fn spot(&self, u: [f64; 2]) -> LeavingSpot {
+    fn spot(&self, u: [f64; 2]) -> AreaSample {
         let (radius, (sine, cosine)) = (u[0].sqrt(), libm::sincos(TAU * u[1]));
-        LeavingSpot { area: self.area(), ..self.0.spot_at([radius * cosine, radius * sine]) }
+        AreaSample { area: self.area(), ..self.0.spot_at([radius * cosine, radius * sine]) }
     }
 }
 
@@ -93,7 +93,7 @@ fn box_seen(disk: &Parallelogram, from: DVec3) -> Option<RectangleSeen> {
         _ => [x, y],
     };
     let seen = RectangleSeen::new(disk.centre, half_edges, from);
-    (seen.solid_angle >= LEAST_SOLID_ANGLE).then_some(seen)
+    (seen.solid_angle >= MIN_SOLID_ANGLE).then_some(seen)
 }
 
 /// Samples a point uniformly over the disk's area; concentric squares map to concentric circles (Shirley and Chiu

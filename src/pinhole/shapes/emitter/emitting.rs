@@ -29,7 +29,7 @@ pub trait Emitting: Clone + Copy + Debug + PartialEq + Send + Sync + 'static {
     fn distance(&self, from: DVec3, direction: DVec3) -> f64;
 
     /// A point of its area, for a point of the unit square; uniform, or nearly so.
-    fn spot(&self, u: [f64; 2]) -> LeavingSpot;
+    fn spot(&self, u: [f64; 2]) -> AreaSample;
 }
 
 /// A point sampled on a light, as seen from the lit point.
@@ -48,7 +48,7 @@ impl LightPoint {
 
 /// A point of a light from which a ray leaves it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LeavingSpot {
+pub struct AreaSample {
     /// The position in render space.
     pub position: DVec3,
     /// The unit normal of the shape's own side.
@@ -86,7 +86,7 @@ impl Emitting for NeverSampled {
         match *self {}
     }
 
-    fn spot(&self, _: [f64; 2]) -> LeavingSpot {
+    fn spot(&self, _: [f64; 2]) -> AreaSample {
         match *self {}
     }
 }

@@ -1,5 +1,5 @@
-use super::emitting::{Emitting, LeavingSpot, LightPoint, angle_of, pdf_from_area};
-use super::triangle::{LEAST_SOLID_ANGLE, TriangleSeen, triangle_solid_angle};
+use super::emitting::{AreaSample, Emitting, LightPoint, angle_of, pdf_from_area};
+use super::triangle::{MIN_SOLID_ANGLE, TriangleSeen, triangle_solid_angle};
 use crate::shapes::offset::l1_norm;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -10,7 +10,7 @@ const FAR: f64 = 3.0;
 /// A rectangle that subtends less than this many sr is sampled as its two triangles.
 ///
 /// Its solid angle is the excess of four angles over 360°, and so is off by some 10⁻¹⁵ sr.
-const LEAST_OF_FOUR_ANGLES: f64 = 1e-4;
+const MIN_OF_FOUR_ANGLES: f64 = 1e-4;
 
 /// Edges with a cosine of no more than this between them count as perpendicular.
 const SQUARE: f64 = 1e-9;
@@ -53,10 +53,10 @@ impl Parallelogram {
 
     /// The point with these coordinates, which are −1 or 1 at its edges.
     #[inline(always)]
-    pub(super) fn spot_at(&self, [x, y]: [f64; 2]) -> LeavingSpot {
+    pub(super) fn spot_at(&self, [x, y]: [f64; 2]) -> AreaSample {
         let position = self.centre + x * self.half_edges[0] + y * self.half_edges[1];
         let size = l1_norm(self.centre) + l1_norm(self.half_edges[0]) + l1_norm(self.half_edges[1]);
-        LeavingSpot { position, normal: self.normal, area: self.area(), size }
+        AreaSample { position, normal: self.normal, area: self.area(), size }
     }
 }
 
@@ -92,7 +92,7 @@ impl Emitting for Parallelogram {
     }
 
     #[inline(always)]
-    fn spot(&self, u: [f64; 2]) -> LeavingSpot {
+    fn spot(&self, u: [f64; 2]) -> AreaSample {
         self.spot_at([2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0])
     }
 }
@@ -297,12 +297,12 @@ impl Seen {
         }
         if shape.is_rectangle {
             let seen = RectangleSeen::new(shape.centre, shape.half_edges, from);
-            if seen.solid_angle >= LEAST_OF_FOUR_ANGLES {
+            if seen.solid_angle >= MIN_OF_FOUR_ANGLES {
                 return Self::Rectangle(seen);
             }
         }
         let solid_angles = halves(shape).map(|half| triangle_solid_angle(&half.map(|corner| corner - from)));
-        let enough = solid_angles[0] + solid_angles[1] >= LEAST_SOLID_ANGLE;
+        let enough = solid_angles[0] + solid_angles[1] >= MIN_SOLID_ANGLE;
         if enough { Self::Triangles(solid_angles) } else { Self::Small }
     }
 }

@@ -1,10 +1,10 @@
-use super::emitting::{Emitting, LeavingSpot, LightPoint, angle_of, pdf_from_area};
+use super::emitting::{AreaSample, Emitting, LightPoint, angle_of, pdf_from_area};
 use crate::shapes::offset::l1_norm;
 use glam::DVec3;
 
 /// A triangle that subtends less than this many sr is sampled by area, since the width of a thin one would have no
 /// digits left.
-pub(super) const LEAST_SOLID_ANGLE: f64 = 1e-9;
+pub(super) const MIN_SOLID_ANGLE: f64 = 1e-9;
 
 /// A triangle as a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,12 +48,12 @@ impl Emitting for EmittingTriangle {
     }
 
     #[inline(always)]
-    fn spot(&self, u: [f64; 2]) -> LeavingSpot {
+    fn spot(&self, u: [f64; 2]) -> AreaSample {
         let [a, b, c] = self.corners;
         let root = u[0].sqrt();
         let position = a * (1.0 - root) + b * (root * (1.0 - u[1])) + c * (root * u[1]);
         let size = self.corners.into_iter().map(l1_norm).fold(0.0, f64::max);
-        LeavingSpot { position, normal: self.normal, area: self.area(), size }
+        AreaSample { position, normal: self.normal, area: self.area(), size }
     }
 }
 
@@ -133,7 +133,7 @@ impl TriangleSeen {
 pub fn triangle_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> LightPoint {
     let there = corners.map(|corner| corner - from);
     let solid_angle = triangle_solid_angle(&there);
-    if solid_angle < LEAST_SOLID_ANGLE {
+    if solid_angle < MIN_SOLID_ANGLE {
         return triangle_area_point(corners, from, u);
     }
     LightPoint { to: TriangleSeen::new(there, solid_angle).at(u), pdf: 1.0 / solid_angle }
@@ -143,7 +143,7 @@ pub fn triangle_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> LightPo
 #[inline(always)]
 pub fn triangle_pdf(corners: &[DVec3; 3], from: DVec3, to: DVec3) -> f64 {
     let solid_angle = triangle_solid_angle(&corners.map(|corner| corner - from));
-    if solid_angle < LEAST_SOLID_ANGLE { triangle_area_pdf(corners, to) } else { 1.0 / solid_angle }
+    if solid_angle < MIN_SOLID_ANGLE { triangle_area_pdf(corners, to) } else { 1.0 / solid_angle }
 }
 
 /// Samples a point uniformly over a triangle's area: √u runs from the first corner to the opposite edge.

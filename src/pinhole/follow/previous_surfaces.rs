@@ -9,7 +9,7 @@ use glam::DVec3;
 column! {
     /// The surface that each ray was scattered from, by which the probability is computed that light sampling chose the
     /// light which the ray hits; exists where one of many lights is chosen.
-    pub struct Departures("departure", "world, from the eye", "unit vectors", Path, begun in Start) {
+    pub struct PreviousSurfaces("previous surface", "world, from the eye", "unit vectors", Path, begun in Start) {
         /// The geometric normal on the side of the ray, x; all 0 for camera rays.
         nx: f32,
         /// Normal, y.
@@ -19,7 +19,7 @@ column! {
     }
 }
 
-impl Departures {
+impl PreviousSurfaces {
     /// The normal, each component mapped from [−1, 1] to [0, 1].
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.nx[row], self.ny[row], self.nz[row]].map(|part| 0.5 + 0.5 * part)
@@ -33,18 +33,18 @@ impl Departures {
 }
 
 /// Camera rays leave no surface.
-pub fn start_departures(mut tiles: Query<(&WorldRays, &mut Departures)>) {
-    for (rays, mut departures) in &mut tiles {
-        let (x, y, z) = departures.slices_mut(rays.rows());
+pub fn start_previous_surfaces(mut tiles: Query<(&WorldRays, &mut PreviousSurfaces)>) {
+    for (rays, mut previous) in &mut tiles {
+        let (x, y, z) = previous.slices_mut(rays.rows());
         [x, y, z].into_iter().for_each(|component| component.fill(0.0));
     }
 }
 
 /// Keeps the normals of the surfaces that the rays of the next bounce leave.
-pub fn keep_departures(mut tiles: Query<(&Surfaces, &Scattered, &mut Departures)>) {
-    for (surfaces, scattered, mut departures) in &mut tiles {
-        let (x, y, z) = departures.slices_mut(scattered.rows());
-        for (ray, &row) in scattered.path.iter().enumerate() {
+pub fn keep_previous_surfaces(mut tiles: Query<(&Surfaces, &Scattered, &mut PreviousSurfaces)>) {
+    for (surfaces, scattered, mut previous) in &mut tiles {
+        let (x, y, z) = previous.slices_mut(scattered.rows());
+        for (ray, &row) in scattered.row.iter().enumerate() {
             let normal = surfaces.get(row as usize).normal;
             let along = normal.x * scattered.dx[ray] + normal.y * scattered.dy[ray] + normal.z * scattered.dz[ray];
             (x[ray], y[ray], z[ray]) = if along < 0.0 { -normal } else { normal }.into();
@@ -52,23 +52,23 @@ pub fn keep_departures(mut tiles: Query<(&Surfaces, &Scattered, &mut Departures)
     }
 }
 
-/// The stage that runs [`start_departures`].
-pub fn start_departures_stage() -> Stage {
-    Stage::new("Clear the surfaces that rays left", TileSystems::Start, start_departures)
+/// The stage that runs [`start_previous_surfaces`].
+pub fn start_previous_surfaces_stage() -> Stage {
+    Stage::new("Clear the surfaces that rays left", TileSystems::Start, start_previous_surfaces)
         .on_first_bounce()
         .on_camera_paths()
-        .when(departure_evidence)
+        .when(previous_surface_evidence)
 }
 
-/// The stage that runs [`keep_departures`].
-pub fn keep_departures_stage() -> Stage {
-    Stage::new("Keep the surfaces that rays leave", TileSystems::Step, keep_departures)
+/// The stage that runs [`keep_previous_surfaces`].
+pub fn keep_previous_surfaces_stage() -> Stage {
+    Stage::new("Keep the surfaces that rays leave", TileSystems::Step, keep_previous_surfaces)
         .on_camera_paths()
-        .when(departure_evidence)
+        .when(previous_surface_evidence)
 }
 
 /// Evidence that light sampling chooses one of many area lights by the surface, and that what BSDF sampling finds is
 /// weighted against it.
-pub(super) fn departure_evidence(scene: &Census<'_>) -> Evidence {
+pub(super) fn previous_surface_evidence(scene: &Census<'_>) -> Evidence {
     many_area_lights_evidence(scene).and(|| followed_evidence(scene)).and(|| mis_evidence(scene))
 }
