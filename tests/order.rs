@@ -169,7 +169,7 @@ fn place(package: &str, folder: &str) -> Option<usize> {
 
 /// A file without its unit tests, which may be checked by what comes later, such as the oracles of `measure`.
 fn before_tests(text: &str) -> &str {
-    text.split("mod tests {").next().unwrap_or(text)
+    text.split("#[cfg(test)]\nmod ").next().unwrap_or(text)
 }
 
 /// What a file may not name, and why.
@@ -231,7 +231,7 @@ fn the_parser_sees_every_way_to_name_a_folder() {
     assert_eq!(bad("rays", "use crate::{Error, film::Film};"), 1);
     assert_eq!(bad("film", "use crate::{Error, rays::Tile};"), 0);
     assert_eq!(bad("look", "use crate::Chapter;"), 1);
-    assert_eq!(bad("rays", "mod tests { use crate::film::Film; }"), 0);
+    assert_eq!(bad("rays", "#[cfg(test)]\nmod tests { use crate::film::Film; }"), 0);
     assert_eq!(bad("utils", ""), 1);
 }
 

@@ -34,7 +34,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, f64> {
     Question {
-        pinhole_has: ("src/pinhole/cameras/field_of_view.rs", "half_extent"),
+        pinhole_has: ("src/pinhole/cameras/camera.rs", "half_extent"),
         probes: asked(),
         tell: |(angle, axis, width, height)| format!("angle {angle:?}°, axis {axis:?}, width {width}, height {height}"),
         right: |&(angle, axis, width, height)| {

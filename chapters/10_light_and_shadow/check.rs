@@ -37,7 +37,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, f64> {
     Question {
-        pinhole_has: ("src/pinhole/lights/irradiance.rs", "irradiance_from_point"),
+        pinhole_has: ("src/pinhole/lights/light.rs", "irradiance_from_point"),
         probes: asked(),
         tell: |(colour, intensity, position, normal, light)| {
             let [position, normal, light] = [position, normal, light].map(Shown::shown);

@@ -108,7 +108,7 @@ fn question() -> Question<Input, f64> {
                  mean itself",
         );
     Question {
-        pinhole_has: ("src/pinhole/shade/checker.rs", "wave_mean"),
+        pinhole_has: ("src/pinhole/shade/textures.rs", "wave_mean"),
         probes: asked(),
         tell: |(x, width)| format!("x {}, width {}", x.shown(), width.shown()),
         right: |&(x, width)| wave_mean(x, width),

@@ -47,7 +47,7 @@ fn largest(throughput: [f64; 3]) -> f64 {
 
 fn question() -> Question<Input, [f64; 3]> {
     Question {
-        pinhole_has: ("src/pinhole/follow/roulette.rs", "survival_probability"),
+        pinhole_has: ("src/pinhole/follow/paths.rs", "survival_probability"),
         probes: asked(),
         tell: |(throughput, u)| format!("throughput {}, u {}", throughput.shown(), u.shown()),
         right: |input| {

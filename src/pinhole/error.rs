@@ -1,8 +1,7 @@
 use crate::plan::PlanError;
 use crate::scene::{FileProblem, SceneError, printable_path};
-use std::fmt;
-use std::io;
 use std::path::PathBuf;
+use std::{fmt, io};
 use thiserror::Error;
 
 /// The result of pinhole's functions.

@@ -17,7 +17,7 @@ const OTHERWISE: [(&str, &str); 5] = [
 fn every_component_of_a_scene_has_a_word() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/pinhole/scene");
     let mut components = Vec::new();
-    let folders = [folder.clone(), folder.join("material"), folder.join("model")];
+    let folders = [folder.clone(), folder.join("model")];
     let entries = folders.map(|folder| fs::read_dir(folder).expect("a readable folder"));
     for entry in entries.into_iter().flatten() {
         let path = entry.expect("an entry").path();
@@ -31,14 +31,14 @@ fn every_component_of_a_scene_has_a_word() {
             }
         }
     }
-    let lists = ["file/word.rs", "material/mod.rs"].map(|list| fs::read_to_string(folder.join(list)).expect("kept"));
+    let lists = ["file/word.rs", "material.rs"].map(|list| fs::read_to_string(folder.join(list)).expect("kept"));
     let list = lists.concat();
     for component in &components {
         let listed = list.contains(&format!("Word::of::<{component}>("));
         let otherwise = OTHERWISE.iter().any(|(name, _)| name == component);
         assert!(
             listed != otherwise,
-            "{component} has no word in scene/file/word.rs or scene/material/mod.rs, or is held otherwise too"
+            "{component} has no word in scene/file/word.rs or scene/material.rs, or is held otherwise too"
         );
     }
     assert_eq!(components.len(), words().count() + OTHERWISE.len(), "{components:?}");

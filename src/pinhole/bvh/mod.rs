@@ -7,8 +7,6 @@
 //!
 //! What is in a leaf is not known here: shapes keep tables of rows, meshes blocks of triangles.
 
-mod binary_tree;
-mod bins;
 mod bounding_box;
 mod box_packet;
 mod build;

@@ -1,5 +1,7 @@
-use super::image_frame::ImageFrame;
-use crate::scene::SceneError;
+//! What a camera is, and the list of cameras.
+
+use crate::plan::Table;
+use crate::scene::{Degrees, FovAxis, SceneError, number};
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use std::fmt::Debug;
@@ -94,3 +96,90 @@ pub trait Camera: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
         true
     }
 }
+
+// ANCHOR: tan_half
+/// tan(φ / 2) of a full angle φ, accurate to the last bits even near 180°: there it is the reciprocal of the tangent of
+/// half the difference to 180°, which is subtracted exactly.
+pub fn tan_half(angle: Degrees) -> f64 {
+    if angle.0 > 90.0 {
+        1.0 / libm::tan(Degrees(180.0 - angle.0).radians() / 2.0)
+    } else {
+        libm::tan(angle.radians() / 2.0)
+    }
+}
+// ANCHOR_END: tan_half
+
+// ANCHOR: half_extent
+/// The extent of an image of this aspect ratio from its centre along `axis`, in half heights.
+pub fn half_extent(axis: FovAxis, aspect: f64) -> f64 {
+    match axis {
+        FovAxis::Vertical => 1.0,
+        FovAxis::Horizontal => aspect,
+        FovAxis::Smaller => aspect.min(1.0),
+        FovAxis::Larger => aspect.max(1.0),
+        FovAxis::Diagonal => (1.0 + aspect * aspect).sqrt(),
+    }
+}
+
+/// tan(fov / 2) for the vertical field of view, from an angle along `axis` of an image of this aspect ratio.
+pub(super) fn tan_half_vertical(fov: Degrees, axis: FovAxis, aspect: f64) -> f64 {
+    tan_half(fov) / half_extent(axis, aspect)
+}
+// ANCHOR_END: half_extent
+
+/// The image's resolution and aspect ratio.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImageFrame {
+    /// Pixels from left to right.
+    pub width: u32,
+    /// Pixels from top to bottom.
+    pub height: u32,
+}
+
+impl ImageFrame {
+    /// Width and height in pixels.
+    pub fn size(&self) -> DVec2 {
+        DVec2::new(f64::from(self.width), f64::from(self.height))
+    }
+
+    /// Width over height.
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.width) / f64::from(self.height)
+    }
+}
+
+/// The narrowest pixel, in radians, for which a world ray in f32 is still accurate to 0.03 pixels.
+pub const SMALLEST_PIXEL: f64 = 4e-6;
+
+/// Checks that a field of view is wide enough for the image; `pixel` is the angle that a pixel subtends, in radians.
+pub(super) fn wide_enough(who: &str, fov: Degrees, image: ImageFrame, pixel: f64) -> Result<(), SceneError> {
+    if pixel >= SMALLEST_PIXEL {
+        return Ok(());
+    }
+    let (width, height) = (image.width, image.height);
+    let value = format!("{}° over {width} × {height} pixels, {pixel:.1e} rad a pixel", number(fov.0));
+    let accepted = format!(
+        "a pixel must be at least {SMALLEST_PIXEL:.0e} rad wide for world rays in f32: \
+         widen the angle or take fewer pixels"
+    );
+    Err(SceneError::new(who, "fov", value, accepted))
+}
+
+/// A camera of the list.
+pub trait Listed: Camera + Table {
+    /// The names of what exists once for each camera.
+    const NAMES: CameraNames;
+}
+
+macro_rules! registry {
+    ($($component:ident($camera:ty) $noun:literal,)+) => {
+        $(impl Listed for $camera {
+            const NAMES: CameraNames = CameraNames {
+                component: stringify!($component),
+                noun: $noun,
+                stage: concat!("Generate camera rays: ", $noun),
+            };
+        })+
+    };
+}
+super::with_cameras!(registry);

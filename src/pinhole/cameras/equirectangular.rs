@@ -1,5 +1,4 @@
-use super::camera::{Camera, CameraRaySlices, RaySpread, ScreenSlices};
-use super::image_frame::ImageFrame;
+use super::camera::{Camera, CameraRaySlices, ImageFrame, RaySpread, ScreenSlices};
 use crate::scene::{EquirectangularCamera, SceneError};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;

@@ -1,7 +1,4 @@
-use super::camera::{Camera, CameraRaySlices, Outline, RaySpread, ScreenSlices};
-use super::field_of_view::half_extent;
-use super::image_frame::ImageFrame;
-use super::narrow_pixel::wide_enough;
+use super::camera::{Camera, CameraRaySlices, ImageFrame, Outline, RaySpread, ScreenSlices, half_extent, wide_enough};
 use crate::scene::{Degrees, FisheyeCamera, FovAxis, SceneError, number};
 use glam::{DVec2, DVec3};
 

@@ -25,24 +25,19 @@ macro_rules! with_cameras {
         }
     };
 }
+pub use camera::{
+    Camera, CameraNames, CameraRaySlices, ImageFrame, Listed, Outline, RaySpread, SMALLEST_PIXEL, ScreenSlices,
+    half_extent, tan_half,
+};
 pub use with_cameras;
 
 mod camera;
 mod equirectangular;
-mod field_of_view;
 mod fisheye;
-mod image_frame;
-mod narrow_pixel;
 mod orthographic;
 mod perspective;
-mod registry;
 
-pub use camera::{Camera, CameraNames, CameraRaySlices, Outline, RaySpread, ScreenSlices};
 pub use equirectangular::{EquirectangularImage, camera_ray_equirectangular, screen_from_equirectangular};
-pub use field_of_view::{half_extent, tan_half};
 pub use fisheye::{ImageCircle, camera_ray_fisheye, in_image_circle, screen_from_fisheye};
-pub use image_frame::ImageFrame;
-pub use narrow_pixel::SMALLEST_PIXEL;
 pub use orthographic::{OrthographicWindow, camera_ray_orthographic};
 pub use perspective::{PerspectiveProjection, angle_across, angle_of_tan_half, camera_ray_perspective};
-pub use registry::Listed;

@@ -1,5 +1,4 @@
-use super::camera::{Camera, CameraRaySlices, RaySpread, ScreenSlices};
-use super::image_frame::ImageFrame;
+use super::camera::{Camera, CameraRaySlices, ImageFrame, RaySpread, ScreenSlices};
 use crate::scene::{OrthographicCamera, SceneError, positive_length};
 use glam::{DVec2, DVec3};
 

@@ -1,7 +1,6 @@
-use super::camera::{Camera, CameraRaySlices, RaySpread, ScreenSlices};
-use super::field_of_view::{half_extent, tan_half_vertical};
-use super::image_frame::ImageFrame;
-use super::narrow_pixel::wide_enough;
+use super::camera::{
+    Camera, CameraRaySlices, ImageFrame, RaySpread, ScreenSlices, half_extent, tan_half_vertical, wide_enough,
+};
 use crate::scene::{Degrees, FovAxis, PerspectiveCamera, SceneError, number};
 use glam::{DVec2, DVec3};
 use multiversion::multiversion;

@@ -1,5 +1,5 @@
-use super::camera::camera_spread;
-use super::light_tracing::no_image_plane;
+use super::cameras::camera_spread;
+use super::integrator::no_image_plane;
 use super::{CameraAxes, FilterTable, LensTable, lens_evidence, radius_of};
 use crate::cameras::{ImageFrame, RaySpread};
 use crate::plan::{Census, Table};

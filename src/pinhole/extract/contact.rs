@@ -1,7 +1,7 @@
 //! Which surfaces single precision may not keep apart from those of glass: they touch, or a body is that thin.
 
-use super::shape_kind::{listed_kind, one_shape, shape_entities};
-use super::velocity::{moves_while_open, velocity_of};
+use super::motion::{moves_while_open, velocity_of};
+use super::shapes::{listed_kind, one_shape, shape_entities};
 use super::{MaterialTable, NO_ROW, ShapeTable, ShutterTable, eye, followed_evidence, glass_evidence};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{SceneError, called};

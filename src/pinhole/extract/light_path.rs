@@ -1,7 +1,7 @@
-use super::camera::eye;
-use super::light_choice::light_distribution;
+use super::area_lights::light_distribution;
+use super::cameras::eye;
 use super::lights_of::{light_kinds, shadowed_evidence};
-use super::shape_kind::{listed_kind, one_shape, shape_entities};
+use super::shapes::{listed_kind, one_shape, shape_entities};
 use super::{
     AreaLightTable, EnvironmentLightTable, EnvironmentTable, MaterialTable, MeshLights, NO_ROW, ShapeTable,
     environment_light_evidence, luminance,

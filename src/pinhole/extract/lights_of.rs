@@ -1,7 +1,7 @@
 //! Which entities are a light without an area, and what extraction asks of each kind.
 
+use super::area_lights::{LightChoice, hierarchy_of_lights, light_distribution};
 use super::check::kind_and_name;
-use super::light_choice::{LightChoice, hierarchy_of_lights, light_distribution};
 use super::pose::ahead;
 use super::{eye, world_from_entity};
 use crate::lights::{

@@ -1,6 +1,6 @@
 //! Which materials shapes are made of, and the evidence that stages need of them.
 
-use super::shape_kind::shape_entities;
+use super::shapes::shape_entities;
 use crate::material::{
     Bsdf, BsdfClass, MaterialKind, Registration, declared_materials, is_material, material_entities, material_kind,
     registered_materials,

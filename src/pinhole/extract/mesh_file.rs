@@ -1,5 +1,5 @@
 use super::check::kind_and_name;
-use super::image_file::shown_name;
+use super::image_files::shown_name;
 use crate::plan::Census;
 use crate::scene::{Mesh, MeshPart, SceneError, UnreadMesh};
 use bevy_ecs::prelude::*;

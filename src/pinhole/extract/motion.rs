@@ -1,11 +1,14 @@
-use super::camera_entity::camera_of;
+//! What moves while the shutter is open.
+
+use super::cameras::camera_of;
 use super::check::{finite_point, kind_and_name, number};
+use super::eye;
 use super::lights_of::light_kinds;
-use super::shape_kind::moving_shapes;
-use super::texture::textures;
-use super::velocity::{moves_while_open, shutter_has_duration, shutter_of, velocity_of};
+use super::shapes::{moving_shapes, one_shape, shape_entities};
+use super::textures::textures;
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{Motion, SceneError, Shutter, UsesMaterial, called};
+use crate::scene::{ChildOf, Motion, SceneError, Shutter, UsesMaterial, called};
+use crate::shapes::AnyShape;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::collections::HashSet;
@@ -119,4 +122,84 @@ fn check_movers(scene: &Census<'_>) -> Result<(), SceneError> {
         }
     }
     Ok(())
+}
+
+/// Shapes of every kind that move while the shutter is open, in spawn order; the tables of the kinds hold the others.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MovingTable {
+    /// The shape at the moment when the shutter opens.
+    pub body: Vec<AnyShape>,
+    /// Its velocity, in scene units per unit of time.
+    pub velocity: Vec<DVec3>,
+    /// The shape's number.
+    pub shape: Vec<u32>,
+}
+
+impl Table for MovingTable {
+    const NAME: &'static str = "moving shapes";
+
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let eye = eye(scene)?;
+        let mut table = Self::default();
+        for &(shape, entity) in moving_shapes(scene).iter() {
+            table.body.push((one_shape(scene, entity)?.body)(scene, entity, eye)?);
+            table.velocity.push(velocity_of(scene, entity));
+            table.shape.push(shape as u32);
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.body.len() * (size_of::<AnyShape>() + size_of::<DVec3>() + size_of::<u32>())
+    }
+}
+
+/// All shapes at the moment when the shutter opens, each of any kind, in spawn order.
+///
+/// Errors: what is wrong with a shape.
+pub fn any_shapes(scene: &Census<'_>) -> Result<Vec<AnyShape>, SceneError> {
+    let eye = eye(scene)?;
+    shape_entities(scene).iter().map(|&entity| (one_shape(scene, entity)?.body)(scene, entity, eye)).collect()
+}
+
+// The motion of entities, and when the shutter is open.
+
+/// The camera's shutter; without one, the moment 0.
+pub(super) fn shutter_of(scene: &Census<'_>) -> Shutter {
+    let shutters = scene.entities::<With<Shutter>>();
+    shutters
+        .first()
+        .and_then(|&camera| scene.get::<Shutter>(camera))
+        .copied()
+        .unwrap_or(Shutter { open: 0.0, close: 0.0 })
+}
+
+/// The velocity of an entity: its own and its parents' added.
+pub fn velocity_of(scene: &Census<'_>, entity: Entity) -> DVec3 {
+    let (mut velocity, mut next, mut steps) = (DVec3::ZERO, Some(entity), 0);
+    // Cyclic parents are an error of every placement; here the loop must only end.
+    while let Some(own) = next.filter(|_| steps < 1 << 16) {
+        velocity += scene.get::<Motion>(own).map_or(DVec3::ZERO, |motion| motion.velocity);
+        next = scene.get::<ChildOf>(own).map(ChildOf::parent);
+        steps += 1;
+    }
+    velocity
+}
+
+/// The displacement of an entity at the moment when the shutter opens.
+pub fn displacement_at_opening(scene: &Census<'_>, entity: Entity) -> Option<DVec3> {
+    let velocity = velocity_of(scene, entity);
+    (velocity != DVec3::ZERO).then(|| velocity * shutter_of(scene).open)
+}
+
+/// Whether the shutter is open for a positive time.
+pub fn shutter_has_duration(scene: &Census<'_>) -> bool {
+    let Shutter { open, close } = shutter_of(scene);
+    close > open
+}
+
+/// A predicate for the shapes that move while the shutter is open.
+pub fn moves_while_open(scene: &Census<'_>) -> impl Fn(Entity) -> bool {
+    let open = shutter_has_duration(scene) && !scene.entities::<With<Motion>>().is_empty();
+    move |entity| open && velocity_of(scene, entity) != DVec3::ZERO
 }

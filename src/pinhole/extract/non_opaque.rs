@@ -3,11 +3,10 @@
 use super::check::kind_and_name;
 use super::eye;
 use super::material::used_material;
-use super::material_maps::UvImages;
-use super::shape_kind::{one_shape, shape_entities};
-use super::texture::NO_TEXTURE;
-use super::uv_space::UvSpaceTable;
-use super::velocity::moves_while_open;
+use super::motion::moves_while_open;
+use super::shapes::{one_shape, shape_entities};
+use super::textures::{NO_TEXTURE, UvImages};
+use super::uv::UvSpaceTable;
 use crate::material::{components_in_words, is_material, one_material};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Opacity, OpacityMap, SceneError, SingleSided, number};

@@ -1,5 +1,5 @@
 use super::check::{finite_point, number, triple};
-use super::velocity::displacement_at_opening;
+use super::motion::displacement_at_opening;
 use crate::plan::Census;
 use crate::scene::{ChildOf, LookAt, Placement, SceneError, called};
 use crate::shapes::Pose;

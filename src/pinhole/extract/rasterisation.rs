@@ -1,5 +1,5 @@
-use super::camera_entity::{camera_kind, named_camera};
-use super::shape_kind::kind_evidence;
+use super::cameras::{camera_kind, named_camera};
+use super::shapes::kind_evidence;
 use super::{camera_moves_evidence, lens_evidence};
 use crate::plan::{Census, Evidence};
 use crate::scene::{Rasterisation, SceneError};

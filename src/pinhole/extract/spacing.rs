@@ -1,11 +1,10 @@
 //! Whether f64 resolves a scene where it lies.
 
 use super::ShapeTable;
-use super::camera::eye;
-use super::camera_entity::named_camera;
+use super::cameras::{eye, named_camera};
 use super::check::{kind_and_name, number, triple};
 use super::pose::pose;
-use super::shape_kind::{listed_kind, one_shape, shape_entities};
+use super::shapes::{listed_kind, one_shape, shape_entities};
 use crate::plan::Census;
 use crate::scene::{LookAt, Plane, SceneError, Triangle};
 use bevy_ecs::prelude::*;

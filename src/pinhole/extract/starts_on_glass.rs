@@ -1,6 +1,6 @@
 //! Points that paths start from, the eye and lights without an area, on or close to the surface of glass.
 
-use super::camera_entity::camera_entity;
+use super::cameras::camera_entity;
 use super::lights_of::light_kinds;
 use super::{GlassBodyTable, eye, glass_evidence, traced_evidence};
 use crate::plan::{Census, Evidence, Table};

@@ -1,6 +1,12 @@
+//! Sums of samples, and their moments.
+
 use super::FilmTile;
-use crate::plan::{Evidence, Stage, TileSystems};
+use crate::extract::layer_evidence;
+use crate::plan::{
+    Census, Column, ColumnComponent, ComponentValues, Evidence, Lifetime, Stage, TileSystems, column_component,
+};
 use crate::rays::{PixelSamples, SampleSigns, sampling_evidence, signed_evidence};
+use crate::scene::{Adaptive, LayerKind};
 use crate::shade::Radiance;
 use bevy_ecs::prelude::*;
 
@@ -36,4 +42,110 @@ pub fn film_stage() -> Stage {
         .reads_where::<PixelSamples>(sampling_evidence)
         .reads_where::<SampleSigns>(signed_evidence)
         .when(|_| Evidence::always("every render produces a film"))
+}
+
+/// The second central moments of one tile's pixels: sums of squared deviations in f64, with a row per pixel.
+///
+/// Exists only if the variance layer or adaptive sampling needs it.
+/// It is updated by Welford's recurrence (1962) on the film's own sums, which avoids the cancellation of large sums.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FilmMoments {
+    /// Sum of the squared deviations of red radiance from its mean.
+    pub r: Vec<f64>,
+    /// The same for green.
+    pub g: Vec<f64>,
+    /// The same for blue.
+    pub b: Vec<f64>,
+}
+
+impl FilmMoments {
+    /// Moments without samples.
+    pub fn new(rows: usize) -> Self {
+        Self { r: vec![0.0; rows], g: vec![0.0; rows], b: vec![0.0; rows] }
+    }
+
+    /// Takes all samples away.
+    pub(super) fn empty(&mut self) {
+        [&mut self.r, &mut self.g, &mut self.b].into_iter().for_each(|sums| sums.fill(0.0));
+    }
+
+    /// Adds a sample that is about to be added to `film`.
+    #[inline(always)]
+    pub fn add(&mut self, film: &FilmTile, row: usize, radiance: [f32; 3]) {
+        let n = f64::from(film.count[row]);
+        if n == 0.0 || !FilmTile::accepts(radiance) {
+            return;
+        }
+        let mean = film.mean_f64(row);
+        let factor = n / (n + 1.0);
+        let square = |channel: usize| {
+            let deviation = f64::from(radiance[channel]) - mean[channel];
+            deviation * deviation * factor
+        };
+        self.r[row] += square(0);
+        self.g[row] += square(1);
+        self.b[row] += square(2);
+    }
+
+    /// The estimated variance of a row's mean, times its number of samples: red, green, blue; 0 with fewer than two.
+    ///
+    /// With weights of 1 that is the variance V of one sample.
+    /// The mean of n samples with weights of 1 and −1 is a ratio of two sums, the lower one W; to first order its
+    /// variance is n V / W², so this is n² V / W².
+    pub fn variance(&self, film: &FilmTile, row: usize) -> [f64; 3] {
+        let count = f64::from(film.count[row]);
+        let ratio = if film.weight(row) > 0 { count / film.weight(row) as f64 } else { 1.0 };
+        let factor = ratio * ratio / (count - 1.0).max(1.0);
+        [self.r[row] * factor, self.g[row] * factor, self.b[row] * factor]
+    }
+}
+
+column_component!(FilmMoments);
+
+impl Column for FilmMoments {
+    const NAME: &'static str = "moments";
+    const SPACE: &'static str = "film";
+    const UNIT: &'static str = "summed squares of linear Rec. 709";
+    const LIFETIME: Lifetime = Lifetime::Film;
+
+    fn rows(&self) -> usize {
+        self.r.len()
+    }
+
+    fn components(&self) -> Vec<ColumnComponent<'_>> {
+        vec![
+            ColumnComponent { name: "r", values: ComponentValues::F64(&self.r) },
+            ColumnComponent { name: "g", values: ComponentValues::F64(&self.g) },
+            ColumnComponent { name: "b", values: ComponentValues::F64(&self.b) },
+        ]
+    }
+
+    fn paint(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.r[row] as f32, self.g[row] as f32, self.b[row] as f32]
+    }
+}
+
+/// Adds each row's radiance to its pixel's second moments, before it is added to the film.
+pub fn add_to_moments(mut tiles: Query<(&Radiance, Option<&PixelSamples>, &FilmTile, &mut FilmMoments)>) {
+    for (radiance, samples, film, mut moments) in &mut tiles {
+        let (r, g, b) = radiance.slices();
+        for row in 0..r.len() {
+            let pixel = samples.map_or(row, |samples| samples.pixel[row] as usize);
+            moments.add(film, pixel, [r[row], g[row], b[row]]);
+        }
+    }
+}
+
+/// Evidence that the variance of pixels is needed.
+pub fn variance_evidence(scene: &Census<'_>) -> Evidence {
+    let adaptive = Evidence::of::<Adaptive>(scene, "adaptive camera");
+    let layer = layer_evidence(scene, "variance layer", |kind| kind == LayerKind::Variance);
+    adaptive.or(layer)
+}
+
+/// The stage that runs this system.
+pub fn moments_stage() -> Stage {
+    Stage::new("Accumulate second moments", TileSystems::Moments, add_to_moments)
+        .reads_where::<PixelSamples>(sampling_evidence)
+        .when(variance_evidence)
 }

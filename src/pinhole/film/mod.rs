@@ -17,55 +17,43 @@
 
 mod accumulate;
 mod checkpoint;
-mod checkpoint_place;
 mod denoise;
 mod develop;
-mod exr;
 mod film_tile;
-mod layered_exr;
+mod image_files;
 mod layers;
-mod moments;
 mod plausible;
-mod png;
 mod replaces;
 mod reproject;
 mod splats;
-mod tiled_film;
 mod whole_file;
 
 #[doc(hidden)]
 pub use crate::extract::linear_from_srgb;
 #[doc(hidden)]
-pub use accumulate::{add_to_film, film_stage};
+pub use accumulate::{FilmMoments, add_to_film, add_to_moments, film_stage, moments_stage, variance_evidence};
 #[doc(hidden)]
-pub use checkpoint::{read_checkpoint, write_checkpoint};
-#[doc(hidden)]
-pub use checkpoint_place::{CheckpointAt, SamplesKept, checkpoint_at, checkpoint_place, keep_checkpoint};
+pub use checkpoint::{
+    CheckpointAt, SamplesKept, checkpoint_at, checkpoint_place, keep_checkpoint, read_checkpoint, write_checkpoint,
+};
 #[doc(hidden)]
 pub use denoise::{GUIDES, Guides, denoise, denoise_radiance};
 pub use develop::Curve;
 #[doc(hidden)]
 pub use develop::{byte_from_linear, srgb_from_linear};
-#[doc(hidden)]
-pub use exr::exr_bytes;
-pub use exr::write_exr;
+pub use film_tile::Film;
 #[doc(hidden)]
 pub use film_tile::{FIRST_SAMPLE_STEPS, FilmTile, Rejected};
 #[doc(hidden)]
-pub use layered_exr::{ENTITY_NAMES, write_layered_exr};
+pub use image_files::{ENTITY_NAMES, exr_bytes, png_bytes, png_bytes_by, rgba_bytes, rgba_of, write_layered_exr};
+pub use image_files::{write_exr, write_png};
 #[doc(hidden)]
 pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
-#[doc(hidden)]
-pub use moments::{FilmMoments, add_to_moments, moments_stage, variance_evidence};
-pub use png::write_png;
-#[doc(hidden)]
-pub use png::{png_bytes, png_bytes_by, rgba_bytes, rgba_of};
 #[doc(hidden)]
 pub use replaces::{Replaces, Target, marked};
 #[doc(hidden)]
 pub use reproject::History;
 #[doc(hidden)]
 pub use splats::{FilmSplats, SplatFilter};
-pub use tiled_film::Film;
 #[doc(hidden)]
 pub use whole_file::{check_place, may_be_written, remove_own, set_aside, write_whole, writes_in_progress};

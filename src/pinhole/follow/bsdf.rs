@@ -1,23 +1,26 @@
-//! The stages of BSDFs that are not specular, each generic over the BSDF.
+//! The stages of a BSDF.
 
-use super::deeper_media::deeper_media_evidence;
 use super::interface::{Interface, InterfaceView};
-use super::media::media_evidence;
-use super::view::{BsdfView, BsdfViewItem};
+use super::media::{deeper_media_evidence, media_evidence};
+use super::specular::{specular_from_lights_stage, specular_stage, split_stage};
 use super::{DeeperMedia, Media, Scattered, ScatteredRay, power_heuristic};
 use crate::extract::{
-    GlassTable, MaterialTable, SamplingTable, area_light_evidence, bsdf_evidence, environment_light_evidence,
-    glass_contact_evidence, mis_evidence, needed_if, traced_evidence,
+    GlassTable, MaterialTable, NO_ROW, SamplingTable, ShapeTable, area_light_evidence, bsdf_evidence,
+    environment_light_evidence, glass_contact_evidence, mis_evidence, needed_if, traced_evidence,
 };
-use crate::intersect::{Contacts, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces};
-use crate::material::{Bsdf, BsdfClass, MatteTable, Parameters, ShadingContext, Transport};
+use crate::intersect::{Contacts, Hits, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces, rows_of_kind};
+use crate::material::{
+    Bsdf, BsdfClass, MaterialKind, MatteTable, Parameters, ShadingContext, Transport, for_each_bsdf,
+};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{DrawsView, WorldRays, draws_of_one, draws_of_two};
+use crate::rays::{DrawsView, Paths, WorldRays, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
 use crate::shade::{LightPdfs, ParameterColumns, ReflectionView, ReflectionViewItem, ShadowRays, lit_evidence};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::DVec3;
+
+// The stages of BSDFs that are not specular, each generic over the BSDF.
 
 /// What a path carries, by the pass that a stage runs in.
 pub(super) const fn transport(from_light: bool) -> Transport {
@@ -244,4 +247,121 @@ fn continued_evidence<B: Bsdf>(scene: &Census<'_>) -> Evidence {
         let does = integrator.transport();
         if B::CLASS == BsdfClass::Glossy { does.samples_glossy } else { does.samples_diffuse }
     })
+}
+
+rows_of_kind! {
+    /// The rows that hit a surface with a specular BSDF, ascending.
+    pub struct BsdfRows<B: Bsdf>
+}
+
+/// Lists the rows that hit a surface with this BSDF: every candidate is written, and the next overwrites it unless it
+/// counts.
+pub fn classify_bsdf<B: Bsdf>(
+    shapes: Res<Shared<ShapeTable>>,
+    materials: Res<Shared<MaterialTable>>,
+    mut tiles: Query<(&Hits, &mut BsdfRows<B>)>,
+) {
+    let has_bsdf = |shape: usize| match shapes.material[shape] {
+        NO_ROW => false,
+        material => materials.kind[material as usize] == B::KIND,
+    };
+    for (hits, mut list) in &mut tiles {
+        list.row.resize(hits.rows(), 0);
+        let mut length = 0;
+        for (row, &shape) in hits.shape.iter().enumerate() {
+            list.row[length] = row as u32;
+            length += usize::from(shape != NO_SHAPE && has_bsdf(shape as usize));
+        }
+        list.row.truncate(length);
+    }
+}
+
+/// The stage that runs [`classify_bsdf`].
+pub fn classify_bsdf_stage<B: Bsdf>() -> Stage {
+    Stage::new(B::NAMES.classify, TileSystems::Classify, classify_bsdf::<B>).when(bsdf_evidence::<B>)
+}
+
+/// What the stages of a BSDF are for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BsdfRole {
+    /// Listing the rows that hit it.
+    Classify,
+    /// Weighting light samples against sampling it.
+    MisWeights,
+    /// Evaluating it for direct light.
+    Evaluate,
+    /// The same where light paths are connected to the camera.
+    Connections,
+    /// Following all of its specular directions.
+    Split,
+    /// Sampling it for further rays.
+    Sample,
+    /// The same for paths from lights.
+    SampleFromLights,
+}
+
+/// A stage of a BSDF.
+#[derive(Clone, Copy)]
+pub struct BsdfStage {
+    /// What it is for.
+    pub role: BsdfRole,
+    /// The BSDF's kind.
+    pub kind: MaterialKind,
+    /// How the BSDF scatters.
+    pub class: BsdfClass,
+    /// Whether it transmits light.
+    pub transmits: bool,
+    /// The stage.
+    pub stage: fn() -> Stage,
+}
+
+/// The stages of a BSDF.
+pub fn stages_of<B: Bsdf>() -> Vec<BsdfStage> {
+    use BsdfRole::*;
+    let of = |role, stage| BsdfStage { role, kind: B::KIND, class: B::CLASS, transmits: B::TRANSMITS, stage };
+    let mut stages: Vec<BsdfStage> = Vec::new();
+    if B::CLASS == BsdfClass::Specular {
+        stages.push(of(Classify, classify_bsdf_stage::<B>));
+        stages.push(of(Sample, specular_stage::<B>));
+        if B::TRANSMITS {
+            stages.push(of(Split, split_stage::<B>));
+            stages.push(of(SampleFromLights, specular_from_lights_stage::<B>));
+        }
+        return stages;
+    }
+    stages.push(of(MisWeights, mis_stage::<B>));
+    stages.push(of(Sample, sample_stage::<B>));
+    stages.push(of(Evaluate, direct_light_stage::<B>));
+    if B::TRANSMITS {
+        stages.push(of(Connections, connections_stage::<B>));
+        stages.push(of(SampleFromLights, sample_from_lights_stage::<B>));
+    }
+    stages
+}
+
+macro_rules! all_stages {
+    ($($kind:ident($table:ident, $name:literal),)+) => {
+        /// The stages of all BSDFs, one BSDF after another.
+        pub fn bsdf_stages() -> Vec<BsdfStage> {
+            [$(stages_of::<crate::material::$table>()),+].concat()
+        }
+    };
+}
+
+for_each_bsdf!(all_stages);
+
+/// What a stage reads to sample a BSDF, and the scattered rays that it appends.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct BsdfView {
+    /// The rays that arrive.
+    pub rays: &'static WorldRays,
+    /// The paths that they belong to.
+    pub paths: &'static Paths,
+    /// The surfaces that they hit.
+    pub surfaces: &'static Surfaces,
+    /// Their shading normals, where they have any.
+    pub shading: Option<&'static ShadingNormals>,
+    /// The rays that go on.
+    pub scattered: &'static mut Scattered,
 }

@@ -1,4 +1,4 @@
-use super::deeper_media::near_and_far;
+use super::media::near_and_far;
 use super::{DeeperMedia, Media};
 use crate::extract::{GlassTable, NO_ROW};
 use crate::intersect::{Contacts, GlassCrossing, SurfaceSides};

@@ -16,73 +16,56 @@
 //! ```
 
 mod absorb;
-mod beer;
 mod beyond_contacts;
 mod bsdf;
-mod bsdf_rows;
-mod caustic_paths;
-mod deeper_media;
-mod depth;
 mod emission;
 mod interface;
-mod last_bounce;
-mod light_start;
+mod light_paths;
 mod media;
-mod medium_stack;
 mod occlusion;
 mod paths;
 mod previous_surfaces;
-mod registered;
-mod roulette;
-mod scattered;
-mod shading_adjoint;
 mod specular;
-mod splat;
 mod starts_on_glass;
-mod stop;
 mod unsampled;
-mod view;
 
 pub use absorb::{
     absorb_at_start, absorb_at_start_stage, absorb_in_glass, absorb_shadow_rays, absorb_shadow_stage, absorb_stage,
+    absorbed, transmittance,
 };
-pub use beer::{absorbed, transmittance};
 pub use beyond_contacts::{
     leave_contacts, leave_contacts_stage, leave_contacts_to_lights, leave_contacts_to_lights_stage,
 };
 pub use bsdf::{
-    LightWeightView, add_direct_light, connections_stage, direct_light_stage, matte_direct_light_stage, mis_bsdf,
-    mis_stage, sample_bsdf, sample_from_lights_stage, sample_stage,
-};
-pub use bsdf_rows::{BsdfRows, classify_bsdf, classify_bsdf_stage};
-pub use caustic_paths::{
-    CausticPaths, caustic_paths_stage, environment_caustics_stage, leave_environment_caustics, mark_caustic_paths,
-};
-pub use deeper_media::{DeeperMedia, deeper_media_evidence};
-pub use depth::{
-    add_bounce, add_bounce_stage, advance_to_next_bounce, carry_times, drop_footprints, footprints_stage,
-    next_bounce_stage, remaining_bounces_stage, sum_bounces, sum_bounces_stage, times_stage, trace_bounces,
+    BsdfRole, BsdfRows, BsdfStage, LightWeightView, add_direct_light, bsdf_stages, classify_bsdf, classify_bsdf_stage,
+    connections_stage, direct_light_stage, matte_direct_light_stage, mis_bsdf, mis_stage, sample_bsdf,
+    sample_from_lights_stage, sample_stage, stages_of,
 };
 pub use emission::{add_mis_emission, add_mis_environment, mis_emission_stage, mis_environment_stage, power_heuristic};
-pub use last_bounce::{end_at_max_depth, max_depth_stage};
-pub use light_start::{LIGHT_PATHS, LightPower, light_start, light_start_stage, start_on_lights};
-pub use media::{Media, carry_media, carry_media_stage, media_evidence, start_media, start_media_stage};
-pub use medium_stack::{Crossing, MediumStack};
+pub use light_paths::{
+    CausticPaths, LIGHT_PATHS, LightPower, Splats, caustic_paths_stage, correct_for_shading_normals,
+    environment_caustics_stage, keep_specular, keep_specular_stage, leave_environment_caustics, light_start,
+    light_start_stage, mark_caustic_paths, shading_adjoint, shading_adjoint_stage, splat_light, splat_stage,
+    start_on_lights,
+};
+pub use media::{
+    Crossing, DeeperMedia, Media, MediumStack, carry_media, carry_media_stage, deeper_media_evidence, media_evidence,
+    start_media, start_media_stage,
+};
 pub use occlusion::{SkyLists, SkyView, sample_sky, sample_sky_with, show_occlusion, sky_rays_stage, sky_stage};
-pub use paths::{start_paths, start_paths_stage};
+pub use paths::{
+    Scattered, ScatteredRay, Stop, add_bounce, add_bounce_stage, advance_to_next_bounce, carry_times, drop_footprints,
+    end_at_max_depth, footprints_stage, is_whole, max_depth_stage, next_bounce_stage, play_roulette,
+    remaining_bounces_stage, roulette_stage, start_paths, start_paths_stage, start_scattered, start_scattered_stage,
+    sum_bounces, sum_bounces_stage, survival_probability, times_stage, trace_bounces,
+};
 pub use previous_surfaces::{
     PreviousSurfaces, keep_previous_surfaces, keep_previous_surfaces_stage, start_previous_surfaces,
     start_previous_surfaces_stage,
 };
-pub use registered::{BsdfRole, BsdfStage, bsdf_stages, stages_of};
-pub use roulette::{play_roulette, roulette_stage, survival_probability};
-pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_stage};
-pub use shading_adjoint::{correct_for_shading_normals, shading_adjoint, shading_adjoint_stage};
 pub use specular::{sample_specular, specular_from_lights_stage, specular_stage, split_rays, split_stage};
-pub use splat::{Splats, keep_specular, keep_specular_stage, splat_light, splat_stage};
 #[doc(hidden)]
 pub use starts_on_glass::{
     block_across_surfaces, block_across_surfaces_stage, leave_glass_at_start, leave_glass_at_start_stage,
 };
-pub use stop::{Stop, is_whole};
 pub use unsampled::check_materials_are_followed;

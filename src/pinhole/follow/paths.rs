@@ -1,7 +1,23 @@
-use crate::extract::followed_evidence;
-use crate::plan::{Column, Stage, TileSystems};
-use crate::rays::{Depth, PathLight, Paths, WorldRays};
+//! Paths from bounce to bounce.
+
+use super::media::{deeper_media_evidence, media_evidence};
+use super::previous_surfaces::previous_surface_evidence;
+use super::{DeeperMedia, Media, PreviousSurfaces};
+use crate::extract::{
+    IntegratorTable, SamplingTable, filtered_evidence, followed_evidence, motion_evidence, needed_if,
+};
+use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces};
+use crate::material::{Bsdf, BsdfSample};
+use crate::plan::{Bounce, Column, Shared, Stage, StageKind, TileSystems, column};
+use crate::rays::{Depth, DrawsView, PathLight, Paths, RayTimes, WorldRays, draws_of_one, ray_vectors};
+use crate::sample::Purpose;
+use crate::shade::{Footprints, Radiance};
+use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
+use glam::{DVec3, Vec3};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
 
 /// Starts a path for each camera ray, with a throughput of 1.
 pub fn start_paths(mut tiles: Query<(&mut Depth, &WorldRays, &mut Paths, Option<&mut PathLight>)>) {
@@ -24,4 +40,372 @@ pub fn start_paths_stage() -> Stage {
         .on_first_bounce()
         .on_camera_paths()
         .when(followed_evidence)
+}
+
+column! {
+    /// Rays scattered from surfaces, grouped by the kind of material.
+    pub struct Scattered("scattered", "world, from the eye", "scene units", Ray, begun in Start) {
+        /// The row of the ray that it was scattered from.
+        row: u32,
+        /// Origin, x: offset from the surface by its error bound.
+        ox: f32,
+        /// Origin, y.
+        oy: f32,
+        /// Origin, z.
+        oz: f32,
+        /// Direction, x; the three are a unit vector.
+        dx: f32,
+        /// Direction, y.
+        dy: f32,
+        /// Direction, z.
+        dz: f32,
+        /// Path throughput, red.
+        r: f64,
+        /// Green.
+        g: f64,
+        /// Blue.
+        b: f64,
+        /// The pdf of its direction under BSDF sampling, in 1/sr; infinite after a specular bounce.
+        pdf: f64,
+    }
+}
+
+/// One row of [`Scattered`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ScatteredRay {
+    /// Its origin, offset from the surface.
+    pub origin: Vec3,
+    /// Its direction, a unit vector.
+    pub direction: DVec3,
+    /// The path's throughput including this bounce; a ray of throughput 0 is left out.
+    pub throughput: [f64; 3],
+    /// The pdf of its direction under BSDF sampling, in 1/sr; infinite after a specular bounce.
+    pub pdf: f64,
+}
+
+impl ScatteredRay {
+    /// The ray that a BSDF scatters from a surface hit by `rays`; of throughput 0 where it gives none, or one to the wrong
+    /// side of the geometric surface.
+    ///
+    /// `sample` gets the direction to the eye in the frame of the shading normal.
+    #[inline(always)]
+    pub(super) fn leaving<B: Bsdf>(
+        row: usize,
+        (rays, paths): (&WorldRays, &Paths),
+        (surfaces, shading): (&Surfaces, Option<&ShadingNormals>),
+        sample: impl FnOnce(&Surface, DVec3) -> Option<BsdfSample>,
+    ) -> Self {
+        let surface = surfaces.get(row);
+        let own = surface.normal.as_dvec3();
+        let world_from_local = B::frame(shading.map_or(own, |normals| normals.get(row)));
+        let to_eye = world_from_local.transpose() * -rays.direction_of(row);
+        let Some(BsdfSample { to_light, pdf, weight }) = sample(&surface, to_eye) else { return Self::default() };
+        let through = B::TRANSMITS && to_light.z < 0.0;
+        let side = if through { -surface.normal } else { surface.normal };
+        let direction = world_from_local * to_light;
+        let leaves = direction.dot(side.as_dvec3()) > 0.0;
+        let throughput = if leaves { paths.throughput(row) } else { [0.0; 3] };
+        Self {
+            origin: offset_origin(surface.position, side, surface.bound),
+            direction,
+            throughput: [0, 1, 2].map(|part| throughput[part] * weight[part]),
+            pdf,
+        }
+    }
+}
+
+ray_vectors!(Scattered);
+
+impl Scattered {
+    /// The direction, each component mapped from [−1, 1] to [0, 1].
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
+    }
+
+    /// Appends a ray for each of these rows, except for rays of throughput 0.
+    ///
+    /// Every row is written, and the next one overwrites it unless it counts, so that no branch depends on the surface.
+    #[inline(always)]
+    pub fn append(&mut self, rows: &[u32], ray_of: impl Fn(usize, usize) -> ScatteredRay) {
+        let length = self.row.len();
+        let (path, ox, oy, oz, dx, dy, dz, r, g, b, pdf) = self.slices_mut(length + rows.len());
+        let mut at = length;
+        for (number, &row) in rows.iter().enumerate() {
+            let ray = ray_of(number, row as usize);
+            path[at] = row;
+            (ox[at], oy[at], oz[at]) = ray.origin.into();
+            (dx[at], dy[at], dz[at]) = ray.direction.as_vec3().into();
+            [r[at], g[at], b[at]] = ray.throughput;
+            pdf[at] = ray.pdf;
+            at += usize::from(ray.throughput != [0.0; 3]);
+        }
+        self.slices_mut(at);
+    }
+
+    /// Moves a row to an earlier place.
+    pub(super) fn moved(&mut self, from: usize, to: usize) {
+        self.row[to] = self.row[from];
+        [&mut self.ox, &mut self.oy, &mut self.oz].into_iter().for_each(|component| component[to] = component[from]);
+        [&mut self.dx, &mut self.dy, &mut self.dz].into_iter().for_each(|component| component[to] = component[from]);
+        [&mut self.r, &mut self.g, &mut self.b].into_iter().for_each(|component| component[to] = component[from]);
+        self.pdf[to] = self.pdf[from];
+    }
+}
+
+/// Clears every tile's list of scattered rays.
+pub fn start_scattered(mut tiles: Query<&mut Scattered>) {
+    tiles.iter_mut().for_each(|mut scattered| scattered.clear());
+}
+
+/// The stage that runs [`start_scattered`].
+pub fn start_scattered_stage() -> Stage {
+    Stage::new("Clear scattered rays", TileSystems::Start, start_scattered).when(followed_evidence)
+}
+
+// ANCHOR: add_bounce
+/// Adds the radiance of this bounce, times the path's throughput, to the light of every path.
+pub fn add_bounce(mut tiles: Query<(&Paths, &Radiance, &mut PathLight)>) {
+    for (paths, radiance, mut light) in &mut tiles {
+        let light = &mut *light;
+        for row in 0..paths.rows() {
+            let (first, [r, g, b]) = (paths.first[row] as usize, paths.throughput(row));
+            light.r[first] += r * f64::from(radiance.r[row]);
+            light.g[first] += g * f64::from(radiance.g[row]);
+            light.b[first] += b * f64::from(radiance.b[row]);
+        }
+    }
+}
+// ANCHOR_END: add_bounce
+
+// ANCHOR: advance_to_next_bounce
+/// Turns the scattered rays into the rays of the next bounce, with no radiance yet; none at the maximum depth.
+pub fn advance_to_next_bounce(
+    integrator: Res<Shared<IntegratorTable>>,
+    mut kept: Local<Paths>,
+    mut tiles: Query<(&mut Depth, &Scattered, &mut WorldRays, &mut Paths, &mut Radiance)>,
+) {
+    for (mut depth, scattered, mut rays, mut paths, mut radiance) in &mut tiles {
+        depth.0 += 1;
+        let rows = if depth.0 < integrator.max_depth { scattered.rows() } else { 0 };
+        let (ox, oy, oz, dx, dy, dz) = rays.slices_mut(rows);
+        let from = [&scattered.ox, &scattered.oy, &scattered.oz, &scattered.dx, &scattered.dy, &scattered.dz];
+        [ox, oy, oz, dx, dy, dz].into_iter().zip(from).for_each(|(to, from)| to.copy_from_slice(&from[..rows]));
+
+        let (first, r, g, b, pdf) = kept.slices_mut(rows);
+        for (first, &path) in first.iter_mut().zip(&scattered.row) {
+            *first = paths.first[path as usize];
+        }
+        let from = [&scattered.r, &scattered.g, &scattered.b, &scattered.pdf];
+        [r, g, b, pdf].into_iter().zip(from).for_each(|(to, from)| to.copy_from_slice(&from[..rows]));
+        std::mem::swap(&mut *kept, &mut *paths);
+
+        let (r, g, b) = radiance.slices_mut(rows);
+        [r, g, b].into_iter().for_each(|component| component.fill(0.0));
+    }
+}
+// ANCHOR_END: advance_to_next_bounce
+
+/// Gives the rays of the next bounce the times of the rays that they were scattered from.
+pub fn carry_times(mut kept: Local<RayTimes>, mut tiles: Query<(&Scattered, &WorldRays, &mut RayTimes)>) {
+    for (scattered, rays, mut times) in &mut tiles {
+        let next = kept.slices_mut(rays.rows());
+        next.iter_mut().zip(&scattered.row).for_each(|(time, &path)| *time = times.time[path as usize]);
+        std::mem::swap(&mut *kept, &mut *times);
+    }
+}
+
+/// Clears the footprints of the rays of the next bounce: they are known for camera rays only, and later lookups are
+/// unfiltered.
+pub fn drop_footprints(mut tiles: Query<(&WorldRays, &mut Footprints)>) {
+    for (rays, mut footprints) in &mut tiles {
+        let (rx, ry, rz, dx, dy, dz) = footprints.slices_mut(rays.rows());
+        [rx, ry, rz, dx, dy, dz].into_iter().for_each(|component| component.fill(0.0));
+    }
+}
+
+// ANCHOR: trace_bounces
+/// Runs the schedule of a bounce until no tile has a ray left or the maximum depth is reached; where the render is
+/// stopped, the remaining rays are dropped.
+pub fn trace_bounces(world: &mut World, tiles: &mut QueryState<&mut WorldRays, With<Depth>>) {
+    let max_depth = world.resource::<Shared<IntegratorTable>>().max_depth;
+    for _ in 1..max_depth {
+        if tiles.iter_mut(world).all(|rays| rays.rows() == 0) {
+            break;
+        }
+        if world.get_resource_mut::<Stop>().is_some_and(|mut stop| stop.gives_up()) {
+            tiles.iter_mut(world).for_each(|mut rays| rays.clear());
+            break;
+        }
+        world.run_schedule(Bounce);
+    }
+}
+// ANCHOR_END: trace_bounces
+
+/// Returns to the first bounce and gives its rows the light of their whole paths as radiance.
+pub fn sum_bounces(mut tiles: Query<(&mut Depth, &PathLight, &mut Radiance)>) {
+    for (mut depth, light, mut radiance) in &mut tiles {
+        *depth = Depth(0);
+        let (r, g, b) = radiance.slices_mut(light.rows());
+        for (to, from) in [r, g, b].into_iter().zip([&light.r, &light.g, &light.b]) {
+            to.iter_mut().zip(from).for_each(|(to, &from)| *to = from as f32);
+        }
+    }
+}
+
+/// The stage that adds a bounce's light.
+pub fn add_bounce_stage() -> Stage {
+    Stage::new("Add the bounce's light to its path", TileSystems::AddBounce, add_bounce).when(followed_evidence)
+}
+
+/// The stage that advances to the next bounce.
+pub fn next_bounce_stage() -> Stage {
+    Stage::new("Advance to the next bounce", TileSystems::Step, advance_to_next_bounce).when(followed_evidence)
+}
+
+/// The stage that carries ray times over.
+pub fn times_stage() -> Stage {
+    Stage::new("Carry times to the next bounce", TileSystems::Step, carry_times)
+        .when(|scene| motion_evidence(scene).and(|| followed_evidence(scene)))
+}
+
+/// The stage that drops footprints.
+pub fn footprints_stage() -> Stage {
+    Stage::new("Drop footprints", TileSystems::Step, drop_footprints)
+        .on_camera_paths()
+        .when(|scene| filtered_evidence(scene).and(|| followed_evidence(scene)))
+}
+
+/// The stage that traces all later bounces.
+pub fn remaining_bounces_stage() -> Stage {
+    Stage::new("Trace the remaining bounces", TileSystems::RemainingBounces, trace_bounces)
+        .on_first_bounce()
+        .reads::<WorldRays>()
+        .reads_where::<Media>(media_evidence)
+        .reads_where::<DeeperMedia>(deeper_media_evidence)
+        .reads_where::<PreviousSurfaces>(previous_surface_evidence)
+        .reads_where::<RayTimes>(motion_evidence)
+        .reads_where::<Footprints>(filtered_evidence)
+        .reads::<PathLight>()
+        .writes::<PathLight>()
+        .table::<IntegratorTable>()
+        .when(followed_evidence)
+}
+
+/// The stage that sums the light of all bounces.
+pub fn sum_bounces_stage() -> Stage {
+    Stage::new("Sum the light of all bounces", TileSystems::SumBounces, sum_bounces)
+        .on_first_bounce()
+        .when(followed_evidence)
+}
+
+/// At the maximum depth, surfaces are not lit: emission still counts, but no shadow ray is traced.
+///
+/// A shadow ray would add a segment beyond the maximum depth.
+pub fn end_at_max_depth(integrator: Res<Shared<IntegratorTable>>, mut tiles: Query<(&Depth, &mut MaterialRows)>) {
+    for (depth, mut list) in &mut tiles {
+        if depth.0 + 1 >= integrator.max_depth {
+            list.row.clear();
+        }
+    }
+}
+
+/// The stage that runs [`end_at_max_depth`].
+pub fn max_depth_stage() -> Stage {
+    Stage::new("End at the maximum depth", TileSystems::Classify, end_at_max_depth)
+        .changes::<MaterialRows>()
+        .when(followed_evidence)
+}
+
+/// The conditions on which tracing is abandoned although rays are left; checked before every bounce of a tile, never
+/// for a single ray.
+///
+/// A path may have four billion bounces, so a render must be able to stop before it ends.
+/// An abandoned run has not summed all of its light, so none of it may be added to the film.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Stop {
+    /// A flag that another thread sets to stop the run.
+    pub flag: Option<Arc<AtomicBool>>,
+    /// The time after which the run is abandoned.
+    pub deadline: Option<Instant>,
+    /// Whether the current run was abandoned.
+    pub given_up: bool,
+}
+
+impl Stop {
+    /// Stops when the flag is set.
+    pub fn at_flag(flag: Option<Arc<AtomicBool>>) -> Self {
+        Self { flag, ..Self::default() }
+    }
+
+    /// Stops at the deadline.
+    pub fn at_deadline(deadline: Instant) -> Self {
+        Self { deadline: Some(deadline), ..Self::default() }
+    }
+
+    /// Whether the flag is set or the deadline has passed.
+    pub fn is_due(&self) -> bool {
+        self.flag.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed))
+            || self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+    }
+
+    /// Abandons the run if it is due; returns whether it did.
+    pub(super) fn gives_up(&mut self) -> bool {
+        self.given_up |= self.is_due();
+        self.given_up
+    }
+}
+
+/// Whether the current run was completed; an abandoned one is not added to the film.
+pub fn is_whole(stop: Option<Res<Stop>>) -> bool {
+    stop.is_none_or(|stop| !stop.given_up)
+}
+
+// ANCHOR: survival_probability
+/// The probability with which a path of this throughput survives Russian roulette; dividing the throughput by it keeps
+/// the estimate unbiased (Arvo and Kirk 1990).
+#[inline(always)]
+pub fn survival_probability(throughput: [f64; 3]) -> f64 {
+    throughput[0].max(throughput[1]).max(throughput[2]).min(1.0)
+}
+// ANCHOR_END: survival_probability
+
+/// Terminates paths at random from a given depth on, and divides the throughput of the others by their survival
+/// probability.
+///
+/// Inside glass of index n the throughput is 1/n² of what it will be outside again, which is no reason to terminate a
+/// path; after a specular bounce it is therefore multiplied by n² (PBRT's `etaScale`).
+pub fn play_roulette(
+    sampling: Res<Shared<SamplingTable>>,
+    integrator: Res<Shared<IntegratorTable>>,
+    mut numbers: Local<Vec<f64>>,
+    mut tiles: Query<(DrawsView, &Paths, &mut Scattered)>,
+) {
+    for (draws, paths, mut scattered) in &mut tiles {
+        let draws = draws.draws(&sampling, Some(paths));
+        if draws.depth.0 + 1 < integrator.roulette {
+            continue;
+        }
+        draws_of_one(&draws, Purpose::Roulette, &scattered.row, &mut numbers);
+        let mut kept = 0;
+        for row in 0..scattered.rows() {
+            let scale = if scattered.pdf[row] == f64::INFINITY { integrator.eta_scale } else { 1.0 };
+            let throughput = [scattered.r[row], scattered.g[row], scattered.b[row]];
+            let probability = survival_probability(throughput.map(|part| part * scale));
+            if numbers[row] < probability {
+                scattered.moved(row, kept);
+                let more = 1.0 / probability;
+                let light = &mut *scattered;
+                [&mut light.r, &mut light.g, &mut light.b].into_iter().for_each(|component| component[kept] *= more);
+                kept += 1;
+            }
+        }
+        scattered.slices_mut(kept);
+    }
+}
+
+/// The stage that runs [`play_roulette`].
+pub fn roulette_stage() -> Stage {
+    Stage::new("Russian roulette", TileSystems::Roulette, play_roulette)
+        .kind(StageKind::Estimator)
+        .when(|scene| needed_if(scene, |integrator| integrator.transport().roulette > 0))
 }

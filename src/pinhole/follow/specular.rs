@@ -1,9 +1,7 @@
 //! The stages of specular BSDFs, each generic over the BSDF.
 
-use super::bsdf::{at_interfaces, shading_context, transport};
-use super::bsdf_rows::BsdfRows;
+use super::bsdf::{BsdfRows, BsdfView, BsdfViewItem, at_interfaces, shading_context, transport};
 use super::interface::{Interface, InterfaceView};
-use super::view::{BsdfView, BsdfViewItem};
 use super::{Scattered, ScatteredRay};
 use crate::extract::{
     GlassTable, MaterialTable, SamplingTable, bsdf_evidence, followed_evidence, needed_if, traced_evidence,

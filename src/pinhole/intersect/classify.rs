@@ -1,4 +1,4 @@
-use super::rows::{EmissiveRows, MaterialRows, ShapeRows};
+use super::hits::{EmissiveRows, MaterialRows, ShapeRows};
 use super::{Hits, NO_SHAPE, SurfaceSides, SurfaceUvs, Surfaces};
 use crate::extract::{NO_ROW, ShapeTable, kind_evidence, shape_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems};

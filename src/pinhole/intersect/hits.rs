@@ -1,6 +1,10 @@
-use crate::plan::{Column, column};
+//! The closest hits of rays, and lists of their rows.
+
+use crate::extract::shape_evidence;
+use crate::plan::{Column, Stage, TileSystems, column};
 use crate::rays::WorldRays;
-use crate::shapes::{ClosestHits, RaySlices};
+use crate::shapes::{ClosestHits, Listed, RaySlices};
+use bevy_ecs::prelude::*;
 
 /// The shape number of a ray that hit nothing.
 pub const NO_SHAPE: u32 = u32::MAX;
@@ -79,5 +83,110 @@ impl HitColumn for Hits {
     fn closest_hits(&mut self) -> ClosestHits<'_> {
         let (t, shape) = self.slices_mut(self.rows());
         ClosestHits { t, shape, primitive: None, any: false }
+    }
+}
+
+/// Sets every row of a tile's hits to a miss.
+pub fn start_hits(mut tiles: Query<(&WorldRays, &mut Hits, Option<&mut HitPrimitives>)>) {
+    for (rays, mut hits, primitives) in &mut tiles {
+        if let Some(mut primitives) = primitives {
+            primitives.slices_mut(rays.rows()).fill(NO_PRIMITIVE);
+        }
+        let (t, shape) = hits.slices_mut(rays.rows());
+        t.fill(f64::INFINITY);
+        shape.fill(NO_SHAPE);
+    }
+}
+
+/// The stage that runs this system.
+pub fn start_stage() -> Stage {
+    Stage::new("Clear hits", TileSystems::Start, start_hits).when(shape_evidence)
+}
+
+/// Declares a column of the rows that hit one of several kinds, which its type parameter names.
+macro_rules! rows_of_kind {
+    ($(#[$doc:meta])* pub struct $rows:ident<$of:ident: $kind:ident>) => {
+        $(#[$doc])*
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct $rows<$of> {
+            /// Rows of the hits.
+            pub row: Vec<u32>,
+            of: std::marker::PhantomData<fn() -> $of>,
+        }
+
+        impl<$of> Default for $rows<$of> {
+            fn default() -> Self {
+                Self { row: Vec::new(), of: std::marker::PhantomData }
+            }
+        }
+
+        // What `column!` writes for a column that is not generic.
+        impl<$of: $kind> bevy_ecs::component::Component for $rows<$of> {
+            const STORAGE_TYPE: bevy_ecs::component::StorageType = bevy_ecs::component::StorageType::Table;
+            type Mutability = bevy_ecs::component::Mutable;
+
+            fn register_required_components(
+                _: bevy_ecs::component::ComponentId,
+                _: &mut bevy_ecs::component::RequiredComponentsRegistrator<'_, '_>,
+            ) {
+                $crate::plan::ColumnKind::of::<Self>().remember();
+            }
+        }
+
+        impl<$of: $kind> $crate::plan::Column for $rows<$of> {
+            const NAME: &'static str = $of::NAMES.rows;
+            const SPACE: &'static str = "rows of the tile";
+            const UNIT: &'static str = "rows";
+            const LIFETIME: $crate::plan::Lifetime = $crate::plan::Lifetime::Ray;
+
+            fn rows(&self) -> usize {
+                self.row.len()
+            }
+
+            fn components(&self) -> Vec<$crate::plan::ColumnComponent<'_>> {
+                let values = $crate::plan::ComponentValue::values(&self.row);
+                vec![$crate::plan::ColumnComponent { name: "row", values }]
+            }
+
+            fn paint(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+                [1.0; 3]
+            }
+        }
+    };
+}
+pub(crate) use rows_of_kind;
+
+rows_of_kind! {
+    /// The rows that hit one kind of shape, ascending.
+    pub struct ShapeRows<S: Listed>
+}
+
+column! {
+    /// The rows whose surface has a non-specular material, which is every material but mirrors and glass; ascending.
+    pub struct MaterialRows("material rows", "rows of the tile", "rows", Ray) {
+        /// A row of the surfaces.
+        row: u32,
+    }
+}
+
+column! {
+    /// The rows whose surface emits light, ascending.
+    pub struct EmissiveRows("emissive rows", "rows of the tile", "rows", Ray) {
+        /// A row of the hits.
+        row: u32,
+        /// A row of the table of emissive surfaces.
+        emissive: u32,
+    }
+}
+
+impl EmissiveRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
+impl MaterialRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
     }
 }

@@ -22,12 +22,9 @@ mod count;
 mod hits;
 mod moving;
 mod named_stages;
-mod rows;
 mod shading_normal;
 mod shape_stages;
-mod start;
 mod surface;
-mod view;
 
 #[doc(hidden)]
 pub use crate::extract::shape_evidence;
@@ -38,8 +35,12 @@ pub use contact::{Contacts, GlassCrossing, contact_bound_stage, contact_stage, m
 #[doc(hidden)]
 pub use count::{AllShapes, BoxTests, PrimitiveTests, TraversalDepths, count_stage};
 pub use hits::Hits;
+pub(crate) use hits::rows_of_kind;
 #[doc(hidden)]
-pub use hits::{HitColumn, HitPrimitives, NO_PRIMITIVE, NO_SHAPE, RayColumn};
+pub use hits::{
+    EmissiveRows, HitColumn, HitPrimitives, MaterialRows, NO_PRIMITIVE, NO_SHAPE, RayColumn, ShapeRows, start_hits,
+    start_stage,
+};
 #[doc(hidden)]
 pub use moving::{at_rest, intersect_moving, moving_stage, moving_surface_stage};
 #[doc(hidden)]
@@ -48,17 +49,12 @@ pub use named_stages::{
     mesh_stage, mesh_surface_stage, plane_stage, plane_surface_stage, rectangle_stage, rectangle_surface_stage,
     sphere_stage, sphere_surface_stage, triangle_stage, triangle_surface_stage,
 };
-pub(crate) use rows::rows_of_kind;
-#[doc(hidden)]
-pub use rows::{EmissiveRows, MaterialRows, ShapeRows};
 #[doc(hidden)]
 pub use shading_normal::{
     ShadingNormals, falling_cosine, interpolate_normals, shading_normal, shading_normal_stage, vertex_normal_evidence,
 };
 #[doc(hidden)]
 pub use shape_stages::{fill_surfaces, intersect_shapes, intersect_stage, shape_stages, surface_stage};
-#[doc(hidden)]
-pub use start::{start_hits, start_stage};
 pub use surface::Surfaces;
 #[doc(hidden)]
 pub use surface::{Surface, SurfaceSides, SurfaceUvs};

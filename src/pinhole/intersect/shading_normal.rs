@@ -1,5 +1,5 @@
+use super::hits::ShapeRows;
 use super::moving::at_rest;
-use super::rows::ShapeRows;
 use super::{HitPrimitives, Hits, NO_SHAPE, Surfaces};
 use crate::extract::{MeshTable, MovingTable, ShapeTable, TriangleTable, VertexNormalTable, moving_evidence};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};

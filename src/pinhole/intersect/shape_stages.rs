@@ -1,8 +1,7 @@
 //! The two stages of each kind of shape: rays are intersected with it, and the surfaces of those that hit it computed.
 
-use super::rows::ShapeRows;
-use super::surface::{Surface, SurfaceUvs};
-use super::view::{SurfaceView, SurfaceViewItem};
+use super::hits::ShapeRows;
+use super::surface::{Surface, SurfaceUvs, SurfaceView, SurfaceViewItem};
 use super::{HitColumn, HitPrimitives, Hits, RayColumn};
 use crate::bvh::Stack;
 use crate::extract::{

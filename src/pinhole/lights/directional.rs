@@ -1,6 +1,5 @@
-use super::light::{Light, LightSample, PlacedLight, SceneLight};
+use super::light::{Light, LightSample, LightStart, PlacedLight, SceneLight, StartDraws};
 use super::light_bounds::LightBounds;
-use super::start::{LightStart, StartDraws};
 use super::targets::Targets;
 use crate::scene::{DirectionalLight, SceneError, light_colour};
 use glam::DVec3;

@@ -28,26 +28,22 @@ macro_rules! with_lights {
 
 mod choose_light;
 mod directional;
-mod irradiance;
 mod light;
 mod light_bounds;
 mod light_hierarchy;
 mod point;
-mod registry;
 mod spot;
-mod start;
 mod targets;
 
 pub use choose_light::{ChosenLight, Receiver};
 pub use directional::PlacedDirectionalLight;
-pub use irradiance::{irradiance_from_direction, irradiance_from_point, luminance};
-pub use light::{Light, LightSample, PlacedLight, SceneLight};
+pub use light::{
+    AnyLight, CustomLight, Light, LightNames, LightSample, LightStart, LightVisitor, ListedLight, PlacedLight,
+    SceneLight, StartDraws, custom_light, irradiance_from_direction, irradiance_from_point, light_names, luminance,
+    visit_lights,
+};
 pub use light_bounds::LightBounds;
 pub use light_hierarchy::LightHierarchy;
 pub use point::PlacedPointLight;
-pub use registry::{
-    AnyLight, CustomLight, LightNames, LightVisitor, ListedLight, custom_light, light_names, visit_lights,
-};
 pub use spot::{PlacedSpotLight, spot_falloff, versine, versine_of_half};
-pub use start::{LightStart, StartDraws};
 pub use targets::{MAX_TARGETS, MAX_TARGETS_SOLID_ANGLE, Target, Targets, direction_to_targets};

@@ -1,7 +1,5 @@
-use super::irradiance::luminance;
-use super::light::{Light, LightSample, PlacedLight, SceneLight};
+use super::light::{Light, LightSample, LightStart, PlacedLight, SceneLight, StartDraws, luminance};
 use super::light_bounds::LightBounds;
-use super::start::{LightStart, StartDraws};
 use super::targets::{Targets, direction_to_targets};
 use crate::scene::{PointLight, SceneError, finite_point, light_colour};
 use crate::shapes::Bounds;

@@ -1,6 +1,6 @@
 //! Sampling rays in which light leaves towards mirrors and glass.
 
-use super::start::{LightStart, StartDraws};
+use super::light::{LightStart, StartDraws};
 use crate::shapes::emitter::{cone_direction, cone_versine};
 use crate::shapes::{AnyShape, Bounds, l1_norm};
 use glam::DVec3;

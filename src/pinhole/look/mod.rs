@@ -20,32 +20,23 @@
 #[doc(hidden)]
 pub mod convention;
 
-mod black;
 mod emitters;
 mod inside;
-mod missing;
 mod mistake;
 mod pilot;
-mod pilot_cost;
-mod pilot_hook;
 mod preflight;
 mod radians;
 mod slow;
 mod stats;
-mod thin;
-mod tiny;
 mod trace;
-mod unseen;
 mod view;
 
-#[doc(hidden)]
-pub use black::looks_black;
 #[doc(hidden)]
 pub use mistake::{MISTAKES, Mistake};
 #[doc(hidden)]
 pub use pilot::{Pilot, pilot};
 #[doc(hidden)]
-pub use preflight::{Foretold, Preflight, foretell, preflight};
+pub use preflight::{Foretold, Preflight, foretell, looks_black, preflight, unseen};
 #[doc(hidden)]
 pub use slow::{Effort, slow};
 #[doc(hidden)]
@@ -53,7 +44,5 @@ pub use stats::{RenderStats, StageStats};
 #[doc(hidden)]
 pub use trace::{Recorded, trace_sample};
 pub use trace::{Trace, trace};
-#[doc(hidden)]
-pub use unseen::unseen;
 #[doc(hidden)]
 pub use view::{ViewTable, paths, view_stage};

@@ -1,15 +1,17 @@
-use super::black::NEARLY_ALL;
-use super::pilot_cost::Cost;
-use super::pilot_hook::{Counted, counting_hook};
+//! A few samples before a render, and what they foretell.
+
+use super::preflight::NEARLY_ALL;
 use crate::Result;
 use crate::extract::{ImageFrame, MaterialTable, NO_ROW, SamplingTable, ShapeTable, specular_evidence};
 use crate::follow::LIGHT_PATHS;
-use crate::intersect::NO_SHAPE;
-use crate::plan::{Census, Column, ExtractedTable, Plan};
-use crate::rays::Tile;
-use crate::render::{probe_light_paths, probe_tiles, usual_tile_side};
-use crate::shade::Radiance;
+use crate::intersect::{Hits, NO_SHAPE};
+use crate::plan::{Census, Column, ColumnKind, ExtractedTable, Plan, Stage};
+use crate::rays::{Depth, Tile};
+use crate::render::{Hook, ProbeRun, probe_light_paths, probe_tiles, usual_tile_side};
+use crate::shade::{Radiance, ShadowHits, ShadowRays};
+use bevy_ecs::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 use std::time::Duration;
 
 /// The greatest number of small tiles along each axis of the image, and the side of each in pixels.
@@ -257,8 +259,123 @@ fn turn([x, y]: [usize; 2]) -> usize {
     (0..8).map(|bit| (x >> (7 - bit) & 1 | (y >> (7 - bit) & 1) << 1) << (2 * bit)).sum()
 }
 
+/// So many runs are averaged over for the cost of a ray; in a picture of one small tile, it is traced again for that.
+const ENOUGH_RUNS: usize = 8;
+/// From so many runs that were given up a lower bound is taken.
+const ENOUGH_FOR_A_BOUND: usize = 3;
+
+/// What runs over small tiles cost.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Cost {
+    /// Completed runs but the first, which finds everything cold: how many, their rays, and their seconds.
+    whole: (usize, usize, f64),
+    /// All runs.
+    tried: (usize, usize, f64),
+    is_unknown: bool,
+}
+
+impl Cost {
+    /// Adds a run.
+    pub(super) fn add(&mut self, rays: usize, run: ProbeRun, is_first: bool) {
+        let Some(time) = run.time.map(|time| time.as_secs_f64()) else {
+            self.is_unknown = true;
+            return;
+        };
+        let take = |(runs, all, seconds): (usize, usize, f64)| (runs + 1, all + rays, seconds + time);
+        self.tried = take(self.tried);
+        if run.whole && !is_first {
+            self.whole = take(self.whole);
+        }
+    }
+
+    /// Whether the runs are enough to be averaged over.
+    pub(super) fn is_known(&self) -> bool {
+        self.is_unknown || self.whole.0 >= ENOUGH_RUNS
+    }
+
+    /// Seconds a ray; the least that it can be where runs were given up. None from one run or two.
+    pub(super) fn of_a_ray(&self, is_least: bool) -> Option<f64> {
+        let ((runs, rays, seconds), enough) =
+            if is_least { (self.tried, ENOUGH_FOR_A_BOUND) } else { (self.whole, ENOUGH_RUNS) };
+        (!self.is_unknown && runs >= enough && rays > 0).then(|| seconds / rays as f64)
+    }
+}
+
+// What is counted while the test rays of [`super::pilot`] are traced.
+
+/// After this many bounces few rays are left, and they say little about what is wrong with a scene.
+const MAX_DEPTH: u32 = 4;
+
+/// What a hook has counted in one tile so far.
+#[derive(Resource, Clone, Debug, Default)]
+pub(super) struct Counted {
+    /// The shapes that camera rays hit.
+    pub(super) first: Vec<u32>,
+    /// Shadow rays at each bounce.
+    pub(super) to_lights: BTreeMap<u32, usize>,
+    /// At each bounce, how many shadow rays each shape blocks.
+    pub(super) blocked: BTreeMap<u32, BTreeMap<u32, usize>>,
+    /// At each bounce, counted from 0, the number of rays and of those that hit nothing.
+    pub(super) bounces: BTreeMap<u32, [usize; 2]>,
+}
+
+impl Counted {
+    /// All rays that were counted.
+    pub(super) fn rays(&self) -> usize {
+        self.bounces.values().map(|[rays, _]| rays).sum()
+    }
+}
+
+/// Counts what camera rays hit and, during the first bounces, which shapes block shadow rays.
+///
+/// Several stages write each of the two columns, so the last count of a bounce is the final one.
+pub(super) fn counting_hook() -> Hook {
+    Arc::new(|_, stage: &Stage, _| {
+        let [writes_hits, writes_shadows] =
+            [ColumnKind::of::<Hits>(), ColumnKind::of::<ShadowHits>()].map(|column| stage.writes.contains(&column));
+        let count = move |world: &mut World,
+                          tiles: &mut QueryState<
+            (&Depth, Option<&Hits>, Option<(&ShadowRays, &ShadowHits)>),
+            With<Tile>,
+        >| {
+            if !(writes_hits || writes_shadows) {
+                return;
+            }
+            let mut counted = world.remove_resource::<Counted>().unwrap_or_default();
+            let (mut missed, mut rows, mut to_lights, mut blocked) = (0, 0, 0, BTreeMap::new());
+            let (mut depth, mut shapes) = (0, Vec::new());
+            for (own, hit, light) in tiles.iter(world) {
+                depth = own.0;
+                if let Some(hit) = hit {
+                    rows += hit.rows();
+                    missed += hit.shape.iter().filter(|&&shape| shape == NO_SHAPE).count();
+                    shapes.extend_from_slice(&hit.shape);
+                }
+                if let Some((rays, shadows)) = light {
+                    to_lights += rays.rows();
+                    for &shape in shadows.shape.iter().filter(|&&shape| shape != NO_SHAPE) {
+                        *blocked.entry(shape).or_default() += 1;
+                    }
+                }
+            }
+            if writes_hits && depth == 0 {
+                counted.first = shapes;
+            }
+            if writes_hits {
+                counted.bounces.insert(depth, [rows, missed]);
+            }
+            if writes_shadows && depth < MAX_DEPTH {
+                counted.to_lights.insert(depth, to_lights);
+                counted.blocked.insert(depth, blocked);
+            }
+            world.insert_resource(counted);
+        };
+        count.into_configs()
+    })
+}
+
 #[cfg(test)]
-mod tests {
+mod pilot_tests {
     use super::*;
     use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-use super::lobe::lobe_direction;
+use super::highlight::lobe_direction;
 use super::{HighlightTable, Lobe, highlight, mirror_direction};
 use crate::scene::{BlinnPhong, Rgb};
 use glam::DVec3;

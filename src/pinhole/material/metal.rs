@@ -1,4 +1,4 @@
-use super::registered::entities_of_kind;
+use super::bsdf::entities_of_kind;
 use super::{
     Bsdf, BsdfClass, BsdfSample, Example, MaterialKind, MultipleScattering, Named, Parameters, ShadingContext,
     cosine_direction, ggx_brdf, ggx_sample, visible_pdf,

@@ -1,5 +1,5 @@
+use super::bsdf::entities_of_kind;
 use super::metal::smooth_colour;
-use super::registered::entities_of_kind;
 use super::{Bsdf, BsdfClass, Example, Named, Parameters, ShadingContext, SpecularSample, mirror_direction};
 use crate::check::{kind_and_name, reflectance};
 use crate::plan::{Census, Table};

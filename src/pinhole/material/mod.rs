@@ -18,25 +18,18 @@
 
 mod blinn_phong;
 mod bsdf;
-mod erased;
 mod frame;
 mod fresnel;
 mod ggx;
 mod glass;
 mod highlight;
-mod highlight_table;
-mod kind;
-mod lobe;
 mod matte;
 mod metal;
 mod mirror;
 mod multiple_scattering;
 mod phong;
 mod principled;
-mod principled_energy;
-mod registered;
 mod rough_glass;
-mod table;
 mod thin_glass;
 
 /// Every BSDF: its kind, its table, and its name in the names of stages and columns; a new one is a line here.
@@ -57,7 +50,15 @@ macro_rules! for_each_bsdf {
     };
 }
 // ANCHOR_END: bsdf_list
+pub use bsdf::{
+    Bsdf, BsdfClass, BsdfSample, ErasedBsdf, Example, Interior, MaterialKind, MaterialTable, NO_ROW, Named, Parameters,
+    REGISTERED, Registration, ShadingContext, Spawn, SpecularSample, StageNames, Transport, add_material,
+    declared_materials, entities_of_kind, is_material, material_entities, material_kind, registered_materials,
+};
+pub(crate) use bsdf::{NUMBERS, check_kinds, components_in_words, interior_of, one_material};
 pub(crate) use for_each_bsdf;
+pub use highlight::{Highlight, HighlightTable, Lobe, highlight};
+pub use principled::PrincipledTable;
 
 /// Gives a BSDF its kind, and its stages and its column the names that are made from its own.
 #[doc(hidden)]
@@ -100,30 +101,14 @@ macro_rules! custom_bsdf {
 pub use custom_bsdf;
 
 pub use blinn_phong::{BlinnPhongLobe, BlinnPhongTable, blinn_phong_peak, half_vector_cosine};
-pub use bsdf::{
-    Bsdf, BsdfClass, BsdfSample, Example, Interior, Named, Parameters, ShadingContext, SpecularSample, StageNames,
-    Transport,
-};
-pub use erased::ErasedBsdf;
 pub use frame::{cosine_direction, cosine_pdf, frame_of};
 pub use fresnel::{fresnel, fresnel_parts, mirror_direction, refract};
 pub use ggx::{MicrofacetSample, ggx_brdf, ggx_d, ggx_g1, ggx_lambda, ggx_sample, visible_normal, visible_pdf};
 pub use glass::{SmoothGlass, glass_event, glass_samples, layered_reflectance};
-pub use highlight::highlight;
-pub use highlight_table::HighlightTable;
-pub use kind::MaterialKind;
-pub use lobe::{Highlight, Lobe};
 pub use matte::{MatteTable, lambertian};
 pub use metal::{MetalTable, SMOOTHEST_METAL};
 pub use mirror::MirrorTable;
 pub use multiple_scattering::{ByCosine, MultipleScattering, multiple_scattering_albedo, single_scattering};
 pub use phong::{PhongLobe, PhongTable, mirror_cosine, phong_peak};
-pub use principled::PrincipledTable;
-pub(crate) use registered::{NUMBERS, check_kinds, components_in_words, interior_of, one_material};
-pub use registered::{
-    REGISTERED, Registration, Spawn, add_material, declared_materials, entities_of_kind, is_material,
-    material_entities, material_kind, registered_materials,
-};
 pub use rough_glass::RoughGlassTable;
-pub use table::{MaterialTable, NO_ROW};
 pub use thin_glass::{ThinGlassTable, pane_reflectance};

@@ -1,4 +1,4 @@
-use super::lobe::lobe_direction;
+use super::highlight::lobe_direction;
 use super::{HighlightTable, Lobe, highlight};
 use crate::scene::{Phong, Rgb};
 use glam::DVec3;

@@ -1,5 +1,5 @@
+use super::bsdf::entities_of_kind;
 use super::glass::checked_interior;
-use super::registered::entities_of_kind;
 use super::{
     Bsdf, BsdfClass, BsdfSample, Example, Interior, MaterialKind, Named, Parameters, SMOOTHEST_METAL, ShadingContext,
     Transport, fresnel, ggx_brdf, ggx_d, ggx_g1, mirror_direction, refract, visible_normal, visible_pdf,

@@ -1,4 +1,4 @@
-use super::registered::entities_of_kind;
+use super::bsdf::entities_of_kind;
 use super::{Bsdf, BsdfClass, Example, Named, Parameters, ShadingContext, SpecularSample, fresnel, mirror_direction};
 use crate::check::{kind_and_name, number, reflectance};
 use crate::plan::{Census, Table};

@@ -20,7 +20,6 @@
 //! # Ok::<(), pinhole::plan::PlanError>(())
 //! ```
 
-mod access;
 mod census;
 mod column;
 mod custom;

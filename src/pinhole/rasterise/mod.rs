@@ -23,7 +23,6 @@ mod box_extent;
 mod boxes;
 mod clip;
 mod cover;
-mod ray_projection;
 mod setup;
 mod spaces;
 mod stage;

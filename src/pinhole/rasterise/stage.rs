@@ -1,8 +1,7 @@
 //! The stage that fills the hits of a tile by rasterisation.
 
 use super::cover::Cover;
-use super::ray_projection::RayProjection;
-use super::spaces::Projection;
+use super::spaces::{Projection, RayProjection};
 use super::table::RasterTriangles;
 use super::triangle::RasterTriangle;
 use crate::extract::rasterisation_evidence;

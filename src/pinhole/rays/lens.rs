@@ -1,4 +1,4 @@
-use super::random::{Rows, draw_two};
+use super::draws::{Rows, draw_two};
 use super::{CameraRays, PixelSamples, RasterPoints, SampleNumber, ScreenPoints, Tile};
 use crate::extract::{LensTable, PerspectiveProjection, SamplingTable, lens_evidence};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};

@@ -19,17 +19,14 @@
 //! ```
 
 mod camera;
-mod depth;
 mod draws;
 mod lens;
 mod ndc;
 mod paths;
 mod place_samples;
 mod project;
-mod random;
 mod raster;
 mod screen;
-mod times;
 mod world;
 
 #[doc(hidden)]
@@ -41,8 +38,6 @@ pub use camera::CameraRays;
 #[doc(hidden)]
 pub use camera::{camera_stage, camera_stages, generate_camera_rays, orthographic_stage, perspective_stage};
 #[doc(hidden)]
-pub use depth::{Depth, pixel_of_row};
-#[doc(hidden)]
 pub use draws::{Draws, DrawsView, DrawsViewItem, draws_of_one, draws_of_two};
 #[doc(hidden)]
 pub use lens::{
@@ -53,7 +48,7 @@ pub use ndc::NdcPoints;
 #[doc(hidden)]
 pub use ndc::{fill_ndc, ndc_from_raster, ndc_stage};
 #[doc(hidden)]
-pub use paths::{PathLight, Paths};
+pub use paths::{Depth, PathLight, Paths, RayTimes, draw_times, pixel_of_row, time_stage};
 #[doc(hidden)]
 pub use place_samples::{
     ActivePixels, PixelSamples, SampleNumber, SampleSigns, place_samples, place_samples_stage, sampling_evidence,
@@ -67,8 +62,6 @@ pub use raster::{Tile, fill_raster, raster_from_pixel, raster_stage};
 pub use screen::ScreenPoints;
 #[doc(hidden)]
 pub use screen::{fill_screen, screen_from_ndc, screen_stage};
-#[doc(hidden)]
-pub use times::{RayTimes, draw_times, time_stage};
 pub use world::WorldRays;
 pub(crate) use world::ray_vectors;
 #[doc(hidden)]

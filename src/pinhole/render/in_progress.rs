@@ -1,10 +1,9 @@
 use super::clock::{Lap, StageClock, laps_of};
+use super::execution::{tile_side, workers};
 use super::light_pass::{LightPass, Means, batches};
 use super::memory::check_film_fits;
 use super::render_world::{RenderWorld, prepare};
 use super::steps::{WHOLE, runs, steps_of};
-use super::tile_side::tile_side;
-use super::workers::workers;
 use super::{Execution, Rendered, Watch, Worlds};
 use crate::extract::{ImageFrame, LayerTable, SamplingTable};
 use crate::film::{Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};

@@ -1,9 +1,9 @@
 use super::Execution;
 use super::clock::thread_time;
+use super::execution::tile_side;
 use super::in_progress::{film_for, film_parts};
 use super::render_world::{Hook, RenderWorld, prepare};
 use super::steps::Run;
-use super::tile_side::tile_side;
 use crate::Result;
 use crate::extract::ImageFrame;
 use crate::film::{Film, FilmTile};

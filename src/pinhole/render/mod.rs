@@ -28,31 +28,24 @@ mod clock;
 mod execution;
 mod in_progress;
 mod inspect;
-mod key;
 mod light_pass;
 mod memory;
 mod passes;
 mod render_world;
-mod rendered;
 mod steps;
-mod tile_side;
-mod whole;
-mod workers;
 
 #[doc(hidden)]
 pub use adaptive::{Achieved, achieved, planned_samples, samples_for};
 #[doc(hidden)]
 pub use clock::{Lap, StageClock};
-pub use execution::Execution;
+pub use execution::{Execution, Rendered, render};
 #[doc(hidden)]
-pub use execution::{Watch, Worlds};
+pub use execution::{Watch, Worlds, film_key};
 pub use in_progress::RenderInProgress;
 #[doc(hidden)]
 pub use inspect::{
     Inspection, ProbeRun, first_bounce_only, inspect, inspect_pixel, inspect_stages, probe_tiles, usual_tile_side,
 };
-#[doc(hidden)]
-pub use key::film_key;
 #[doc(hidden)]
 pub use light_pass::probe_light_paths;
 #[doc(hidden)]
@@ -61,7 +54,5 @@ pub use memory::{check_film_fits, film_bytes_per_pixel, peak_memory};
 pub use passes::{Limits, Outcome, render_in_passes};
 #[doc(hidden)]
 pub use render_world::{Hook, RenderWorld, prepare};
-pub use rendered::Rendered;
 #[doc(hidden)]
 pub use steps::{LATTICES, Run, WHOLE, runs, samples_after, steps_of};
-pub use whole::render;

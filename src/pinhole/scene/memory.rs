@@ -1,8 +1,7 @@
 //! How much memory is available, checked before a large allocation: a process whose allocation fails half way through a
 //! render dies, and its work is lost.
 
-use std::fmt;
-use std::fs;
+use std::{fmt, fs};
 
 /// What a worker takes of the address space when it is started, however little memory it needs: its stack, and the part of
 /// the heap that the system sets apart for each thread.

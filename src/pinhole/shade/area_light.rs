@@ -1,7 +1,7 @@
 use super::ShadowRays;
 use super::light::{ShadowRay, cosine_of, shadow_t_max};
+use super::radiance::{LightSamplingView, LightSamplingViewItem};
 use super::receivers::{LightRay, LightRows, RayLists, append_sampled};
-use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{AreaLightTable, SamplingTable, area_light_evidence, light_sampling_evidence, material_evidence};
 use crate::intersect::Surface;
 use crate::lights::Receiver;

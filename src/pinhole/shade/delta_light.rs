@@ -3,8 +3,8 @@
 
 use super::ShadowRays;
 use super::light::{ShadowRay, cosine_of, shadow_t_max};
+use super::radiance::{LightSamplingView, LightSamplingViewItem};
 use super::receivers::{LightRay, LightRows, MakesRays, RayLists, append_rays, append_sampled, is_apart};
-use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{
     LightChoice, LightsOf, SamplingTable, lights_evidence, many_lights_evidence, material_evidence, unless_occlusion,
 };

@@ -1,7 +1,6 @@
 //! Points of an image → a colour.
 
-use crate::extract::TexturePoint;
-use crate::extract::{Pyramid, Texels};
+use crate::extract::{Pyramid, Texels, TexturePoint};
 use crate::scene::WrapMode;
 use glam::{DMat2, DVec2, DVec3};
 

@@ -15,72 +15,37 @@
 //! ```
 
 mod area_light;
-mod background;
 mod camera_join;
-mod checker;
-mod colour;
 mod delta_light;
-mod emissive;
-mod environment;
-mod environment_light;
 mod footprint;
-mod gradient;
 mod image_mask;
-mod image_texture;
 mod light;
 mod lookup;
-mod material_maps;
+mod maps;
 mod non_opaque;
-mod normal_map;
-mod parameters;
 mod radiance;
 mod receivers;
-mod row_slopes;
 mod shadow;
-mod surface_colour;
-mod texture_point;
-mod tint;
+mod sky;
+mod textures;
 mod transmissive_rows;
 mod unintersected;
-mod unlit;
-mod view;
 
 #[doc(hidden)]
 pub use area_light::{area_light_pdf, area_light_stage, irradiance_from_area, sample_area_lights};
 #[doc(hidden)]
-pub use background::{add_background, background_stage};
-#[doc(hidden)]
 pub use camera_join::{
     JoinPoints, camera_join_stage, connect_to_camera, join_cosine, join_point_stage, sample_join_points,
 };
-#[doc(hidden)]
-pub use checker::{
-    box_width, checker_fraction, checker_stage, evaluate_pattern, pattern_stage, stripes_fraction, stripes_stage, wave,
-    wave_mean,
-};
-#[doc(hidden)]
-pub use colour::SurfaceColours;
 #[doc(hidden)]
 pub use delta_light::{
     directional_light_stage, light_sampling_stage, light_sampling_stages, point_light_stage, sample_lights,
     spot_light_stage,
 };
 #[doc(hidden)]
-pub use emissive::{add_emission, emissive_stage};
-#[doc(hidden)]
-pub use environment::{
-    add_environment, around, direction_of, environment_radiance, environment_stage, equirectangular, texel_solid_angle,
-};
-#[doc(hidden)]
-pub use environment_light::{environment_direction, environment_light_stage, environment_pdf, sample_environment};
-#[doc(hidden)]
 pub use footprint::{Footprints, compute_footprints, footprint_stage, step_on_surface};
 #[doc(hidden)]
-pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
-#[doc(hidden)]
 pub use image_mask::{image_mask_stage, image_mask_stages, mask_image};
-#[doc(hidden)]
-pub use image_texture::{evaluate_images, image_stage};
 #[doc(hidden)]
 pub use light::{
     LightPdfs, ShadowRays, light_distance, light_evidence, lit_evidence, shadow_t_max, start_shadow_rays,
@@ -89,36 +54,36 @@ pub use light::{
 #[doc(hidden)]
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 #[doc(hidden)]
-pub use material_maps::{
-    EmissionFactors, MetallicRoughness, emission_map_stage, evaluate_emission, evaluate_metallic_roughness,
-    metallic_roughness_stage,
+pub use maps::{
+    EmissionFactors, MetallicRoughness, ParameterColumns, ParameterColumnsItem, copy_normals, copy_normals_stage,
+    emission_map_stage, evaluate_emission, evaluate_metallic_roughness, map_normals, mapped_normal,
+    metallic_roughness_stage, normal_map_stage, uv_directions,
 };
 #[doc(hidden)]
 pub use non_opaque::{intersect_non_opaque, non_opaque_shadow_stage, non_opaque_stage};
 #[doc(hidden)]
-pub use normal_map::{copy_normals, copy_normals_stage, map_normals, mapped_normal, normal_map_stage, uv_directions};
-#[doc(hidden)]
-pub use parameters::{ParameterColumns, ParameterColumnsItem};
-#[doc(hidden)]
-pub use radiance::Radiance;
-#[doc(hidden)]
-pub use radiance::{start_radiance, start_stage};
+pub use radiance::{
+    LightSamplingView, LightSamplingViewItem, Radiance, ReflectionView, ReflectionViewItem, add_emission,
+    emissive_stage, shade_unlit, shown_evidence, start_radiance, start_stage, unlit_stage,
+};
 #[doc(hidden)]
 pub use shadow::{
     ShadowHits, moving_shadow_stage, plane_shadow_stage, shadow_evidence, shape_shadow_stage, shape_shadow_stages,
     sphere_shadow_stage, start_shadow_stage, start_shadows,
 };
 #[doc(hidden)]
-pub use surface_colour::{colour_stage, colour_surfaces};
+pub use sky::{
+    add_background, add_environment, add_gradient, around, background_stage, direction_of, environment_direction,
+    environment_light_stage, environment_pdf, environment_radiance, environment_stage, equirectangular,
+    gradient_radiance, gradient_stage, sample_environment, texel_solid_angle,
+};
 #[doc(hidden)]
-pub use texture_point::{TexturePoints, compute_texture_points, face_from_space, texture_point_stage};
-#[doc(hidden)]
-pub use tint::{tint_stage, tint_surfaces};
+pub use textures::{
+    SurfaceColours, TexturePoints, box_width, checker_fraction, checker_stage, colour_stage, colour_surfaces,
+    compute_texture_points, evaluate_images, evaluate_pattern, face_from_space, image_stage, pattern_stage,
+    stripes_fraction, stripes_stage, texture_point_stage, tint_stage, tint_surfaces, wave, wave_mean,
+};
 #[doc(hidden)]
 pub use transmissive_rows::{TransmissiveRows, list_transmissive_rows, transmissive_rows_stage};
 #[doc(hidden)]
 pub use unintersected::check_shapes_are_intersected;
-#[doc(hidden)]
-pub use unlit::{shade_unlit, shown_evidence, unlit_stage};
-#[doc(hidden)]
-pub use view::{LightSamplingView, LightSamplingViewItem, ReflectionView, ReflectionViewItem};

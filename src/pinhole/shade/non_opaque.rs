@@ -1,9 +1,8 @@
 //! Rays and surfaces that are not opaque everywhere: where they are, they are hit; elsewhere rays go on.
 
-use super::material_maps::looked_up;
+use super::maps::looked_up;
 use super::{ShadowHits, ShadowRays, shadow_evidence};
-use crate::extract::TexturePoint;
-use crate::extract::{Coverage, NO_TEXTURE, NonOpaqueTable, SamplingTable, non_opaque_evidence};
+use crate::extract::{Coverage, NO_TEXTURE, NonOpaqueTable, SamplingTable, TexturePoint, non_opaque_evidence};
 use crate::intersect::{HitColumn, HitPrimitives, Hits, NO_SHAPE, RayColumn};
 use crate::plan::{Shared, Stage, TileSystems};
 use crate::rays::{SampleNumber, WorldRays};

@@ -1,5 +1,5 @@
+use super::frustum::{FrustumShape, PlacedFrustum};
 use super::kind::ShapeKind;
-use super::placed_frustum::{FrustumShape, PlacedFrustum};
 use super::shape::SceneShape;
 use crate::scene::Cone;
 

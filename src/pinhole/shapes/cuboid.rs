@@ -1,15 +1,12 @@
-use super::bounds::Bounds;
-use super::double_double_planar::double_double_cuboid_t;
+use super::arithmetic::Interval;
+use super::bounds::{Bounds, l1_norm};
+use super::double_double::double_double_cuboid_t;
 use super::emitter::EmittingCuboid;
-use super::interval::Interval;
-use super::offset::l1_norm;
 use super::planar::unit_in_f32;
-use super::ray_block::Intersection;
-use super::ray_hit::{RayHit, SurfacePoint};
+use super::ray_block::{Intersection, RayHit, SurfacePoint};
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::{Pose, normal_world_from_object};
-use super::uv::{face_axes, within_unit};
-use super::uv_slope::UvSlope;
+use super::uv::{UvSlope, face_axes, within_unit};
 use crate::scene::{Cuboid, SceneError, positive_length, triple};
 use glam::{DMat3, DVec3};
 

@@ -1,13 +1,10 @@
-use super::bounds::Bounds;
-use super::double_double_ellipsoid::{double_double_ellipsoid_point, double_double_ellipsoid_t};
+use super::bounds::{Bounds, l1_norm};
+use super::double_double::{double_double_ellipsoid_point, double_double_ellipsoid_t};
 use super::emitter::NeverSampled;
-use super::offset::l1_norm;
-use super::ray_block::{Intersection, UNIT_ROUNDOFF};
-use super::ray_hit::{RayHit, SurfacePoint};
+use super::ray_block::{Intersection, RayHit, SurfacePoint, UNIT_ROUNDOFF};
 use super::shape::{Placed, Shape};
 use super::space::{direction_object_from_world, normal_world_from_object, point_object_from_world};
-use super::uv::sphere_uv;
-use super::uv_slope::UvSlope;
+use super::uv::{UvSlope, sphere_uv};
 use crate::scene::{SceneError, Sphere, positive_length, triple};
 use glam::{DMat3, DVec3};
 

@@ -1,20 +1,14 @@
-use super::arithmetic::{Arithmetic, Precise, dot_of};
-use super::bounds::Bounds;
+//! A mesh in render space.
+
+use super::arithmetic::{Arithmetic, Precise, dot_of, exact_cross, exact_difference};
+use super::bounds::{Bounds, l1_norm};
 use super::emitter::EmittingTriangle;
-use super::mesh_hierarchy::MeshHierarchy;
-use super::mesh_instance::{hierarchy_in, is_closed};
-use super::mesh_normal::unnormalised_normal;
-use super::mesh_packet::{MeshPacket, may_be_coherent};
-use super::mesh_traversal::{MeshStacks, keep_closest_apart};
-use super::offset::l1_norm;
-use super::ray_block::{ClosestHit, ClosestHits, Intersection, RaySlices};
-use super::ray_hit::{HitBlock, RayHit, SurfacePoint};
-use super::shape::{Placed, Shape};
+use super::mesh_traversal::{MeshHierarchy, MeshPacket, MeshStacks, keep_closest_apart, may_be_coherent};
+use super::ray_block::{ClosestHit, ClosestHits, HitBlock, Intersection, RayHit, RaySlices, SurfacePoint};
+use super::shape::{Placed, SceneShape, Shape};
 use super::space::{norm, normal_world_from_object};
-use super::triangle_hit::TriangleHit;
-use super::triangle_row::TriangleRow;
-use super::triangle_surfaces::{ObjectMaps, interpolate_mesh};
-use super::uv_slope::{UvSlope, planar_slope};
+use super::triangle::{EXACT_BELOW, ObjectMaps, TriangleHit, TriangleRow, interpolate_mesh};
+use super::uv::{UvSlope, planar_slope};
 use crate::bvh::{PACKET, Stack, TestCounts};
 use crate::scene::{MeshGeometry, MeshInstance, SceneError, number};
 use glam::{DMat3, DVec2, DVec3};
@@ -347,4 +341,137 @@ impl PlacedMesh {
         }
         keep_closest_apart::<ANY>(hierarchy, number, waiting..hits.t.len(), own_ray, hits, stacks);
     }
+}
+
+// The inside of a mesh: whether a point is in it, and how thin it is.
+
+/// How far past a triangle a ray that counts triangles goes on, as a fraction of the numbers from which it was computed.
+const NEXT_TRIANGLE: f64 = 1.0 / (1_u64 << 46) as f64;
+
+impl PlacedMesh {
+    /// How many times a mesh that closes is around a point, counted along a ray: every surface that it leaves through is
+    /// around the point, unless it was entered on the way.
+    pub(super) fn windings_around(&self, point: DVec3) -> u32 {
+        // Any direction will do; this one is along no axis.
+        let direction = DVec3::new(0.6, 0.48, 0.64);
+        if !self.bounds.contains(point) || !self.closes() {
+            return 0;
+        }
+        let (mut around, mut origin) = (0, point);
+        // Each step crosses a triangle, so that the count ends by itself; a step that rounding loses ends it too.
+        for _ in 0..2 * self.geometry.triangles.len() {
+            let closest = self.closest(origin, direction);
+            if closest.t == f64::INFINITY {
+                break;
+            }
+            let hit = RayHit { primitive: closest.primitive, ..RayHit::at_rest(origin, direction, closest.t) };
+            around += if self.surface(&(), &hit).outside { -1 } else { 1 };
+            let past = NEXT_TRIANGLE * (self.size + l1_norm(origin) + closest.t);
+            origin += (closest.t + past) * direction;
+        }
+        u32::try_from(around).unwrap_or(0)
+    }
+
+    /// Whether its triangles enclose an inside.
+    fn closes(&self) -> bool {
+        self.hierarchy.is_closed(&self.geometry)
+    }
+
+    /// The least distance to what lies behind the middle of a triangle: where two sides are near each other over an area,
+    /// some triangle's middle is there.
+    pub(super) fn least_thickness(&self) -> f64 {
+        let behind = |(triangle, corners): (usize, [DVec3; 3])| {
+            let inward = -self.normal_of(&self.triangle(triangle as u32));
+            let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+            let past = NEXT_TRIANGLE * (self.size + l1_norm(middle));
+            let t = if inward.is_finite() { self.closest(middle + past * inward, inward).t } else { f64::INFINITY };
+            t + past
+        };
+        self.placed_triangles().enumerate().map(behind).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// The least cosine between a shading normal and the direction to the viewer.
+const GRAZING: f64 = 0.01;
+
+impl PlacedMesh {
+    /// The shading normal where a ray hits it, in render space and facing the ray: interpolated from the vertex normals,
+    /// as unit vector; none where the mesh has none, or where they do not all point to one side of the triangle.
+    pub fn shading_normal(&self, hit: &RayHit) -> Option<DVec3> {
+        let normals = self.geometry.normals.as_ref()?;
+        let vertices = self.geometry.triangles[hit.primitive as usize];
+        let normals = vertices.map(|vertex| DVec3::from(normals[vertex as usize].map(f64::from)));
+        let triangle = self.triangle(hit.primitive);
+        let sides = normals.map(|normal| normal.dot(unnormalised_normal(&triangle)));
+        let is_above = sides.iter().all(|&side| side > 0.0);
+        if !(is_above || sides.iter().all(|&side| side < 0.0)) {
+            return None;
+        }
+        let ([origin, direction], _) = self.own_ray([hit.origin, hit.direction]);
+        let triangle_hit = TriangleHit::of(origin, direction, &triangle);
+        let along = normal_world_from_object(self.object_from_world, triangle_hit.interpolate(&normals));
+        let normal = (along / along.abs().max_element()).normalize();
+        let normal = if triangle_hit.along == is_above { -normal } else { normal };
+        // On a coarse mesh it may face away from the viewer, where every material is black.
+        let (towards, cosine) = (-hit.direction, -normal.dot(hit.direction));
+        Some(if cosine < GRAZING { (normal + (GRAZING - cosine) * towards).normalize() } else { normal })
+    }
+
+    /// The colour where a ray hits it, interpolated from those of the vertices, linear Rec. 709; none where it has none.
+    pub fn vertex_colour(&self, hit: &RayHit) -> Option<[f64; 3]> {
+        let colours = self.geometry.colours.as_ref()?;
+        let vertices = self.geometry.triangles[hit.primitive as usize];
+        let colours = vertices.map(|vertex| DVec3::from(colours[vertex as usize].map(f64::from)));
+        let ([origin, direction], _) = self.own_ray([hit.origin, hit.direction]);
+        let triangle_hit = TriangleHit::of(origin, direction, &self.triangle(hit.primitive));
+        Some(triangle_hit.interpolate(&colours).clamp(DVec3::ZERO, DVec3::ONE).to_array())
+    }
+}
+
+/// (B − A) × (C − A), from exact differences.
+#[inline(always)]
+pub(super) fn unnormalised_normal(triangle: &TriangleRow) -> DVec3 {
+    let [a, b, c] = triangle.corners;
+    let (one, other) = (b - a, c - a);
+    let cross = one.cross(other);
+    let largest = one.abs().max_element() * other.abs().max_element();
+    if cross.abs().max_element() > largest * EXACT_BELOW { cross } else { exact_normal([a, b, c]) }
+}
+
+#[cold]
+#[inline(never)]
+fn exact_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+    DVec3::from(exact_cross(&exact_difference(b, a), &exact_difference(c, a)).map(|part| part.rounded()))
+}
+
+// The component of a mesh, and the hierarchy that its geometry has, however many instances there are.
+
+impl SceneShape for MeshInstance {
+    const NAME: &'static str = "MeshInstance";
+    const WORD: &'static str = "mesh";
+
+    fn scale(&mut self, by: f64) {
+        let mut mesh = (*self.geometry).clone();
+        for part in mesh.positions.iter_mut().flatten() {
+            *part = (f64::from(*part) * by) as f32;
+        }
+        self.geometry = MeshGeometry::new(mesh);
+    }
+
+    /// An octahedron, and a flat one.
+    fn examples() -> Vec<Self> {
+        let mut flat = (*MeshGeometry::default()).clone();
+        flat.positions.iter_mut().for_each(|[_, y, _]| *y *= 0.25);
+        vec![Self::default(), Self { geometry: MeshGeometry::new(flat) }]
+    }
+}
+
+/// The hierarchy of a mesh, built when the first instance asks for it.
+pub(super) fn hierarchy_in(geometry: &MeshGeometry) -> Arc<MeshHierarchy> {
+    geometry.once(MeshHierarchy::of)
+}
+
+/// Whether a mesh encloses an interior; found out when something first asks for it.
+pub(super) fn is_closed(geometry: &MeshGeometry) -> bool {
+    hierarchy_in(geometry).is_closed(geometry)
 }

@@ -34,6 +34,27 @@ macro_rules! with_shapes {
     };
 }
 // ANCHOR_END: shape_list
+pub use arithmetic::{
+    Arithmetic, Bounded, ExactSum, ExactVector, Precise, dot_of, exact_cross, exact_difference, exact_dot, two_product,
+    two_sum,
+};
+pub use bounds::{Bounds, l1_norm, offset_bound, offset_origin};
+pub use double_double::{
+    double_double_cuboid_t, double_double_disk_t, double_double_ellipsoid_point, double_double_ellipsoid_t,
+    double_double_rectangle_t, double_double_sphere_t,
+};
+pub use frustum::{EmittingFrustum, Frustum, FrustumShape, PlacedFrustum};
+pub use mesh::PlacedMesh;
+pub use mesh_traversal::MeshHierarchy;
+pub use ray_block::{ClosestHit, ClosestHits, HITS, HitBlock, Intersection, RayHit, RaySlices, SurfacePoint, nearness};
+pub(crate) use ray_block::{LANES, RayBlock, vector};
+pub use space::{
+    Pose, UnitRay, UnitSpace, direction_object_from_world, normal_world_from_object, point_object_from_world,
+};
+pub use torus::PlacedTorus;
+pub use triangle::{TriangleFace, TriangleHit, TriangleRow, exact_triangle_t, placed_normals, triangle_surface};
+pub use triangle_edges::{Edges, Shear, edges, longest_axis, triangle_intersection, triangle_t};
+pub use uv::{UvSlope, face_axes, most_of, planar_uv, plane_axes, sphere_uv};
 pub use with_shapes;
 
 mod arithmetic;
@@ -43,30 +64,16 @@ mod cuboid;
 mod cylinder;
 mod disk;
 mod double_double;
-mod double_double_ellipsoid;
-mod double_double_planar;
 mod ellipsoid;
 pub mod emitter;
-mod exact_sum;
 mod frustum;
-mod frustum_light;
 mod hierarchy_rows;
-mod interval;
 mod kind;
 mod mesh;
-mod mesh_hierarchy;
-mod mesh_inside;
-mod mesh_instance;
-mod mesh_normal;
-mod mesh_packet;
 mod mesh_traversal;
-mod offset;
-mod placed_frustum;
 mod planar;
 mod plane;
-mod quartic;
 mod ray_block;
-mod ray_hit;
 mod rectangle;
 mod registry;
 mod shape;
@@ -74,54 +81,22 @@ mod space;
 mod sphere;
 mod torus;
 mod triangle;
-mod triangle_block;
 mod triangle_edges;
-mod triangle_exact;
-mod triangle_hit;
-mod triangle_row;
-mod triangle_surfaces;
-mod unit_space;
 mod uv;
-mod uv_slope;
 
-pub use arithmetic::{Arithmetic, Bounded, Precise, dot_of};
-pub use bounds::Bounds;
 pub use cone::PlacedCone;
 pub use cuboid::{Slabs, cuboid_face, cuboid_intersection, cuboid_surface, cuboid_t, cuboid_uv};
 pub use cylinder::PlacedCylinder;
 pub use disk::{PlacedDisk, disk_intersection, disk_t};
-pub use double_double::double_double_sphere_t;
-pub use double_double_ellipsoid::{double_double_ellipsoid_point, double_double_ellipsoid_t};
-pub use double_double_planar::{double_double_cuboid_t, double_double_disk_t, double_double_rectangle_t};
 pub use ellipsoid::{Ellipsoid, ellipsoid_intersection, ellipsoid_surface, ellipsoid_t};
-pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
-pub use frustum::Frustum;
-pub use frustum_light::EmittingFrustum;
 pub use hierarchy_rows::{hierarchy_of, keep_closest_counted, keep_closest_of};
 pub use kind::ShapeKind;
-pub use mesh::PlacedMesh;
-pub use mesh_hierarchy::MeshHierarchy;
-pub use offset::{l1_norm, offset_bound, offset_origin};
-pub use placed_frustum::{FrustumShape, PlacedFrustum};
 pub use planar::{Crossing, Planar, crossing};
 pub use plane::{PlacedPlane, plane_t};
-pub use ray_block::{ClosestHit, ClosestHits, Intersection, RaySlices, nearness};
-pub(crate) use ray_block::{LANES, RayBlock, vector};
-pub use ray_hit::{HITS, HitBlock, RayHit, SurfacePoint};
 pub use rectangle::{PlacedRectangle, rectangle_intersection, rectangle_t};
 pub use registry::{
     AnyShape, CustomShape, Emitter, LeavingPoint, Listed, ShapeVisitor, custom_shape, distance_to, leaving_point,
     pdf_towards, point_on, shape_names, visit_shapes,
 };
 pub use shape::{Placed, SceneShape, Shape, ShapeNames};
-pub use space::{Pose, direction_object_from_world, normal_world_from_object, point_object_from_world};
 pub use sphere::{PlacedSphere, sphere_intersection, sphere_t};
-pub use torus::PlacedTorus;
-pub use triangle::{TriangleFace, placed_normals};
-pub use triangle_edges::{Edges, Shear, edges, longest_axis, triangle_intersection, triangle_t};
-pub use triangle_exact::exact_triangle_t;
-pub use triangle_hit::{TriangleHit, triangle_surface};
-pub use triangle_row::TriangleRow;
-pub use unit_space::{UnitRay, UnitSpace};
-pub use uv::{face_axes, planar_uv, plane_axes, sphere_uv};
-pub use uv_slope::{UvSlope, most_of};

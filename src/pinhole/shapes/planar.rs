@@ -1,12 +1,11 @@
 //! The plane of disks and rectangles, where a ray crosses it, with an error bound, and the surface there.
 
+use super::bounds::l1_norm;
 use super::emitter::Parallelogram;
-use super::offset::l1_norm;
-use super::ray_hit::{RayHit, SurfacePoint};
+use super::ray_block::{RayHit, SurfacePoint};
 use super::shape::Placed;
 use super::space::{Pose, normal_world_from_object};
-use super::uv::planar_uv;
-use super::uv_slope::UvSlope;
+use super::uv::{UvSlope, planar_uv};
 use crate::scene::{SceneError, positive_length};
 use glam::DVec3;
 

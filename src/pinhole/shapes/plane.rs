@@ -1,11 +1,9 @@
 use super::bounds::Bounds;
 use super::emitter::NeverSampled;
-use super::ray_block::{ClosestHits, Intersection, RaySlices};
-use super::ray_hit::{RayHit, SurfacePoint};
+use super::ray_block::{ClosestHits, Intersection, RayHit, RaySlices, SurfacePoint};
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::normal_world_from_object;
-use super::uv::plane_axes;
-use super::uv_slope::UvSlope;
+use super::uv::{UvSlope, plane_axes};
 use crate::scene::{Plane, SceneError, triple};
 use glam::{DMat3, DVec3};
 use multiversion::multiversion;

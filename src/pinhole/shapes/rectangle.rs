@@ -1,11 +1,10 @@
 use super::bounds::Bounds;
-use super::double_double_planar::double_double_rectangle_t;
+use super::double_double::double_double_rectangle_t;
 use super::emitter::Parallelogram;
 use super::planar::{Planar, crossing};
-use super::ray_block::Intersection;
-use super::ray_hit::{RayHit, SurfacePoint};
+use super::ray_block::{Intersection, RayHit, SurfacePoint};
 use super::shape::{Placed, SceneShape, Shape};
-use super::uv_slope::UvSlope;
+use super::uv::UvSlope;
 use crate::scene::{Rectangle, SceneError, positive_length};
 use glam::{DMat3, DVec3};
 

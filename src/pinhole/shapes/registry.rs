@@ -3,11 +3,9 @@
 use super::bounds::Bounds;
 use super::emitter::{Emitting, LightPoint};
 use super::kind::ShapeKind;
-use super::ray_block::{ClosestHit, ClosestHits, RayBlock, keep_closest_block, vector};
-use super::ray_hit::{RayHit, SurfacePoint};
+use super::ray_block::{ClosestHit, ClosestHits, RayBlock, RayHit, SurfacePoint, keep_closest_block, vector};
 use super::shape::{Shape, ShapeNames};
-use super::uv::face_axes;
-use super::uv_slope::{UvSlope, most_of, round_step};
+use super::uv::{UvSlope, face_axes, most_of, round_step};
 use crate::bvh::{Stack, TestCounts};
 use glam::DVec3;
 use std::fmt::Debug;

@@ -1,9 +1,10 @@
 use super::bounds::Bounds;
 use super::emitter::{Emitting, NeverSampled};
-use super::ray_block::{ClosestHit, ClosestHits, Intersection, RaySlices, keep_closest_rows};
-use super::ray_hit::{HitBlock, RayHit, SurfacePoint};
+use super::ray_block::{
+    ClosestHit, ClosestHits, HitBlock, Intersection, RayHit, RaySlices, SurfacePoint, keep_closest_rows,
+};
 use super::space::Pose;
-use super::uv_slope::UvSlope;
+use super::uv::UvSlope;
 use crate::bvh::{Stack, TestCounts};
 use crate::scene::SceneError;
 use bevy_ecs::component::Mutable;

@@ -1,12 +1,9 @@
-use super::bounds::Bounds;
+use super::bounds::{Bounds, l1_norm};
 use super::double_double::double_double_sphere_t;
 use super::emitter::{AreaSample, Emitting, LightPoint, sphere_direction, sphere_distance, sphere_pdf, sphere_point};
-use super::offset::l1_norm;
-use super::ray_block::{Intersection, UNIT_ROUNDOFF};
-use super::ray_hit::{RayHit, SurfacePoint};
+use super::ray_block::{Intersection, RayHit, SurfacePoint, UNIT_ROUNDOFF};
 use super::shape::{Placed, SceneShape, Shape};
-use super::uv::sphere_uv;
-use super::uv_slope::UvSlope;
+use super::uv::{UvSlope, sphere_uv};
 use crate::scene::{SceneError, Sphere, number, positive_length};
 use glam::{DMat3, DVec3};
 use std::f64::consts::PI;

@@ -1,17 +1,21 @@
+//! A triangle in render space, and the surface where it is hit.
+
+use super::arithmetic::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot};
 use super::bounds::Bounds;
 use super::emitter::EmittingTriangle;
-use super::ray_block::{ClosestHits, Intersection, RaySlices};
-use super::ray_hit::{HitBlock, RayHit, SurfacePoint};
+use super::ray_block::{
+    ClosestHits, HITS, HitBlock, Intersection, RayHit, RaySlices, SurfacePoint, UNIT_ROUNDOFF, at, set,
+};
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::normal_world_from_object;
-use super::triangle_edges::{triangle_intersection, triangle_rows};
-use super::triangle_exact::exact_triangle_t;
-use super::triangle_hit::{TriangleHit, triangle_surface};
-use super::triangle_row::{TriangleRow, order};
-use super::triangle_surfaces::interpolate_triangles;
-use super::uv_slope::{UvSlope, planar_slope};
+use super::triangle_edges::{
+    Edges, ROUNDING, Shear, edge_values, edges, longest_axis, triangle_intersection, triangle_rows,
+};
+use super::uv::{UvSlope, planar_slope};
+use crate::bvh::by_axis;
 use crate::scene::{SceneError, Triangle, finite_point, number, triple};
 use glam::{DMat3, DVec2, DVec3};
+use multiversion::multiversion;
 
 /// A triangle whose least height is at most this fraction of its longest edge has lost its normal to rounding.
 const MIN_HEIGHT: f64 = 1.0 / (1_u64 << 48) as f64;
@@ -200,4 +204,272 @@ fn checked_uvs(who: &str, triangle: &Triangle) -> Result<[DVec2; 3], SceneError>
             Err(SceneError::new(who, "uvs", value, "each coordinate must be a finite number"))
         }
     }
+}
+
+/// The factor by which a triangle's bounding sphere is enlarged, so that no rounding leads outside it.
+const RADIUS_MARGIN: f64 = 1.0 + 1.0 / 65_536.0;
+
+/// A triangle as the intersection kernels read it.
+///
+/// Its corners are sorted, whatever the author's order, so that the same three corners give every ray the same distance
+/// to the last bit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TriangleRow {
+    /// The corners, relative to the eye.
+    pub corners: [DVec3; 3],
+    /// The largest |x| + |y| + |z| of a corner.
+    pub size: f64,
+    /// The midpoint of the longest edge.
+    pub centre: DVec3,
+    /// The radius of a bounding sphere about the centre.
+    pub bounding_radius: f64,
+}
+
+impl TriangleRow {
+    /// The triangle of three corners.
+    pub fn new(mut corners: [DVec3; 3]) -> Self {
+        corners.sort_by(order);
+        let size = corners.map(|corner| corner.abs().element_sum()).into_iter().fold(0.0, f64::max);
+        let edges = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (corners[i], corners[j]));
+        let longest = edges.into_iter().max_by(|a, b| a.0.distance(a.1).total_cmp(&b.0.distance(b.1)));
+        let centre = longest.map_or(corners[0], |(a, b)| a.midpoint(b));
+        let bounding_radius =
+            corners.map(|corner| corner.distance(centre)).into_iter().fold(0.0, f64::max) * RADIUS_MARGIN;
+        Self { corners, size, centre, bounding_radius }
+    }
+
+    /// (B − A) × (C − A), each component accurate to within two roundings however thin the triangle; all 0 for
+    /// collinear corners.
+    pub fn cross(&self) -> DVec3 {
+        let [a, b, c] = self.corners;
+        DVec3::from(exact_cross(&exact_difference(b, a), &exact_difference(c, a)).map(|part| part.rounded()))
+    }
+}
+
+/// The order of corners: by x, then y, then z.
+pub(super) fn order(a: &DVec3, b: &DVec3) -> std::cmp::Ordering {
+    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
+}
+
+/// The point at which a ray hits a triangle, in barycentric coordinates, and the side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TriangleHit {
+    /// The barycentric coordinates: each in [0, 1], with a sum of 1 to within 2⁻⁵¹.
+    pub weights: [f64; 3],
+    /// Whether the ray's direction is on the side of (B − A) × (C − A).
+    pub along: bool,
+}
+
+impl TriangleHit {
+    /// The hit of a ray that is known to hit the triangle.
+    #[inline(always)]
+    pub fn of(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> Self {
+        match longest_axis(direction) {
+            0 => Self::by::<0>(origin, direction, triangle),
+            1 => Self::by::<1>(origin, direction, triangle),
+            _ => Self::by::<2>(origin, direction, triangle),
+        }
+    }
+
+    /// The barycentric coordinates are the areas over their sum; those that rounding made negative are set to 0.
+    /// If the sum is so small that a coordinate could be off by more than 2⁻²⁶, exact arithmetic is used.
+    #[inline(always)]
+    fn by<const Z: usize>(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> Self {
+        let (shear, size) = (Shear::along::<Z>(direction), origin.abs().element_sum());
+        let Edges { areas, error, .. } = edges::<Z>(origin, shear, triangle, size);
+        let whole: f64 = areas.iter().sum();
+        let (weights, along) = if 4.0 * error < 0.25 * UNIT_ROUNDOFF * whole.abs() {
+            (by_axis(|corner| areas[corner] / whole), whole * shear.z)
+        } else {
+            exact_barycentrics(origin, direction, triangle)
+        };
+        let weights = by_axis(|corner| if weights[corner] < 0.0 { 0.0 } else { weights[corner] });
+        let sum: f64 = weights.iter().sum();
+        Self { weights: by_axis(|corner| weights[corner] / sum), along: along > 0.0 }
+    }
+
+    /// Interpolates vectors given at the vertices.
+    #[inline(always)]
+    pub fn interpolate(&self, vectors: &[DVec3; 3]) -> DVec3 {
+        let [a, b, c] = self.weights;
+        a * vectors[0] + b * vectors[1] + c * vectors[2]
+    }
+}
+
+/// The surface where a ray hits a triangle with this normal, which may be turned against the order of its corners.
+///
+/// The point is interpolated from the vertices rather than computed as O + tR: it is off the plane only by the rounding
+/// of that mean, 8ε times the largest vertex, even at grazing incidence, and [`offset_bound`](super::offset_bound) holds as for a plane.
+/// For a spawned ray not to hit its own triangle again, the sign of t must also be right (PBRT compares t with its
+/// error bound); here that sign is never uncertain.
+#[inline(always)]
+pub fn triangle_surface(
+    triangle: &TriangleRow,
+    (side, turned): (DVec3, bool),
+    hit: &RayHit,
+    triangle_hit: &TriangleHit,
+) -> SurfacePoint {
+    let point = triangle_hit.interpolate(&triangle.corners);
+    let bound = hit.bound(point, triangle.size);
+    let outside = triangle_hit.along == turned;
+    let normal = if outside { side } else { -side };
+    SurfacePoint { point, normal, bound, outside, at: DVec3::from(triangle_hit.weights) }
+}
+
+// The surfaces where rays hit triangles that are known, several hits at once.
+
+/// Where a component of the cross product cancels to less than this part of what it is the difference of, f64 would turn
+/// the normal of a thin triangle.
+pub(super) const EXACT_BELOW: f64 = 1.0 / (1_u64 << 24) as f64;
+
+/// The barycentric coordinates of a hit, whether the ray goes along the normal, and whether f64 is certain of both: the
+/// same bits as those of [`TriangleHit::of`](super::TriangleHit::of), without a branch.
+#[inline(always)]
+fn barycentrics(origin: [f64; 3], direction: [f64; 3], corners: [[f64; 3]; 3]) -> ([f64; 3], bool, bool) {
+    let [x, y, z] = direction.map(f64::abs);
+    let by_z = (z >= x) & (z >= y);
+    let by_y = !by_z & (y > x);
+    let pick = |one: f64, other: f64, last: f64| if by_z { one } else { if by_y { other } else { last } };
+    let permuted = |[x, y, z]: [f64; 3]| [pick(x, z, y), pick(y, x, z), pick(z, y, x)];
+    let [x, y, z] = permuted(direction);
+    let shear = [x / z, y / z, 1.0 / z];
+    let rounding = ROUNDING * (norm(origin) + size_of_corners(corners));
+    let corners = [permuted(corners[0]), permuted(corners[1]), permuted(corners[2])];
+    let ([u, v, w], _, error) = edge_values(corners, permuted(origin), shear, rounding);
+    let whole = u + v + w;
+    let [u, v, w] = [not_negative(u / whole), not_negative(v / whole), not_negative(w / whole)];
+    let sum = u + v + w;
+    let certain = 4.0 * error < 0.25 * UNIT_ROUNDOFF * whole.abs();
+    ([u / sum, v / sum, w / sum], whole * shear[2] > 0.0, certain)
+}
+
+#[inline(always)]
+fn norm([x, y, z]: [f64; 3]) -> f64 {
+    x.abs() + y.abs() + z.abs()
+}
+
+#[inline(always)]
+fn size_of_corners([a, b, c]: [[f64; 3]; 3]) -> f64 {
+    max(norm(a), max(norm(b), norm(c)))
+}
+
+/// The largest magnitude of a component.
+#[inline(always)]
+fn largest(vector: DVec3) -> f64 {
+    max(vector.x.abs(), max(vector.y.abs(), vector.z.abs()))
+}
+
+#[inline(always)]
+fn not_negative(number: f64) -> f64 {
+    if number < 0.0 { 0.0 } else { number }
+}
+
+/// The greater of two numbers, in the one instruction that `f64::max` is not.
+#[inline(always)]
+fn max(one: f64, other: f64) -> f64 {
+    if one > other { one } else { other }
+}
+
+#[inline(always)]
+fn interpolated([u, v, w]: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+    [u * a[0] + v * b[0] + w * c[0], u * a[1] + v * b[1] + w * c[1], u * a[2] + v * b[2] + w * c[2]]
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+pub(super) fn interpolate_triangles(hits: &mut HitBlock) {
+    for lane in 0..HITS {
+        let corners = hits.corners_at(lane);
+        let (weights, along, certain) = barycentrics(at(&hits.origin, lane), at(&hits.direction, lane), corners);
+        set(&mut hits.at, lane, weights);
+        set(&mut hits.point, lane, interpolated(weights, corners));
+        let is_turned = hits.outside[lane] > 0.0;
+        hits.face(lane, at(&hits.normal, lane), along == is_turned, size_of_corners(corners));
+        hits.certain[lane] = if certain { 1.0 } else { 0.0 };
+    }
+}
+
+/// What takes rays to the object space of a mesh, and its triangles out of it.
+pub(super) struct ObjectMaps {
+    pub object_from_world: DMat3,
+    pub world_from_object: DMat3,
+    pub normal_from_object: DMat3,
+    pub position: DVec3,
+    /// The centre of a sphere, and the square of the distance from it beyond which a ray starts far away.
+    pub centre: DVec3,
+    pub far_away: f64,
+    pub size: f64,
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+pub(super) fn interpolate_mesh(hits: &mut HitBlock, maps: &ObjectMaps) {
+    for lane in 0..HITS {
+        let (origin, corners) = (DVec3::from(at(&hits.origin, lane)), hits.corners_at(lane));
+        let is_near = (maps.centre - origin).length_squared() <= maps.far_away;
+        let own = maps.object_from_world * (origin - maps.position);
+        let direction = maps.object_from_world * DVec3::from(at(&hits.direction, lane));
+        let (weights, along, certain) = barycentrics(own.into(), direction.into(), corners);
+        set(&mut hits.at, lane, weights);
+        let point = maps.world_from_object * DVec3::from(interpolated(weights, corners)) + maps.position;
+        set(&mut hits.point, lane, point.into());
+
+        let [a, b, c] = [DVec3::from(corners[0]), DVec3::from(corners[1]), DVec3::from(corners[2])];
+        let (one, other) = (b - a, c - a);
+        let cross = one.cross(other);
+        let is_exact = largest(cross) > largest(one) * largest(other) * EXACT_BELOW;
+        let normal = maps.normal_from_object * cross;
+        let normal = (normal / largest(normal)).normalize();
+        hits.face(lane, normal.into(), !along, maps.size);
+        hits.certain[lane] = if certain & is_near & is_exact { 1.0 } else { 0.0 };
+    }
+}
+
+// Ray–triangle intersection in exact arithmetic, for the few cases that f64 leaves uncertain.
+
+/// The edge functions of a ray and a triangle, exactly.
+struct ExactEdges {
+    /// R · (B − O) × (C − O) and its cyclic permutations: the scaled areas opposite each vertex.
+    areas: [ExactSum; 3],
+    /// Their sum, R · (B − A) × (C − A).
+    whole: ExactSum,
+    /// The vertices relative to the ray's origin.
+    corners: [ExactVector; 3],
+}
+
+impl ExactEdges {
+    fn of(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> Self {
+        let corners = triangle.corners.map(|corner| exact_difference(corner, origin));
+        let direction = exact_difference(direction, DVec3::ZERO);
+        let [a, b, c] = &corners;
+        let areas = [(b, c), (c, a), (a, b)].map(|(i, j)| exact_dot(&direction, &exact_cross(i, j)));
+        let whole = areas[0].plus(&areas[1]).plus(&areas[2]);
+        Self { areas, whole, corners }
+    }
+}
+
+/// The t > 0 at which O + tR hits a triangle, to within a few roundings, or infinity; hit or miss is exact.
+///
+/// An edge or a vertex belongs to every triangle that has it; a ray in the triangle's plane misses.
+#[cold]
+#[inline(never)]
+pub fn exact_triangle_t(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> f64 {
+    if !(origin.is_finite() && direction.is_finite()) {
+        return f64::INFINITY;
+    }
+    let ExactEdges { areas, whole, corners: [a, b, c] } = ExactEdges::of(origin, direction, triangle);
+    let signs = areas.map(|area| area.sign());
+    if signs.contains(&1) == signs.contains(&-1) {
+        return f64::INFINITY;
+    }
+    let volume = exact_dot(&a, &exact_cross(&b, &c));
+    if volume.sign() * whole.sign() <= 0 { f64::INFINITY } else { volume.rounded() / whole.rounded() }
+}
+
+/// The barycentric coordinates of the point where the line O + tR intersects the triangle's plane, to within a few
+/// roundings, and R · (B − A) × (C − A), whose sign is exact.
+#[cold]
+#[inline(never)]
+pub fn exact_barycentrics(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> ([f64; 3], f64) {
+    let ExactEdges { areas, whole, .. } = ExactEdges::of(origin, direction, triangle);
+    let along = whole.rounded();
+    (areas.map(|area| area.rounded() / along), along)
 }

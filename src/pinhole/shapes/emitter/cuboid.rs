@@ -1,6 +1,6 @@
 use super::emitting::{AreaSample, Emitting, LightPoint};
 use super::parallelogram::{Parallelogram, across, parallelogram_pdf, parallelogram_point, parallelogram_solid_angle};
-use crate::shapes::offset::l1_norm;
+use crate::shapes::l1_norm;
 use glam::DVec3;
 
 /// A cuboid as a light, sampled face by face.

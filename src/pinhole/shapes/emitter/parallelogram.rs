@@ -1,6 +1,6 @@
 use super::emitting::{AreaSample, Emitting, LightPoint, angle_of, pdf_from_area};
 use super::triangle::{MIN_SOLID_ANGLE, TriangleSeen, triangle_solid_angle};
-use crate::shapes::offset::l1_norm;
+use crate::shapes::l1_norm;
 use glam::DVec3;
 use std::f64::consts::TAU;
 

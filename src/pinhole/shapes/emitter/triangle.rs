@@ -1,5 +1,5 @@
 use super::emitting::{AreaSample, Emitting, LightPoint, angle_of, pdf_from_area};
-use crate::shapes::offset::l1_norm;
+use crate::shapes::l1_norm;
 use glam::DVec3;
 
 /// A triangle that subtends less than this many sr is sampled by area, since the width of a thin one would have no

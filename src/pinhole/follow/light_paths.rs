@@ -1,0 +1,390 @@
+//! Paths from the lights.
+
+use super::Scattered;
+use super::specular::mirroring_normal;
+use crate::extract::{
+    CameraJoinTable, LightPathTable, LightSource, MaterialTable, SamplingTable, environment_traced_evidence,
+    lens_evidence, normal_map_evidence, traced_evidence,
+};
+use crate::intersect::{Hits, MaterialRows, NO_SHAPE, ShadingNormals, Surfaces, vertex_normal_evidence};
+use crate::lights::{LightStart, MAX_TARGETS_SOLID_ANGLE, StartDraws, direction_to_targets};
+use crate::material::{cosine_direction, frame_of};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
+use crate::rays::{Depth, Paths, SampleNumber, Tile, WorldRays, join_camera};
+use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
+use crate::shade::{JoinPoints, Radiance, ShadowRays, environment_direction, environment_radiance};
+use crate::shapes::{leaving_point, offset_bound, offset_origin};
+use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
+
+/// The number of light paths in a batch.
+pub const LIGHT_PATHS: u32 = 1024;
+
+column! {
+    /// The power with which each light path leaves its light, divided by the pdf of that start.
+    pub struct LightPower("light power", "light", "linear Rec. 709", Path) {
+        /// Red.
+        r: f64,
+        /// Green.
+        g: f64,
+        /// Blue.
+        b: f64,
+    }
+}
+
+impl LightPower {
+    /// The light's colour at its full brightness.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.r[row], self.g[row], self.b[row]].map(|part| part as f32)
+    }
+}
+
+// ANCHOR: light_start
+/// Samples a ray that leaves a light, towards mirrors and glass where these subtend a small solid angle.
+///
+/// An area light emits L cos θ per unit area and steradian, a point light I per steradian, an environment L per
+/// steradian and unit of area at right angles; divided by the pdfs of point and direction, that is the ray's power.
+/// No caustic is missed, since the first surface of a caustic path is a mirror or glass.
+#[inline(always)]
+pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
+    let light = table.chosen(draws.light);
+    // None is chosen where no light has an area.
+    let Some(probability) = table.probability.get(light) else { return LightStart::default() };
+    let chosen = 1.0 / probability;
+    let of_mesh;
+    let (emitter, radiance, one_sided) = match table.light.get(light) {
+        Some(LightSource::Area { emitter, radiance, one_sided }) => (emitter, *radiance, *one_sided),
+        Some(LightSource::Delta(light)) => return times(light.start(&table.targets, draws), chosen),
+        Some(LightSource::Environment(environment, light)) => {
+            let (to_light, pdf) = environment_direction(light, environment.turn, draws.direction);
+            let radiance = environment_radiance(environment, to_light);
+            let irradiance = radiance.map(|part| if pdf > 0.0 { part / pdf } else { 0.0 });
+            return times(table.targets.parallel_start(-to_light, irradiance, draws), chosen);
+        }
+        None => {
+            let mesh = table.mesh_of(light);
+            of_mesh = mesh.emitter(light);
+            (&of_mesh, mesh.radiance, mesh.one_sided)
+        }
+    };
+    let point = leaving_point(emitter, one_sided, draws.point, draws.side);
+    let (targets, limit) = (&table.targets.sphere, MAX_TARGETS_SOLID_ANGLE);
+    let (direction, weight) = match direction_to_targets(targets, point.position, limit, draws.target, draws.direction)
+    {
+        Some((direction, weight)) => (direction, direction.dot(point.normal).max(0.0) * weight),
+        None => (frame_of(point.normal) * cosine_direction(draws.direction), PI),
+    };
+    let bound = offset_bound(point.position, DVec3::ZERO, point.size);
+    LightStart {
+        origin: offset_origin(point.position.as_vec3(), point.normal.as_vec3(), bound),
+        direction,
+        power: radiance.map(|part| part * point.area * weight * chosen),
+    }
+}
+// ANCHOR_END: light_start
+
+/// The same ray where the light was chosen with a probability of 1 over `weight`.
+#[inline(always)]
+fn times(start: LightStart, weight: f64) -> LightStart {
+    LightStart { power: start.power.map(|part| part * weight), ..start }
+}
+
+/// A tile of paths from lights, and what each of them starts with.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct LightStartView {
+    tile: &'static Tile,
+    number: &'static SampleNumber,
+    depth: &'static mut Depth,
+    rays: &'static mut WorldRays,
+    paths: &'static mut Paths,
+    power: &'static mut LightPower,
+    radiance: &'static mut Radiance,
+}
+
+/// Samples the rays with which a batch of light paths starts, and clears their radiance.
+pub fn start_on_lights(
+    table: Res<Shared<LightPathTable>>,
+    sampling: Res<Shared<SamplingTable>>,
+    mut tiles: Query<LightStartView>,
+) {
+    for LightStartViewItem { tile, number, mut depth, mut rays, mut paths, mut power, mut radiance } in &mut tiles {
+        *depth = Depth(0);
+        let purposes = [Purpose::LightChoice, Purpose::LightPoint, Purpose::Pixel, Purpose::Lens];
+        let of = (&**table, tile, sampling.seed);
+        let to = (&mut *rays, &mut *paths, &mut *power);
+        let sample = SampleIndex { number: number.0, samples: sampling.samples, depth: 0 };
+        with_sampler!(sampling.sampler, D => start_rows(of, purposes.map(|own| D::of(sample, own)), to));
+        let rows = crate::plan::Column::rows(&*rays);
+        let (r, g, b) = radiance.slices_mut(rows);
+        [r, g, b].into_iter().for_each(|component| component.fill(0.0));
+    }
+}
+
+/// The columns that a path's start is written to.
+type StartColumns<'a> = (&'a mut WorldRays, &'a mut Paths, &'a mut LightPower);
+
+/// Every row is written, and the next one overwrites it unless it has power, so that no branch depends on the light.
+#[inline(always)]
+fn start_rows<D: Draw>(
+    (table, tile, seed): (&LightPathTable, &Tile, u64),
+    [choice, place, pixel, lens]: [D; 4],
+    (rays, paths, power): StartColumns<'_>,
+) {
+    let rows = tile.rows();
+    let (ox, oy, oz, dx, dy, dz) = rays.slices_mut(rows);
+    let (first, r, g, b, pdf) = paths.slices_mut(rows);
+    let (pr, pg, pb) = power.slices_mut(rows);
+    [r, g, b].into_iter().for_each(|component| component.fill(1.0));
+    pdf.fill(f64::INFINITY);
+    let mut at = 0;
+    for row in 0..rows {
+        let key = PixelKey::new(seed, tile.pixel_of(row));
+        let [target, side] = lens.two(key).map(unit);
+        let (point, direction) = (place.two(key).map(unit), pixel.two(key).map(unit));
+        let start = light_start(table, &StartDraws { light: choice.one(key), point, direction, target, side });
+        (ox[at], oy[at], oz[at]) = start.origin.into();
+        (dx[at], dy[at], dz[at]) = start.direction.as_vec3().into();
+        first[at] = row as u32;
+        [pr[row], pg[row], pb[row]] = start.power;
+        at += usize::from(start.power != [0.0; 3]);
+    }
+    rays.slices_mut(at);
+    paths.slices_mut(at);
+}
+
+/// The stage that runs [`start_on_lights`].
+pub fn light_start_stage() -> Stage {
+    Stage::new("Sample emitted rays", TileSystems::World, start_on_lights)
+        .on_light_paths()
+        .kind(StageKind::Alternative)
+        .when(traced_evidence)
+}
+
+column! {
+    /// Whether the caustics on a camera path's first surface are computed from the lights; exists where light tracing
+    /// is on.
+    pub struct CausticPaths("caustic path", "light", "1 or 0", Path) {
+        /// 1 where the first surface that the camera sees is not specular, so that light that reaches it through
+        /// mirrors or glass is left to light tracing; indexed by the row of the first bounce.
+        spread: u32,
+    }
+}
+
+impl CausticPaths {
+    /// White where light through mirrors or glass is left to light tracing.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.spread[row] as f32; 3]
+    }
+}
+
+/// Marks the camera rays that hit a non-specular surface.
+pub fn mark_caustic_paths(mut tiles: Query<(&WorldRays, &MaterialRows, &mut CausticPaths)>) {
+    for (rays, list, mut caustic) in &mut tiles {
+        let spread = caustic.slices_mut(crate::plan::Column::rows(rays));
+        spread.fill(0);
+        list.row.iter().for_each(|&row| spread[row as usize] = 1);
+    }
+}
+
+/// The stage that runs [`mark_caustic_paths`].
+pub fn caustic_paths_stage() -> Stage {
+    Stage::new("Mark caustic paths", TileSystems::Classify, mark_caustic_paths)
+        .on_camera_paths()
+        .on_first_bounce()
+        .kind(StageKind::Alternative)
+        .when(traced_evidence)
+}
+
+/// The paths that hit nothing, and the radiance of the environment that they found.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct EnvironmentCausticsView {
+    depth: &'static Depth,
+    paths: &'static Paths,
+    caustic: &'static CausticPaths,
+    hits: Option<&'static Hits>,
+    radiance: &'static mut Radiance,
+}
+
+/// Leaves the environment's light that the camera's paths find behind mirrors or glass to light tracing, which finds the
+/// same light from its other end.
+///
+/// As with emission, that is so where the first surface is not specular and the last one is.
+pub fn leave_environment_caustics(mut tiles: Query<EnvironmentCausticsView>) {
+    for EnvironmentCausticsViewItem { depth, paths, caustic, hits, mut radiance } in &mut tiles {
+        if depth.0 == 0 {
+            continue;
+        }
+        let radiance = &mut *radiance;
+        for row in 0..radiance.r.len() {
+            let missed = hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE);
+            let by_mirror = paths.pdf[row] == f64::INFINITY;
+            if missed && by_mirror && caustic.spread[paths.first[row] as usize] != 0 {
+                (radiance.r[row], radiance.g[row], radiance.b[row]) = (0.0, 0.0, 0.0);
+            }
+        }
+    }
+}
+
+/// The stage that runs [`leave_environment_caustics`].
+pub fn environment_caustics_stage() -> Stage {
+    Stage::new("Leave the environment's caustics to light tracing", TileSystems::Background, leave_environment_caustics)
+        .on_camera_paths()
+        .kind(StageKind::Alternative)
+        .when(environment_traced_evidence)
+}
+
+column! {
+    /// The light that a batch of light paths adds to the film, in the order of bounces and paths.
+    pub struct Splats("splats", "raster", "pixels; linear Rec. 709", Film) {
+        /// x, to the right.
+        x: f64,
+        /// y, downward.
+        y: f64,
+        /// Red.
+        r: f64,
+        /// Green.
+        g: f64,
+        /// Blue.
+        b: f64,
+    }
+}
+
+impl Splats {
+    /// The radiance that is added.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.r[row], self.g[row], self.b[row]].map(|part| part as f32)
+    }
+}
+
+/// Leaves light that goes straight from lights to non-specular surfaces to the camera's paths: at the first bounce,
+/// only mirrors and glass scatter.
+pub fn keep_specular(mut tiles: Query<&mut MaterialRows>) {
+    tiles.iter_mut().for_each(|mut list| list.row.clear());
+}
+
+/// The stage that runs [`keep_specular`].
+pub fn keep_specular_stage() -> Stage {
+    Stage::new("Keep specular bounces first", TileSystems::Classify, keep_specular)
+        .on_light_paths()
+        .on_first_bounce()
+        .kind(StageKind::Alternative)
+        .changes::<MaterialRows>()
+        .when(traced_evidence)
+}
+
+/// Rays that reached the camera, what they carry, and the splats that become of them.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct SplatView {
+    paths: &'static Paths,
+    rays: &'static ShadowRays,
+    points: Option<&'static JoinPoints>,
+    radiance: &'static Radiance,
+    power: &'static LightPower,
+    splats: &'static mut Splats,
+}
+
+// ANCHOR: splat_light
+/// Lists what every surface sends to the camera at this bounce: where it lands on the film, and how much.
+pub fn splat_light(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<SplatView>) {
+    for SplatViewItem { paths, rays, points, radiance, power, mut splats } in &mut tiles {
+        let splats = &mut *splats;
+        for ray in 0..rays.rows() {
+            let row = rays.row[ray] as usize;
+            let sent = [radiance.r[row], radiance.g[row], radiance.b[row]];
+            if sent == [0.0; 3] {
+                continue;
+            }
+            let origin = rays.origin_of(ray);
+            let lens = points.map_or(DVec2::ZERO, |points| points.get(row));
+            let Some(joined) = join_camera(&join, lens, origin) else { continue };
+            let (first, throughput) = (paths.first[row] as usize, paths.throughput(row));
+            splats.x.push(joined.raster.x);
+            splats.y.push(joined.raster.y);
+            splats.r.push(power.r[first] * throughput[0] * f64::from(sent[0]));
+            splats.g.push(power.g[first] * throughput[1] * f64::from(sent[1]));
+            splats.b.push(power.b[first] * throughput[2] * f64::from(sent[2]));
+        }
+    }
+}
+// ANCHOR_END: splat_light
+
+/// The stage that runs [`splat_light`].
+pub fn splat_stage() -> Stage {
+    Stage::new("Splat to the film", TileSystems::AddBounce, splat_light)
+        .on_light_paths()
+        .kind(StageKind::Alternative)
+        .reads_where::<JoinPoints>(lens_evidence)
+        .when(traced_evidence)
+}
+
+// ANCHOR: shading_adjoint
+/// The factor by which a path from a light differs from one from the camera at a surface with a shading normal N' and a
+/// geometric normal N: |ωᵢ·N'| |ωₒ·N| / (|ωᵢ·N| |ωₒ·N'|) (Veach 1997, 5.3.2).
+///
+/// ωᵢ is the direction to the light, ωₒ the direction in which the ray is scattered.
+/// A path from the camera counts light by the cosine to N'; a path from a light arrives at and leaves the geometric
+/// surface.
+#[inline(always)]
+pub fn shading_adjoint(normal: DVec3, shading: DVec3, to_light: DVec3, onward: DVec3) -> f64 {
+    let down = to_light.dot(normal) * onward.dot(shading);
+    if down == 0.0 { 0.0 } else { (to_light.dot(shading) * onward.dot(normal) / down).abs() }
+}
+// ANCHOR_END: shading_adjoint
+
+/// Applies that factor to the rays from lights that surfaces scatter.
+pub fn correct_for_shading_normals(
+    materials: Res<Shared<MaterialTable>>,
+    mut tiles: Query<(&WorldRays, &Surfaces, &ShadingNormals, &mut Scattered)>,
+) {
+    for (rays, surfaces, shading, mut scattered) in &mut tiles {
+        let scattered = &mut *scattered;
+        for ray in 0..scattered.rows() {
+            let row = scattered.row[ray] as usize;
+            let (surface, direction) = (surfaces.get(row), rays.direction_of(row));
+            let own = surface.normal.as_dvec3();
+            let by = if materials.kind[surface.material as usize].is_specular() {
+                mirroring_normal(Some(shading), row, own, direction)
+            } else {
+                shading.get(row)
+            };
+            let onward = [scattered.dx[ray], scattered.dy[ray], scattered.dz[ray]].map(f64::from);
+            let more = shading_adjoint(own, by, -direction, DVec3::from(onward));
+            [&mut scattered.r, &mut scattered.g, &mut scattered.b]
+                .into_iter()
+                .for_each(|component| component[ray] *= more);
+        }
+    }
+}
+
+/// The stage that runs [`correct_for_shading_normals`].
+pub fn shading_adjoint_stage() -> Stage {
+    Stage::new("Correct for shading normals", TileSystems::Roulette, correct_for_shading_normals)
+        .on_light_paths()
+        .kind(StageKind::Alternative)
+        .when(|scene| traced_evidence(scene).and(|| vertex_normal_evidence(scene).or(normal_map_evidence(scene))))
+}
+
+#[cfg(test)]
+mod shading_adjoint_tests {
+    use super::*;
+    use crate::measure::ray_aim::Draws;
+
+    /// With one normal nothing changes, and the reversed path has the inverse factor.
+    #[test]
+    fn reversed_paths_have_inverse_factors() {
+        for index in 0..20_000 {
+            let mut draws = Draws::new(2731, index);
+            let [normal, shading, a, b] = [(); 4].map(|()| draws.unit_vector().normalize());
+            assert!((shading_adjoint(normal, normal, a, b) - 1.0).abs() < 1e-14);
+            let both = shading_adjoint(normal, shading, a, b) * shading_adjoint(normal, shading, b, a);
+            assert!((both - 1.0).abs() < 1e-12, "{index}: {both}");
+        }
+        assert_eq!(shading_adjoint(DVec3::Y, DVec3::X, DVec3::X, DVec3::Y), 0.0);
+        eprintln!("shading normals: 20000 pairs of directions");
+    }
+}
