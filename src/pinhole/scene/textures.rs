@@ -6,8 +6,6 @@ use bevy_ecs::prelude::*;
 use glam::{DMat2, DMat3, DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
-// The list of textures.
-
 /// All textures; a further one is a line here.
 // ANCHOR: texture_list
 macro_rules! for_each_texture {
@@ -80,6 +78,25 @@ pub trait Texture: Component<Mutability = Mutable> {
     fn file(&mut self) -> Option<&mut String> {
         None
     }
+}
+
+/// Makes an image over uv a texture: its name, what it gives, and whether it is filtered.
+macro_rules! over_uv {
+    ($map:ty, $name:literal, $feeds:ident, $is_filtered:expr) => {
+        impl Texture for $map {
+            const WORD: &'static str = $name;
+            const NOUN: &'static str = $name;
+            const PATTERN: &'static str = $name;
+            const FEEDS: Feeds = Feeds::$feeds;
+            fn is_filtered(&self) -> bool {
+                let is_filtered: fn(&Self) -> bool = $is_filtered;
+                is_filtered(self)
+            }
+            fn file(&mut self) -> Option<&mut String> {
+                Some(&mut self.file)
+            }
+        }
+    };
 }
 
 /// The map to the coordinates of a texture whose pattern has this size.
@@ -389,18 +406,7 @@ impl Default for NormalMap {
     }
 }
 
-impl Texture for NormalMap {
-    const WORD: &'static str = "normal map";
-    const NOUN: &'static str = "normal map";
-    const PATTERN: &'static str = "normal map";
-    const FEEDS: Feeds = Feeds::Normal;
-    fn is_filtered(&self) -> bool {
-        false
-    }
-    fn file(&mut self) -> Option<&mut String> {
-        Some(&mut self.file)
-    }
-}
+over_uv!(NormalMap, "normal map", Normal, |_| false);
 
 /// On a [`Principled`](super::Principled) material: an image of its metallic and its roughness, as glTF 2.0 defines it,
 /// each a factor of the material's own number.
@@ -433,18 +439,7 @@ impl Default for MetallicRoughnessMap {
     }
 }
 
-impl Texture for MetallicRoughnessMap {
-    const WORD: &'static str = "metallic–roughness map";
-    const NOUN: &'static str = "metallic–roughness map";
-    const PATTERN: &'static str = "metallic–roughness map";
-    const FEEDS: Feeds = Feeds::MetallicRoughness;
-    fn is_filtered(&self) -> bool {
-        self.filter
-    }
-    fn file(&mut self) -> Option<&mut String> {
-        Some(&mut self.file)
-    }
-}
+over_uv!(MetallicRoughnessMap, "metallic–roughness map", MetallicRoughness, |map| map.filter);
 
 /// Beside an [`Emissive`](super::Emissive): an image of what the surface emits, a factor of its radiance.
 ///
@@ -472,18 +467,7 @@ impl Default for EmissionMap {
     }
 }
 
-impl Texture for EmissionMap {
-    const WORD: &'static str = "emission map";
-    const NOUN: &'static str = "emission map";
-    const PATTERN: &'static str = "emission map";
-    const FEEDS: Feeds = Feeds::Emission;
-    fn is_filtered(&self) -> bool {
-        self.filter
-    }
-    fn file(&mut self) -> Option<&mut String> {
-        Some(&mut self.file)
-    }
-}
+over_uv!(EmissionMap, "emission map", Emission, |map| map.filter);
 
 /// On a material that transmits no light itself: the probability that a ray hits it; otherwise the ray goes straight on.
 ///
@@ -556,19 +540,8 @@ impl Default for OpacityMap {
     }
 }
 
-impl Texture for OpacityMap {
-    const WORD: &'static str = "opacity map";
-    const NOUN: &'static str = "opacity map";
-    const PATTERN: &'static str = "opacity map";
-    const FEEDS: Feeds = Feeds::Opacity;
-    /// Rays decide at points, and many samples of them filter.
-    fn is_filtered(&self) -> bool {
-        false
-    }
-    fn file(&mut self) -> Option<&mut String> {
-        Some(&mut self.file)
-    }
-}
+// Rays decide at points, and many samples of them filter.
+over_uv!(OpacityMap, "opacity map", Opacity, |_| false);
 
 /// On a material that transmits no light: rays that arrive from behind go straight on, as if the surface were not there.
 ///
