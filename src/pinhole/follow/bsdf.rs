@@ -1,4 +1,4 @@
-//! The stages of a BSDF.
+//! The stages of BSDFs, each generic over the BSDF.
 
 use super::interface::{Interface, InterfaceView};
 use super::media::{deeper_media_evidence, media_evidence};
@@ -15,12 +15,10 @@ use crate::material::{
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, Paths, WorldRays, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
-use crate::shade::{LightPdfs, ParameterColumns, ReflectionView, ReflectionViewItem, ShadowRays, lit_evidence};
+use crate::shade::{LightPdfs, ParameterColumns, ReflectionView, ReflectionViewItem, ShadowRays, light_evidence};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::DVec3;
-
-// The stages of BSDFs that are not specular, each generic over the BSDF.
 
 /// What a path carries, by the pass that a stage runs in.
 pub(super) const fn transport(from_light: bool) -> Transport {
@@ -205,7 +203,7 @@ pub fn mis_stage<B: Bsdf>() -> Stage {
 /// are scattered alike.
 pub fn direct_light_stage<B: Bsdf>() -> Stage {
     let stage = Stage::new(B::NAMES.direct_light, TileSystems::Shade, add_direct_light::<B, false>);
-    let stage = at_interfaces::<B>(stage).when(|scene| bsdf_evidence::<B>(scene).and(|| lit_evidence(scene)));
+    let stage = at_interfaces::<B>(stage).when(|scene| bsdf_evidence::<B>(scene).and(|| light_evidence(scene)));
     if B::TRANSMITS { stage.on_camera_paths() } else { stage }
 }
 

@@ -175,7 +175,7 @@ impl fmt::Display for Trace {
                 announced = Some(depth);
             }
             let (name, space, unit) = (recorded.column.name, recorded.column.space, recorded.column.unit);
-            let head = format!("{name:<9} {space:<20} {unit:<24}");
+            let head = format!("{name:<10} {space:<20} {unit:<24}");
             if recorded.rows.is_empty() {
                 writeln!(f, "{head} nothing")?;
             }
