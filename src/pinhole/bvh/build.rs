@@ -1,4 +1,4 @@
-//! Hierarchies are built.
+//! The builder: a binary tree by the surface area heuristic, and then the cheapest wide nodes that can be made of it.
 
 use super::bounding_box::BoundingBox;
 use super::entry::{Entry, Extent, PackedBox};
@@ -6,8 +6,6 @@ use super::wide_node::{Child, WIDTH, WideNode};
 use super::{Bvh, MAX_LEVELS, Range};
 use multiversion::multiversion;
 use rayon::prelude::*;
-
-// The builder: a binary tree by the surface area heuristic, and then the cheapest wide nodes that can be made of it.
 
 /// The fewest boxes that are worth a task of their own.
 const TASK: usize = 4096;

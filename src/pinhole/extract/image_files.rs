@@ -1,4 +1,4 @@
-//! Files of images: read once, checked, and remarked on.
+//! Image files → texels in linear light: read once, checked, and remarked on.
 
 use super::texels::{Numbers, is_grey, normals_of_heights};
 use super::{
@@ -24,8 +24,6 @@ use std::fmt::Display;
 use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-// Image files → texels in linear light.
 
 /// The greatest number of texels of one image: 8192².
 const MAX_TEXELS: u64 = 1 << 26;

@@ -1,4 +1,12 @@
-//! Checkpoints, and where they are kept.
+//! Checkpoints: the state of a render between two runs of the program, as one file, and where that file is kept.
+//!
+//! The format is little-endian: the magic word `pinhole checkpoint`, the format's version, the key of plan and scene,
+//! how many samples there are, the film's size and what it keeps; then, tile by tile, steps done, planned samples, sums, counts, rejected samples,
+//! moments and layers; then the splats; last the CRC-32 of every number before it.
+//!
+//! The checksum detects damage but is not a signature: anyone can write a checkpoint of any picture.
+//! Therefore nothing in the file determines how much memory is allocated, and a state that no render can have produced
+//! is an error.
 
 use super::plausible::is_plausible;
 use super::{Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, Rejected, Replaces, Target, write_whole};
@@ -6,16 +14,6 @@ use crate::scene::{FileKind, Unopened, check_memory, open_file, printable_path};
 use crate::{Error, Result};
 use std::io::{self, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
-
-// Checkpoints: the state of a render between two runs of the program, as one file.
-//
-// The format is little-endian: the magic word `pinhole checkpoint`, the format's version, the key of plan and scene,
-// how many samples there are, the film's size and what it keeps; then, tile by tile, steps done, planned samples, sums, counts, rejected samples,
-// moments and layers; then the splats; last the CRC-32 of every number before it.
-//
-// The checksum detects damage but is not a signature: anyone can write a checkpoint of any picture.
-// Therefore nothing in the file determines how much memory is allocated, and a state that no render can have produced
-// is an error.
 
 /// The magic word at the start of a checkpoint.
 const WORD: [u8; 20] = *b"pinhole checkpoint\r\n";

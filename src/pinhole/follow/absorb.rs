@@ -1,4 +1,4 @@
-//! Absorption along rays in glass.
+//! Light that glass absorbs along the segments of paths: along each ray, and along each shadow ray.
 
 use super::interface::{Interface, InterfaceView};
 use super::{Media, Scattered};
@@ -9,8 +9,6 @@ use crate::rays::Paths;
 use crate::shade::{ShadowHits, ShadowRays, light_distance, shadow_evidence};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-
-// Light that glass absorbs along the segments of paths: along each ray, and along each shadow ray.
 
 /// The transmittance of a glass along a way of this length, colour by colour.
 #[inline(always)]

@@ -301,7 +301,7 @@ impl Cost {
     }
 }
 
-// What is counted while the test rays of [`super::pilot`] are traced.
+// What is counted while these test rays are traced.
 
 /// After this many bounces few rays are left, and they say little about what is wrong with a scene.
 const MAX_DEPTH: u32 = 4;

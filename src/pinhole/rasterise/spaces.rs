@@ -1,4 +1,5 @@
-//! Between the spaces of rasterisation.
+//! A point of the world is projected onto the image: camera → clip → NDC → raster, the inverse of what camera rays are made
+//! by.
 
 use super::triangle::{NearnessPlane, within};
 use crate::cameras::{ImageFrame, RaySpread};
@@ -6,9 +7,6 @@ use crate::extract::{CameraAxes, camera_spread, no_plane_to_rasterise};
 use crate::plan::{Census, Table};
 use crate::scene::SceneError;
 use glam::{DMat3, DVec2, DVec3};
-
-// A point of the world is projected onto the image: camera → clip → NDC → raster, the inverse of what camera rays are made
-// by.
 
 /// What projects points: the camera's axes and the extent of its image plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -162,7 +162,8 @@ fn schedule_of(label: impl ScheduleLabel, plan: &Plan, hooks: &[Hook], holds: im
             let before = next.map_or(slot + 1, |(next, _)| *next);
             schedule.add_systems(hook.after(Slot(slot)).before(Slot(before)).before(HookTurn(slot, turn + 1)));
         }
-        // Also where any order gives the same bits: shapes that are listed first cost least, and leave less to the others.
+        // Also where any order gives the same bits, so that a picture costs the same each time: what is hit leaves less to the
+        // shapes that come later.
         if let Some(&(next, _)) = next {
             schedule.configure_sets(Slot(slot).before(Slot(next)));
         }

@@ -1,14 +1,14 @@
 //! Numbers with their error bounds, and sums without error.
+//!
+//! Arithmetic for shapes whose intersection is written once and computed twice: in f64 with a running error bound, and
+//! in double-double where that bound leaves a sign uncertain.
+//!
+//! A running error bound adds up, operation by operation, how far rounding can have moved a number (Wilkinson,
+//! *Rounding Errors in Algebraic Processes*, 1963; PBRT's `Interval` serves the same purpose).
 
 use super::double_double::{DoubleDouble, add, multiply, negated};
 use glam::DVec3;
 use std::ops::{Add, Div, Mul, Neg, Sub};
-
-// Arithmetic for shapes whose intersection is written once and computed twice: in f64 with a running error bound, and
-// in double-double where that bound leaves a sign uncertain.
-//
-// A running error bound adds up, operation by operation, how far rounding can have moved a number (Wilkinson,
-// *Rounding Errors in Algebraic Processes*, 1963; PBRT's `Interval` serves the same purpose).
 
 /// 2⁻⁵³, the unit roundoff of f64.
 const EPSILON: f64 = 1.0 / (1_u64 << 53) as f64;

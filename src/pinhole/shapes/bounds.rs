@@ -2,8 +2,6 @@
 
 use glam::{DVec3, Vec3};
 
-// The axis-aligned bounding box of each finite shape.
-
 /// An axis-aligned box that contains a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {

@@ -1,14 +1,12 @@
-//! Intersections in double-double arithmetic, for the rays of which f64 is uncertain.
+//! Double-double arithmetic, with about 106 bits, and the few intersections in it that f64 leaves uncertain.
+//!
+//! It does not use fused multiply-add, so every machine gives the same bits.
 
 use super::arithmetic::{two_product, two_sum};
 use super::cuboid::Slabs;
 use super::ellipsoid::Ellipsoid;
 use super::planar::Planar;
 use glam::DVec3;
-
-// Double-double arithmetic, with about 106 bits: for the few intersections that f64 leaves uncertain.
-//
-// It does not use fused multiply-add, so every machine gives the same bits.
 
 /// A double-double: a number as the unevaluated sum of two f64.
 pub(super) type DoubleDouble = (f64, f64);

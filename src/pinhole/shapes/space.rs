@@ -1,4 +1,4 @@
-//! Between object space, unit space and render space.
+//! Points, directions and normals between the object space of an entity, unit space and world space.
 
 use super::arithmetic::{Arithmetic, Precise, dot_of};
 use super::bounds::{Bounds, l1_norm};
@@ -6,8 +6,6 @@ use super::ray_block::{RayHit, SurfacePoint, UNIT_ROUNDOFF};
 use super::shape::Placed;
 use crate::scene::{SceneError, positive_length, triple};
 use glam::{DAffine3, DMat3, DVec3};
-
-// Points, directions and normals between the object space of an entity and world space.
 
 /// The transform between an entity's object space and world space.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! The edge functions of triangles: one triangle at a time, and a block of them.
+//! Rays and triangles: the sheared space of a ray, the three edge functions, and the kernel over all triangles.
 
 use super::ray_block::{ClosestHit, Intersection, LANES, RayBlock, RaySlices, UNIT_ROUNDOFF, nearness, vector};
 use super::triangle::{TriangleRow, exact_triangle_t};
@@ -6,8 +6,6 @@ use crate::bvh::by_axis;
 use glam::DVec3;
 use multiversion::multiversion;
 use pinhole_models::TriangleMesh;
-
-// Rays and triangles: the sheared space of a ray, the three edge functions, and the kernel over all triangles.
 
 // ANCHOR: shear
 /// The shear and scale that map a ray's direction to (0, 0, 1), with z the axis of its largest component.

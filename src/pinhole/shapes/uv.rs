@@ -1,10 +1,8 @@
-//! u and v on the surfaces of shapes, and their gradients.
+//! Texture coordinates of shapes, and their gradients: u to the right and v down, as seen from outside with +y up.
 
 use super::kind::ShapeKind;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
-
-// Texture coordinates of shapes: u to the right and v down, as seen from outside with +y up.
 
 /// The uv of a point of a sphere, given in object space at any distance from the centre.
 ///
