@@ -101,7 +101,7 @@ fn directions_are_as_long_as_page_02_says() {
     let (mut worst, mut rays) = (0.0_f64, 0);
     for &tile in &inspection.tiles {
         let world_rays = inspection.world.get::<WorldRays>(tile).expect("a column");
-        for row in 0..world_rays.dx.len() {
+        for row in 0..world_rays.direction[0].len() {
             worst = worst.max((world_rays.direction_of(row).length() - 1.0).abs() * f64::from(1_u32 << 24));
             rays += 1;
         }
@@ -191,7 +191,7 @@ fn lit_from(place: [f64; 3]) -> [bool; 2] {
         let (rays, shadows) = (tile.get::<ShadowRays>().expect("rays"), tile.get::<ShadowHits>().expect("shadows"));
         let surfaces = tile.get::<Surfaces>().expect("surfaces");
         for (ray, &path) in rays.row.iter().enumerate().filter(|(ray, _)| shadows.shape[*ray] == NO_SHAPE) {
-            assert!(rays.r[ray] > 0.0);
+            assert!(rays.irradiance[0][ray] > 0.0);
             let slope = surfaces.get(path as usize).normal == slope_normal();
             lit[usize::from(!slope)] = true;
         }

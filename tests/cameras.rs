@@ -160,13 +160,13 @@ fn renders_aim_as_the_functions_say() {
             let tile = inspection.world.entity(tile);
             let (raster, rays) = (tile.get::<RasterPoints>().expect("raster"), tile.get::<CameraRays>().expect("rays"));
             for row in 0..rays.rows() {
-                let screen = screen_of(DVec2::new(raster.x[row], raster.y[row]), inspection.image);
+                let screen = screen_of(raster.point(row), inspection.image);
                 let expected = if round {
                     camera_ray_equirectangular(screen, inspection.image.aspect())
                 } else {
                     camera_ray_fisheye(screen, &circle)
                 };
-                assert_eq!(DVec3::new(rays.dx[row], rays.dy[row], rays.dz[row]), expected);
+                assert_eq!(rays.direction(row), expected);
                 tried += 1;
             }
         }
@@ -240,8 +240,8 @@ fn an_environment_seen_all_round_is_its_image() {
         let tile = inspection.world.entity(tile);
         let (raster, rays) = (tile.get::<RasterPoints>().expect("raster"), tile.get::<CameraRays>().expect("rays"));
         for row in 0..rays.rows() {
-            let expected = direction_of(DVec2::new(raster.x[row] / 64.0, raster.y[row] / 32.0));
-            worst = worst.max((DVec3::new(rays.dx[row], rays.dy[row], rays.dz[row]) - expected).length());
+            let expected = direction_of(DVec2::new(raster.point[0][row] / 64.0, raster.point[1][row] / 32.0));
+            worst = worst.max((rays.direction(row) - expected).length());
         }
     }
     assert!(worst < 1e-15, "{worst}");

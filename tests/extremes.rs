@@ -198,7 +198,7 @@ fn sweeps_of_chapters_hold() {
 fn add_fog(mut tiles: Query<(&Hits, &mut Radiance)>) {
     for (hits, mut radiance) in &mut tiles {
         for row in 0..hits.t.len() {
-            radiance.r[row] += if hits.t[row] < 7.0 { 0.25 } else { 0.0 };
+            radiance.rgb[0][row] += if hits.t[row] < 7.0 { 0.25 } else { 0.0 };
         }
     }
 }

@@ -7,6 +7,7 @@ use pinhole::film::{
     Curve, FIRST_SAMPLE_STEPS, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, Rejected, SplatFilter,
     byte_from_linear, png_bytes, write_exr, write_layered_exr, write_png,
 };
+use pinhole::plan::VectorRows;
 use pinhole::rays::Tile;
 use pinhole::scene::{Filter, LayerKind};
 use scenes::{Setup, full, offer};
@@ -39,7 +40,7 @@ fn samples_that_are_no_light_are_counted_and_kept_out() {
     for row in 0..rows {
         assert_eq!(film.count[row], 3);
         let sums = [1.0, 1.0 + f64::from(f32::MAX), 1.0 + f64::from(1e-45_f32)];
-        assert_eq!([film.r[row], film.g[row], film.b[row]], sums, "only what is light is summed");
+        assert_eq!(film.sum.at(row), sums, "only what is light is summed");
     }
     let film = Film { width: 4, height: 3, tile_side: 4, tiles: vec![film], ..Film::default() };
     assert_eq!(film.rejected().0, (bad.len() * rows) as u64);
@@ -57,7 +58,7 @@ fn many_ones_have_the_mean_one() {
     for _ in 0..SAMPLES {
         film.add(0, [1.0; 3]);
     }
-    assert_eq!((film.r[0], film.count[0], film.mean(0)), (f64::from(SAMPLES), SAMPLES, [1.0; 3]));
+    assert_eq!((film.sum[0][0], film.count[0], film.mean(0)), (f64::from(SAMPLES), SAMPLES, [1.0; 3]));
     eprintln!("sums: 2^26 × 1.0 has the mean 1.0; in f32 the sum would stop at 2^24");
 }
 
@@ -118,7 +119,7 @@ fn more_light_than_a_picture_holds_is_its_largest_number() {
 
     let kinds = [LayerKind::Variance];
     film.layers = vec![FilmLayers::new(6, &kinds)];
-    film.moments = vec![FilmMoments { r: vec![1e77; 6], g: vec![0.0; 6], b: vec![f64::MAX; 6] }];
+    film.moments = vec![FilmMoments { sum: [vec![1e77; 6], vec![0.0; 6], vec![f64::MAX; 6]] }];
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("bright.exr");
     write_layered_exr(&film, &[], &path).expect("written");

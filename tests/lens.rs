@@ -164,7 +164,7 @@ fn circles_of_confusion() {
                 for row in (0..found.rows()).filter(|&row| found.shape[row] != NO_SHAPE) {
                     // From the image's centre, in units of the plane in focus.
                     let scale = 1.1 * radius / 32.0;
-                    let at = DVec2::new(raster.x[row] - 32.0, 32.0 - raster.y[row]) * scale;
+                    let at = DVec2::new(raster.point[0][row] - 32.0, 32.0 - raster.point[1][row]) * scale;
                     let more = [at.x, at.y, at.length_squared(), at.length_squared().powi(2), 0.0];
                     (0..5).for_each(|part| sums[part] += more[part]);
                     farthest = farthest.max(at.length());
@@ -231,7 +231,7 @@ fn world_rays_converge_in_focus_to_a_pixel_s_tolerance() {
                 let (o, d) = (to_camera * rays.origin_of(row), to_camera * rays.direction_of(row));
                 let there = o + d * ((-focus - o.z) / d.z);
                 let at = DVec2::new(there.x, there.y) / pixel;
-                let truth = DVec2::new(raster.x[row] - 24.0, 24.0 - raster.y[row]);
+                let truth = DVec2::new(raster.point[0][row] - 24.0, 24.0 - raster.point[1][row]);
                 // What is oblique moves farther: by one over the cosine for the length, one more for the angle.
                 let scale = 1.0 / (d.z * d.z);
                 worst = worst.max((at - truth).length() / scale);
@@ -297,10 +297,13 @@ fn rays_start_on_the_lens() {
         let (points, rays) = (tile.get::<LensPoints>().expect("points"), tile.get::<CameraRays>().expect("rays"));
         let world = tile.get::<WorldRays>().expect("rays");
         for row in 0..rays.rows() {
-            assert_eq!((rays.ox[row], rays.oy[row], rays.oz[row]), (points.x[row], points.y[row], 0.0));
-            let length = DVec3::new(points.x[row], points.y[row], 0.0).length();
+            assert_eq!(
+                (rays.origin[0][row], rays.origin[1][row], rays.origin[2][row]),
+                (points.point[0][row], points.point[1][row], 0.0)
+            );
+            let length = DVec3::new(points.point[0][row], points.point[1][row], 0.0).length();
             assert!(length <= 0.25 && (world.origin_of(row).length() - length).abs() < 1e-7);
-            distinct.insert(points.x[row].to_bits());
+            distinct.insert(points.point[0][row].to_bits());
             tried += 1;
         }
     }
@@ -325,7 +328,7 @@ fn blades_are_turned_anticlockwise() {
         for &tile in &inspection.tiles {
             let points = inspection.world.entity(tile).get::<LensPoints>().expect("points");
             for row in 0..points.rows() {
-                let at = DVec2::new(points.x[row], points.y[row]);
+                let at = points.point(row);
                 for blade in 0..blades {
                     let (a, b) = (corner(blade), corner(blade + 1));
                     assert!((b - a).perp_dot(at - a) > -1e-9, "{blades} blades at {turn}°: {at} is outside");

@@ -177,7 +177,7 @@ fn a_render_that_is_stopped_between_two_tiles_goes_on_from_its_checkpoint() {
                 let (layers, moments) = (&film.layers[tile], &film.moments[tile]);
                 let sums = layers.sums.iter().map(|component| component[row].to_bits());
                 let counts = layers.counts().map(|component| u64::from(component[row]));
-                sums.chain(counts).chain([moments.r[row].to_bits(), moments.b[row].to_bits()]).collect()
+                sums.chain(counts).chain([moments.sum[0][row].to_bits(), moments.sum[2][row].to_bits()]).collect()
             };
             places.map(bits).collect()
         };
@@ -259,10 +259,10 @@ fn a_forged_checkpoint_is_refused() {
     let forgeries: [(&str, fn(&mut Film)); 13] = [
         ("counts", |film| film.tiles[0].count[3] = u32::MAX),
         ("one count too many", |film| film.tiles[0].count[3] += 1),
-        ("infinite light", |film| film.tiles[1].r[0] = f64::INFINITY),
-        ("light that is NaN", |film| film.tiles[1].g[5] = f64::NAN),
-        ("negative light", |film| film.tiles[0].b[0] = -1.0),
-        ("infinite moments", |film| film.moments[0].r[0] = f64::INFINITY),
+        ("infinite light", |film| film.tiles[1].sum[0][0] = f64::INFINITY),
+        ("light that is NaN", |film| film.tiles[1].sum[1][5] = f64::NAN),
+        ("negative light", |film| film.tiles[0].sum[2][0] = -1.0),
+        ("infinite moments", |film| film.moments[0].sum[0][0] = f64::INFINITY),
         ("steps", |film| film.done[0] = u32::MAX),
         ("all steps", |film| film.done.fill(u32::MAX)),
         ("a pilot without an error", |film| film.pilot = true),

@@ -117,8 +117,8 @@ fn no_bit_is_lost_in_an_image_of_65536_pixels() {
                 let drawn = with_sampler!(sampling.sampler, D => D::of(sample, Purpose::Pixel).two(key));
                 let radius = pinhole::extract::radius_of(sampling.filter);
                 if sampling.filter == Filter::BOX {
-                    assert_eq!(raster.x[row].floor(), f64::from(x), "{sampling:?}");
-                    assert_eq!(raster.x[row] - f64::from(x), unit(drawn[0]), "{sampling:?}");
+                    assert_eq!(raster.point[0][row].floor(), f64::from(x), "{sampling:?}");
+                    assert_eq!(raster.point[0][row] - f64::from(x), unit(drawn[0]), "{sampling:?}");
                 }
                 let off = match sampling.filter {
                     Filter::Box { radius } => box_offset(unit(drawn[0]), radius),
@@ -126,7 +126,7 @@ fn no_bit_is_lost_in_an_image_of_65536_pixels() {
                     _ => table_offset(unit(drawn[0]), &cells).0,
                 };
                 assert!(off.abs() <= radius, "{sampling:?}, pixel {x}: {off}");
-                let lost = (raster.x[row] - f64::from(x) - 0.5 - off).abs();
+                let lost = (raster.point[0][row] - f64::from(x) - 0.5 - off).abs();
                 assert!(lost <= f64::from(WIDTH) * f64::EPSILON, "{sampling:?}, pixel {x}: {lost:e} lost");
                 (tried, worst) = (tried + 1, worst.max(lost));
             }

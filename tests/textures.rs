@@ -208,7 +208,7 @@ fn far_from_the_origin_and_at_the_horizon_it_is_the_mean() {
         let (hits, colours) = (tile.get::<Hits>().expect("hits"), tile.get::<SurfaceColours>().expect("coloured"));
         let (mut far, mut hit) = (0, 0);
         for row in 0..hits.t.len() {
-            let colour = colours.get(row);
+            let colour = colours.rgb(row);
             assert!(colour.iter().all(|part| (0.0..=1.0).contains(part)), "{eye} {size} {row}: {colour:?}");
             if hits.t[row] < f64::INFINITY {
                 hit += 1;
@@ -272,7 +272,7 @@ fn a_mapped_normal_leans_along_the_neighbours_u_and_v() {
             for row in (0..31).flat_map(|y| (0..31).map(move |x| y * 32 + x)) {
                 let offset = |beside: usize| {
                     let moved = surfaces.get(beside).position.as_dvec3() - surfaces.get(row).position.as_dvec3();
-                    (moved, uvs.u[beside] - uvs.u[row], uvs.v[beside] - uvs.v[row])
+                    (moved, uvs.uv[0][beside] - uvs.uv[0][row], uvs.uv[1][beside] - uvs.uv[1][row])
                 };
                 let ((right, u, v), (down, other_u, other_v)) = (offset(row + 1), offset(row + 32));
                 let normal = surfaces.get(row).normal.as_dvec3();

@@ -155,7 +155,7 @@ fn mine(ask: Ask<Input, [f64; 2]>, setting: &Setting<'_>) -> StandIn {
                 let [x, y] = place.0.pixel_of(row);
                 let index = u64::from(y) * u64::from(width) + u64::from(x);
                 if let Some([x, y]) = ask.at(place, row, (index, width)) {
-                    (raster.x[row], raster.y[row]) = (x, y);
+                    (raster.point[0][row], raster.point[1][row]) = (x, y);
                 }
             }
         }

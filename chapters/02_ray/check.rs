@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::PerspectiveProjection;
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRowsMut};
 use pinhole::rays;
 use pinhole::rays::{CameraRays, ScreenPoints};
 use pinhole_lab::exercise::apart::{absolute, option};
@@ -208,10 +208,10 @@ fn mine(ask: Ask<Vector, Option<Vector>>, _: &Setting<'_>) -> StandIn {
             for (place, screen, mut rays) in &mut tiles {
                 for row in 0..screen.rows() {
                     let tangent = camera.tan_half_vertical;
-                    let point = [screen.x[row] * tangent, screen.y[row] * tangent, -1.0];
+                    let point = [screen.point[0][row] * tangent, screen.point[1][row] * tangent, -1.0];
                     if let Some(direction) = ask.at(place, row, point) {
                         // Where there is no direction, no ray leaves.
-                        (rays.dx[row], rays.dy[row], rays.dz[row]) = direction.unwrap_or_default().into();
+                        rays.direction.put(row, direction.unwrap_or_default());
                     }
                 }
             }

@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::OrthographicWindow;
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRows, VectorRowsMut};
 use pinhole::rays;
 use pinhole::rays::{CameraRays, ScreenPoints, camera_ray_orthographic};
 use pinhole_lab::exercise::apart::relative;
@@ -157,10 +157,10 @@ fn mine(ask: Ask<Input, Ray>, _: &Setting<'_>) -> StandIn {
         move |view: Res<Shared<OrthographicWindow>>, mut tiles: Query<(RowPlaces, &ScreenPoints, &mut CameraRays)>| {
             for (place, screen, mut rays) in &mut tiles {
                 for row in 0..screen.rows() {
-                    let asked = ([screen.x[row], screen.y[row]], 2.0 * view.half_height);
+                    let asked = (screen.point.at(row), 2.0 * view.half_height);
                     if let Some((origin, direction)) = ask.at(place, row, asked) {
-                        (rays.ox[row], rays.oy[row], rays.oz[row]) = origin.into();
-                        (rays.dx[row], rays.dy[row], rays.dz[row]) = direction.into();
+                        rays.origin.put(row, origin);
+                        rays.direction.put(row, direction);
                     }
                 }
             }

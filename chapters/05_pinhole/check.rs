@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::{PerspectiveProjection, tan_half};
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRows, VectorRowsMut};
 use pinhole::rays;
 use pinhole::rays::{CameraRays, ScreenPoints, camera_ray_perspective};
 use pinhole::scene::Degrees;
@@ -166,9 +166,9 @@ fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
               mut tiles: Query<(RowPlaces, &ScreenPoints, &mut CameraRays)>| {
             for (place, screen, mut rays) in &mut tiles {
                 for row in 0..screen.rows() {
-                    let asked = ([screen.x[row], screen.y[row]], camera.tan_half_vertical);
+                    let asked = (screen.point.at(row), camera.tan_half_vertical);
                     if let Some(direction) = ask.at(place, row, asked) {
-                        (rays.dx[row], rays.dy[row], rays.dz[row]) = direction.into();
+                        rays.direction.put(row, direction);
                     }
                 }
             }

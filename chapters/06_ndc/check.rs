@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use pinhole::extract::ImageFrame;
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRows, VectorRowsMut};
 use pinhole::rays;
 use pinhole::rays::{NdcPoints, ndc_from_raster, raster_from_pixel};
 use pinhole_lab::exercise::apart::exact;
@@ -211,10 +211,10 @@ fn mine(ask: Ask<Input, Pixel>, setting: &Setting<'_>) -> StandIn {
         move |image: Res<Shared<ImageFrame>>, mut tiles: Query<(RowPlaces, &mut NdcPoints)>| {
             for (place, mut ndc) in &mut tiles {
                 for row in 0..ndc.rows() {
-                    let asked = ([ndc.x[row], ndc.y[row]], size.width, size.height);
+                    let asked = (ndc.point.at(row), size.width, size.height);
                     if let Some(pixel) = ask.at(place, row, asked) {
                         let centre = |[x, y]: [u32; 2]| ndc_from_raster(raster_from_pixel(x, y), image.size());
-                        (ndc.x[row], ndc.y[row]) = pixel.map_or(DVec2::ZERO, centre).into();
+                        ndc.point.put(row, pixel.map_or(DVec2::ZERO, centre));
                     }
                 }
             }

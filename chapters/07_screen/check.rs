@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::ImageFrame;
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRows, VectorRowsMut};
 use pinhole::rays;
 use pinhole::rays::{ScreenPoints, screen_from_ndc};
 use pinhole_lab::exercise::apart::absolute;
@@ -184,9 +184,9 @@ fn mine(ask: Ask<Input, [f64; 2]>, setting: &Setting<'_>) -> StandIn {
         move |image: Res<Shared<ImageFrame>>, mut tiles: Query<(RowPlaces, &mut ScreenPoints)>| {
             for (place, mut screen) in &mut tiles {
                 for row in 0..screen.rows() {
-                    let asked = ([screen.x[row], screen.y[row]], size.width, size.height);
+                    let asked = (screen.point.at(row), size.width, size.height);
                     if let Some(ndc) = ask.at(place, row, asked) {
-                        (screen.x[row], screen.y[row]) = screen_from_ndc(ndc.into(), image.aspect()).into();
+                        screen.point.put(row, screen_from_ndc(ndc.into(), image.aspect()));
                     }
                 }
             }

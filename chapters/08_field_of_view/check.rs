@@ -1,9 +1,9 @@
 //! Chapter 08: the vertical angle of a field of view that is measured across something else.
 
 use bevy_ecs::prelude::*;
-use glam::{DMat3, DVec2};
+use glam::DMat3;
 use pinhole::extract::tan_half;
-use pinhole::plan::Column;
+use pinhole::plan::{Column, VectorRowsMut};
 use pinhole::rays;
 use pinhole::rays::{CameraRays, ScreenPoints, camera_ray_perspective};
 use pinhole::scene::{Degrees, FovAxis, PerspectiveCamera};
@@ -218,8 +218,8 @@ fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
             let Some(vertical) = ask.at(place, 0, (fov.0, axis, size.width, size.height)) else { continue };
             let tangent = tan_half(Degrees(vertical));
             for row in 0..screen.rows() {
-                let direction = camera_ray_perspective(DVec2::new(screen.x[row], screen.y[row]), tangent);
-                (rays.dx[row], rays.dy[row], rays.dz[row]) = direction.into();
+                let direction = camera_ray_perspective(screen.point(row), tangent);
+                rays.direction.put(row, direction);
             }
         }
     })

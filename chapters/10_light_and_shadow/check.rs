@@ -8,7 +8,7 @@ use pinhole::intersect::{NO_SHAPE, Surfaces};
 use pinhole::lights;
 use pinhole::lights::PlacedPointLight;
 use pinhole::material::{MatteTable, lambertian};
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRowsMut};
 use pinhole::shade::{Radiance, ShadowHits, ShadowRays};
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{
@@ -238,10 +238,7 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                         let asked = (colour[part], intensity, position.into(), normal.into(), light);
                         ask.at(place, row, asked).unwrap_or_default() as f32
                     };
-                    let [r, g, b] = [light_of(0), light_of(1), light_of(2)];
-                    radiance.r[row] += r;
-                    radiance.g[row] += g;
-                    radiance.b[row] += b;
+                    radiance.rgb.add(row, [light_of(0), light_of(1), light_of(2)]);
                 }
             }
         },

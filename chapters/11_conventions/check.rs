@@ -1,7 +1,7 @@
 //! Chapter 11: a direction of a camera with other axes, in pinhole's.
 
 use bevy_ecs::prelude::*;
-use pinhole::plan::Column;
+use pinhole::plan::{Column, VectorRowsMut};
 use pinhole::rays;
 use pinhole::rays::CameraRays;
 use pinhole_lab::exercise::apart::exact;
@@ -170,9 +170,9 @@ fn mine(ask: Ask<Input, Vector>, _: &Setting<'_>) -> StandIn {
     StandIn::after(rays::perspective_stage, move |mut tiles: Query<(RowPlaces, &mut CameraRays)>| {
         for (place, mut rays) in &mut tiles {
             for row in 0..rays.rows() {
-                let theirs = [-rays.dx[row], -rays.dy[row], -rays.dz[row]];
+                let theirs = (-rays.direction(row)).into();
                 if let Some(direction) = ask.at(place, row, (theirs, false, false, true)) {
-                    (rays.dx[row], rays.dy[row], rays.dz[row]) = direction.into();
+                    rays.direction.put(row, direction);
                 }
             }
         }

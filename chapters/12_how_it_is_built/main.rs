@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::intersect::{Surfaces, shape_evidence};
-use pinhole::plan::{Stage, TileSystems, column};
+use pinhole::plan::{Column, Stage, TileSystems, VectorRows, column};
 use pinhole::rays::WorldRays;
 use pinhole::scene::*;
 use pinhole::{Chapter, stages};
@@ -52,9 +52,9 @@ fn facing([dx, dy, dz]: [f32; 3], [nx, ny, nz]: [f32; 3]) -> f32 {
 /// Fills a tile's column.
 fn fill_facing(mut tiles: Query<(&WorldRays, &Surfaces, &mut Facing)>) {
     for (rays, surfaces, mut column) in &mut tiles {
-        let cosines = column.slices_mut(rays.dx.len());
+        let cosines = column.slices_mut(rays.rows());
         for (row, cosine) in cosines.iter_mut().enumerate() {
-            let direction = [rays.dx[row], rays.dy[row], rays.dz[row]];
+            let direction = rays.direction.at(row);
             *cosine = facing(direction, surfaces.get(row).normal.to_array());
         }
     }

@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{ShapeTable, TriangleTable, VertexNormalTable};
 use pinhole::intersect::{Hits, ShadingNormals, Surfaces, falling_cosine};
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRowsMut};
 use pinhole::rays::WorldRays;
 use pinhole::shade;
 use pinhole::shade::ShadowRays;
@@ -259,8 +259,7 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                         (geometric.into(), corners.map(DVec3::into), weights, (-direction).into(), to_light.into());
                     let Some(cosine) = ask.at(place, row, asked) else { continue };
                     let more = (cosine / falling_cosine(geometric, shading.get(row), to_light)) as f32;
-                    let rays = &mut *rays;
-                    [&mut rays.r, &mut rays.g, &mut rays.b].into_iter().for_each(|part| part[ray] *= more);
+                    rays.irradiance.scale(ray, [more; 3]);
                 }
             }
         },

@@ -6,7 +6,7 @@ use pinhole::extract::{MaterialKind, MaterialTable};
 use pinhole::follow::direct_light_stage;
 use pinhole::intersect::{NO_SHAPE, Surfaces};
 use pinhole::material::{PhongTable, half_vector_cosine, highlight, lambertian, mirror_cosine, phong_peak};
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRowsMut};
 use pinhole::rays::WorldRays;
 use pinhole::shade::{Radiance, ShadowHits, ShadowRays};
 use pinhole_lab::exercise::apart::relative;
@@ -281,14 +281,11 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                         (materials.row[material] as usize, materials.parameters[material].colour, rays.irradiance(ray));
                     let whole = |part: usize| {
                         let model = [colour[part], phong.specular[own][part], phong.exponent[own]];
-                        let facing = irradiance[part] / cosine;
+                        let facing = f64::from(irradiance[part]) / cosine;
                         let asked = (model, facing, normal.into(), to_light.into(), to_eye.into());
                         ask.at(place, row, asked).map_or(0.0, |whole| whole as f32)
                     };
-                    let [r, g, b] = [whole(0), whole(1), whole(2)];
-                    radiance.r[row] += r;
-                    radiance.g[row] += g;
-                    radiance.b[row] += b;
+                    radiance.rgb.add(row, [whole(0), whole(1), whole(2)]);
                 }
             }
         },

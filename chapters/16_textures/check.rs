@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use pinhole::extract::{CheckerTable, NO_TEXTURE};
 use pinhole::intersect::{MaterialRows, Surfaces};
-use pinhole::plan::Shared;
+use pinhole::plan::{Shared, VectorRowsMut};
 use pinhole::shade;
 use pinhole::shade::{SurfaceColours, TexturePoints, box_width, wave, wave_mean};
 use pinhole_lab::exercise::apart::absolute;
@@ -215,7 +215,7 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                     let first = 0.5 + 0.5 * mean(0) * mean(1) * mean(2);
                     let (one, other) = (checker.first.to_array(), checker.second.to_array());
                     let colour = [0, 1, 2].map(|part| first * one[part] + (1.0 - first) * other[part]);
-                    (colours.r[row], colours.g[row], colours.b[row]) = colour.into();
+                    colours.rgb.put(row, colour);
                 }
             }
         },

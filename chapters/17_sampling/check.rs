@@ -217,7 +217,7 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                     let place = (tile, Some(samples), None);
                     let offsets = [right, down].map(|u| ask.at(place, row, (u, radius)));
                     if let [Some(right), Some(down)] = offsets {
-                        (raster.x[row], raster.y[row]) = (x + right, y + down);
+                        (raster.point[0][row], raster.point[1][row]) = (x + right, y + down);
                     }
                 }
             }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use pinhole::follow::{Scattered, specular_stage};
 use pinhole::intersect::Surfaces;
 use pinhole::material::{MirrorTable, mirror_direction};
-use pinhole::plan::Column;
+use pinhole::plan::{Column, VectorRowsMut};
 use pinhole::rays::WorldRays;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes};
@@ -141,7 +141,7 @@ fn mine(ask: Ask<Input, Vector>, _: &Setting<'_>) -> StandIn {
                     let normal = surfaces.get(row).normal.as_dvec3();
                     if let Some(direction) = ask.at(place, row, (rays.direction_of(row).into(), normal.into())) {
                         let direction = DVec3::from(direction).as_vec3();
-                        (scattered.dx[ray], scattered.dy[ray], scattered.dz[ray]) = direction.into();
+                        scattered.direction.put(ray, direction);
                     }
                 }
             }

@@ -6,7 +6,7 @@ use pinhole::extract::GlassTable;
 use pinhole::follow::{Scattered, split_stage};
 use pinhole::intersect::Surfaces;
 use pinhole::material::{SmoothGlass, refract};
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRowsMut};
 use pinhole::rays::WorldRays;
 use pinhole_lab::exercise::apart::{absolute, option};
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes};
@@ -191,11 +191,7 @@ fn mine(ask: Ask<Input, Option<Vector>>, _: &Setting<'_>) -> StandIn {
                 for ray in 0..scattered.rows() {
                     let row = scattered.row[ray] as usize;
                     let (direction, normal) = (rays.direction_of(row), surfaces.get(row).normal.as_dvec3());
-                    let bent = DVec3::new(
-                        f64::from(scattered.dx[ray]),
-                        f64::from(scattered.dy[ray]),
-                        f64::from(scattered.dz[ray]),
-                    );
+                    let bent = scattered.direction(ray).as_dvec3();
                     let sine = bent.cross(normal).length();
                     if bent.dot(normal) > 0.0 || sine < TELLS {
                         continue;
@@ -205,9 +201,9 @@ fn mine(ask: Ask<Input, Option<Vector>>, _: &Setting<'_>) -> StandIn {
                     match direction {
                         Some(direction) => {
                             let direction = DVec3::from(direction).as_vec3();
-                            (scattered.dx[ray], scattered.dy[ray], scattered.dz[ray]) = direction.into();
+                            scattered.direction.put(ray, direction);
                         }
-                        None => (scattered.r[ray], scattered.g[ray], scattered.b[ray]) = (0.0, 0.0, 0.0),
+                        None => scattered.throughput.put(ray, [0.0; 3]),
                     }
                 }
             }

@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{AreaLightTable, SamplingTable};
 use pinhole::intersect::Surfaces;
-use pinhole::plan::Shared;
+use pinhole::plan::{Shared, VectorRowsMut};
 use pinhole::rays::{Depth, SampleNumber, draws_of_two};
 use pinhole::sample::Purpose;
 use pinhole::shade::{ShadowRays, irradiance_from_area, shadow_t_max};
@@ -183,7 +183,7 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                 draws_of_two(&draws, Purpose::LightPoint, &rays.row, &mut points);
                 for (ray, &u) in points.iter().enumerate() {
                     let row = rays.row[ray] as usize;
-                    let from = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));
+                    let from = rays.origin(ray).as_dvec3();
                     let direction = rays.direction_of(ray);
                     let rectangles = lights.emitter.iter().enumerate().filter_map(rectangle);
                     let Some((light, shape)) = rectangles.into_iter().find(|(_, shape)| seen(shape, from, direction))
@@ -197,8 +197,8 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                     let pdf = lights.probability[light] * pdf;
                     let light = irradiance_from_area(lights.radiance[light], cosine, pdf).map(|part| part as f32);
                     let finite = light.iter().all(|part| part.is_finite());
-                    (rays.r[ray], rays.g[ray], rays.b[ray]) = if finite { light.into() } else { (0.0, 0.0, 0.0) };
-                    (rays.dx[ray], rays.dy[ray], rays.dz[ray]) = to.normalize().as_vec3().into();
+                    rays.irradiance.put(ray, if finite { light } else { [0.0; 3] });
+                    rays.direction.put(ray, to.normalize().as_vec3());
                     rays.t_max[ray] = shadow_t_max(to.length());
                 }
             }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use pinhole::extract::SamplingTable;
 use pinhole::intersect::Surfaces;
 use pinhole::material::{cosine_direction, frame_of};
-use pinhole::plan::Shared;
+use pinhole::plan::{Shared, VectorRowsMut};
 use pinhole::rays::{Depth, SampleNumber, draws_of_two};
 use pinhole::sample::Purpose;
 use pinhole::shade::ShadowRays;
@@ -160,7 +160,7 @@ fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
                     let row = rays.row[ray] as usize;
                     if let Some(own) = ask.at(place, row, (u, v)) {
                         let direction = frame_of(surfaces.get(row).normal.as_dvec3()) * DVec3::from(own);
-                        (rays.dx[ray], rays.dy[ray], rays.dz[ray]) = direction.as_vec3().into();
+                        rays.direction.put(ray, direction.as_vec3());
                     }
                 }
             }

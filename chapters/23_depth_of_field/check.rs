@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{LensTable, PerspectiveProjection};
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRows, VectorRowsMut};
 use pinhole::rays;
 use pinhole::rays::{CameraRays, LensPoints, ScreenPoints, camera_ray_lens};
 use pinhole_lab::exercise::apart::relative;
@@ -157,10 +157,10 @@ fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
               mut tiles: Query<(RowPlaces, &ScreenPoints, &LensPoints, &mut CameraRays)>| {
             for (place, screen, points, mut rays) in &mut tiles {
                 for row in 0..screen.rows() {
-                    let (at, point) = ([screen.x[row], screen.y[row]], [points.x[row], points.y[row]]);
+                    let (at, point) = (screen.point.at(row), points.point.at(row));
                     let asked = (at, camera.tan_half_vertical, point, lens.focus_distance);
                     if let Some(direction) = ask.at(place, row, asked) {
-                        (rays.dx[row], rays.dy[row], rays.dz[row]) = direction.into();
+                        rays.direction.put(row, direction);
                     }
                 }
             }

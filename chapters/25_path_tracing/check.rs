@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use pinhole::extract::{IntegratorTable, SamplingTable};
 use pinhole::follow::{Scattered, survival_probability};
-use pinhole::plan::Shared;
+use pinhole::plan::{Shared, VectorRows, VectorRowsMut};
 use pinhole::rays::{Depth, Paths, PixelSamples, SampleNumber, Tile, draws_of_one};
 use pinhole::sample::Purpose;
 use pinhole::{follow, rays};
@@ -179,10 +179,10 @@ fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
                 let draws = rays::Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), depth };
                 draws_of_one(&draws, Purpose::Roulette, &scattered.row, &mut numbers);
                 for (ray, &u) in numbers.iter().enumerate() {
-                    let throughput = [scattered.r[ray], scattered.g[ray], scattered.b[ray]];
+                    let throughput = scattered.throughput.at(ray);
                     let row = scattered.row[ray] as usize;
                     if let Some(throughput) = ask.at((tile, samples, Some(paths)), row, (throughput, u)) {
-                        (scattered.r[ray], scattered.g[ray], scattered.b[ray]) = throughput.into();
+                        scattered.throughput.put(ray, throughput);
                     }
                 }
             }

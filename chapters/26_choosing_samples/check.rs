@@ -7,7 +7,7 @@ use pinhole::follow;
 use pinhole::follow::power_heuristic;
 use pinhole::intersect::{EmissiveRows, Hits, SurfaceSides};
 use pinhole::lights::Receiver;
-use pinhole::plan::Shared;
+use pinhole::plan::{Shared, VectorRowsMut};
 use pinhole::rays::{Paths, PixelSamples, Tile, WorldRays};
 use pinhole::shade::{Radiance, area_light_pdf};
 use pinhole_lab::exercise::apart::absolute;
@@ -136,7 +136,7 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
         )>| {
             for ((tile, samples, paths), (rays, hits, list, sides), mut radiance) in &mut tiles {
                 for (&row, &of) in list.row.iter().zip(&list.emissive) {
-                    let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
+                    let (row, emitted) = (row as usize, emissive.radiance[of as usize]);
                     if sides.is_some_and(|sides| sides.outside[row] == 0 && emissive.one_sided[of as usize]) {
                         continue;
                     }
@@ -150,9 +150,7 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                         let asked = (paths.pdf[row], area_light_pdf(&lights, light as usize, &receiver, at));
                         ask.at((tile, samples, Some(paths)), row, asked).unwrap_or_default()
                     } as f32;
-                    radiance.r[row] += weight * r;
-                    radiance.g[row] += weight * g;
-                    radiance.b[row] += weight * b;
+                    radiance.rgb.add(row, emitted.map(|part| weight * part));
                 }
             }
         },

@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2, DVec3};
 use pinhole::extract::CameraJoinTable;
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRowsMut};
 use pinhole::rays::join_camera;
 use pinhole::shade;
 use pinhole::shade::ShadowRays;
@@ -165,14 +165,13 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
         move |camera: Res<Shared<CameraJoinTable>>, mut tiles: Query<&mut ShadowRays>| {
             for mut rays in &mut tiles {
                 for ray in 0..rays.rows() {
-                    let from = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));
+                    let from = rays.origin(ray).as_dvec3();
                     let Some(joined) = join_camera(&camera, DVec2::ZERO, from) else { continue };
                     let point = (camera.camera_from_world * from).into();
                     let asked = (point, camera.half_height, camera.size.y);
                     let Some(fraction) = ask.once(asked) else { continue };
                     let more = (fraction / joined.importance) as f32;
-                    let rays = &mut *rays;
-                    [&mut rays.r, &mut rays.g, &mut rays.b].into_iter().for_each(|part| part[ray] *= more);
+                    rays.irradiance.scale(ray, [more; 3]);
                 }
             }
         },

@@ -60,7 +60,7 @@ pub use crate::material::{
     Bsdf, BsdfClass, BsdfSample, Example, Interior, Parameters, ShadingContext, SpecularSample, Transport,
     add_material, custom_bsdf, entities_of_kind,
 };
-pub use crate::plan::column;
+pub use crate::plan::{VectorRows, VectorRowsMut, column};
 pub use crate::render::{Inspection, RenderInProgress, Watch, inspect, render};
 pub use crate::scene::{Feeds, Texture};
 pub use crate::shade::{Radiance, SurfaceColours};

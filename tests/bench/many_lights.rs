@@ -147,7 +147,7 @@ impl Bench {
             time += started.elapsed();
             let radiance = self.render.world.get::<Radiance>(self.render.tiles[0]).expect("radiance");
             assert_eq!(radiance.rows(), self.sums.len());
-            for ([sum, squares], &value) in self.sums.iter_mut().zip(&radiance.g) {
+            for ([sum, squares], &value) in self.sums.iter_mut().zip(&radiance.rgb[1]) {
                 (*sum, *squares) = (*sum + f64::from(value), *squares + f64::from(value) * f64::from(value));
             }
             self.taken += 1;

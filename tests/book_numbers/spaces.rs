@@ -5,7 +5,7 @@ use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use pinhole::extract::{SMALLEST_PIXEL, tan_half, validate};
 use pinhole::intersect::{Hits, NO_SHAPE};
-use pinhole::plan::{Census, Column, Stage, TileSystems};
+use pinhole::plan::{Census, Column, Stage, TileSystems, VectorRows, VectorRowsMut};
 use pinhole::rays::{NdcPoints, RasterPoints};
 use pinhole::render::inspect;
 use pinhole::scene::*;
@@ -47,8 +47,7 @@ fn thousands(number: usize) -> String {
 /// NDC divided by W − 1, for an image of one pixel.
 fn fill_with_nan(mut tiles: Query<(&RasterPoints, &mut NdcPoints)>) {
     for (raster, mut ndc) in &mut tiles {
-        let (x, y) = ndc.slices_mut(raster.rows());
-        (x[0], y[0]) = (f64::from(ndc::to_last_pixel(0, 1)), f64::from(ndc::to_last_pixel(0, 1)));
+        ndc.slices_mut(raster.rows()).put(0, [f64::from(ndc::to_last_pixel(0, 1)); 2]);
     }
 }
 
@@ -62,7 +61,7 @@ fn a_pixel_that_is_nowhere_shows_the_background_as_page_06_says() {
         let inspection = inspect(&chapter.world(&one), stages, 1).expect("inspects");
         let tile = inspection.world.entity(inspection.tiles[0]);
         let (hits, light) = (tile.get::<Hits>().expect("hits"), tile.get::<Radiance>().expect("light"));
-        (hits.shape[0], [light.r[0], light.g[0], light.b[0]])
+        (hits.shape[0], light.rgb.at(0))
     };
     assert_ne!(seen(&stages).0, NO_SHAPE, "the one pixel sees a shape");
     stages.retain(|stage| stage.set != TileSystems::Ndc);

@@ -239,7 +239,7 @@ fn both_strategies_know_one_pdf() {
         let entity = world.entity(tile);
         let (rays, pdfs) = (entity.get::<ShadowRays>().expect("rays"), entity.get::<LightPdfs>().expect("pdfs"));
         for ray in 0..rays.rows() {
-            let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
+            let from = rays.origin(ray).as_dvec3();
             let direction = rays.direction_of(ray);
             let at = from + direction * f64::from(rays.t_max[ray]);
             // The light that the ray ends on, by its shape and not by its pdf.

@@ -34,7 +34,7 @@ fn seen(world: &World) -> (u32, f32) {
     let sides = tile.get::<SurfaceSides>().expect("one-sided light reads sides");
     let radiance = tile.get::<shade::Radiance>().expect("radiance");
     assert!(sides.outside.iter().all(|side| *side == sides.outside[12]), "a narrow view sees one side");
-    (sides.outside[12], radiance.r[12])
+    (sides.outside[12], radiance.rgb[0][12])
 }
 
 #[test]

@@ -307,8 +307,8 @@ fn the_pixel_to_trace_is_lit() {
         };
         let pixel = pinhole::render::inspect_pixel(census, &chapter.stages(), [x, y], 0, &[]).expect("traced");
         let radiance = pixel.world.get::<pinhole::shade::Radiance>(pixel.tiles[0]).expect("light");
-        let (r, g, b) = radiance.slices();
-        assert!(r[0].max(g[0]).max(b[0]) > 1e-3, "{}: pixel {x},{y} is dark", chapter.name);
+        let [r, g, b] = radiance.rgb(0);
+        assert!(r.max(g).max(b) > 1e-3, "{}: pixel {x},{y} is dark", chapter.name);
         tried += 1;
     }
     eprintln!("pixels to trace: {tried} chapters; none in {none:?}");

@@ -14,7 +14,7 @@ fn light(spawn: &dyn Fn(&mut World), integrator: Integrator) -> f64 {
     let world = &mut seen(spawn, integrator);
     let film = render(world, &offer(), &Execution::default(), &()).expect("renders").film;
     assert_eq!(film.rejected().0, 0, "{integrator:?}");
-    film.tiles.iter().flat_map(|tile| tile.r.iter().chain(&tile.g).chain(&tile.b)).sum()
+    film.tiles.iter().flat_map(|tile| tile.sum[0].iter().chain(&tile.sum[1]).chain(&tile.sum[2])).sum()
 }
 
 fn seen(spawn: &dyn Fn(&mut World), integrator: Integrator) -> World {
@@ -172,7 +172,7 @@ fn a_smooth_convex_ball_loses_hardly_any_light() {
         let faces = ball_of_triangles(&mut world, times);
         let film = render(&world, &offer(), &Execution::default(), &()).expect("renders").film;
         let samples = 24.0 * 24.0 * 16.0;
-        let mean = film.tiles.iter().flat_map(|tile| &tile.g).sum::<f64>() / samples;
+        let mean = film.tiles.iter().flat_map(|tile| &tile.sum[1]).sum::<f64>() / samples;
         eprintln!("a ball of {faces} triangles: {mean:.5} of the sky's light, {samples} samples");
         assert!((0.98..1.0 + 1e-6).contains(&mean), "{faces} faces: {mean}");
     }

@@ -5,7 +5,7 @@ use exr::prelude::{AnyChannels, AttributeValue, FlatSamples, Layer, Text, read_f
 use glam::DVec3;
 use pinhole::extract::{CameraAxes, eye, shape_names};
 use pinhole::film::{ENTITY_NAMES, FilmLayers, write_layered_exr};
-use pinhole::plan::{Census, Table};
+use pinhole::plan::{Census, Table, VectorRows};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -119,7 +119,7 @@ fn layers_are_means_over_the_samples_that_hit_something() {
     let sum_of = |film: &Film, [x, y]: [u32; 2]| {
         let (tile, row) = film.place(x, y);
         let tile = &film.tiles[tile];
-        DVec3::new(tile.r[row], tile.g[row], tile.b[row])
+        DVec3::from(tile.sum.at(row))
     };
     let mut before = vec![DVec3::ZERO; (SIZE[0] * SIZE[1]) as usize];
     let mut values: Vec<Vec<DVec3>> = vec![Vec::new(); before.len()];

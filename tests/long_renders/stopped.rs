@@ -100,7 +100,7 @@ fn bits(film: &Film) -> [(&'static str, Vec<u64>); 4] {
     let counts = |components: Vec<&Vec<u32>>| components.into_iter().flatten().map(|&count| u64::from(count)).collect();
     let layers = &film.layers;
     [
-        ("light", of(film.tiles.iter().flat_map(|tile| tile.sums()).collect())),
+        ("light", of(film.tiles.iter().flat_map(|tile| &tile.sum).collect())),
         ("samples", counts(film.tiles.iter().map(|tile| &tile.count).chain([&film.done]).collect())),
         ("layers", of(layers.iter().flat_map(|own| &own.sums).collect())),
         ("hits", counts(layers.iter().flat_map(|own| own.counts()).collect())),

@@ -168,7 +168,7 @@ fn make(_: Res<Shared<ImageFrame>>, mut tiles: Query<(&RasterPoints, Option<&Cam
 }
 
 fn darken(mut tiles: Query<(&Made, &mut Radiance)>) {
-    tiles.iter_mut().for_each(|(_, mut radiance)| radiance.r.fill(0.0));
+    tiles.iter_mut().for_each(|(_, mut radiance)| radiance.rgb[0].fill(0.0));
 }
 
 #[test]

@@ -41,73 +41,63 @@ fn each_column_is_painted_as_its_page_says() {
     let mut crossings = RowLists::default();
     crossings.push(&[GlassCrossing { glass: 0, from_outside: true, depth: 0.0 }]);
     crossings.push(&[]);
-    let [x, y, z] = [0.6, 0.0, -0.8].map(|part| vec![part]);
-    let [nx, ny, nz] = [0.6, 0.0, -0.8].map(|part| vec![part, 0.0]);
-    let [r, g, b] = COLOUR.map(|part| vec![f64::from(part)]);
-    let [dx, dy, dz] = [0.6_f32, 0.0, -0.8].map(|part| vec![part]);
+    let normal = [0.6, 0.0, -0.8].map(|part| vec![part, 0.0]);
+    let rgb = COLOUR.map(|part| vec![f64::from(part)]);
+    let direction = [0.6_f32, 0.0, -0.8].map(|part| vec![part]);
+    let at_zero = [0.0; 3].map(|part| vec![part]);
     let names = [
-        shown(RasterPoints { x: vec![100.0], y: vec![150.0] }, &[[0.25, 0.75, 0.0]]),
-        shown(NdcPoints { x: vec![0.25], y: vec![0.75] }, &[[0.25, 0.75, 0.0]]),
+        shown(RasterPoints { point: [vec![100.0], vec![150.0]] }, &[[0.25, 0.75, 0.0]]),
+        shown(NdcPoints { point: [vec![0.25], vec![0.75]] }, &[[0.25, 0.75, 0.0]]),
         // Twice as wide as high, x is from −2 to 2.
-        shown(ScreenPoints { x: vec![-1.0, 0.0], y: vec![0.5, 0.0] }, &[[0.25, 0.75, 0.0], [0.5, 0.5, 0.0]]),
-        shown(LensPoints { x: vec![0.3, 0.0], y: vec![-0.4, 0.0] }, &[[0.8, 0.1, 0.5], [0.5; 3]]),
-        shown(CameraRays { dx: x, dy: y, dz: z, ox: vec![0.0], oy: vec![0.0], oz: vec![0.0] }, &[LEANING]),
+        shown(ScreenPoints { point: [vec![-1.0, 0.0], vec![0.5, 0.0]] }, &[[0.25, 0.75, 0.0], [0.5, 0.5, 0.0]]),
+        shown(LensPoints { point: [vec![0.3, 0.0], vec![-0.4, 0.0]] }, &[[0.8, 0.1, 0.5], [0.5; 3]]),
         shown(
-            WorldRays { dx: dx.clone(), dy: dy.clone(), dz: dz.clone(), ox: vec![0.0], oy: vec![0.0], oz: vec![0.0] },
+            CameraRays { direction: [0.6, 0.0, -0.8].map(|part| vec![part]), origin: [0.0; 3].map(|part| vec![part]) },
             &[LEANING],
         ),
+        shown(WorldRays { direction: direction.clone(), origin: at_zero }, &[LEANING]),
         shown(RayTimes { time: vec![0.0, 1.0, 3.0] }, &[BLACK, grey(0.5), grey(0.75)]),
         shown(PixelSamples { pixel: vec![5; 3], sample: vec![0, 1, 3] }, &[BLACK, grey(0.5), grey(0.75)]),
         shown(SampleSigns { sign: vec![1.0, -1.0] }, &[WHITE, [1.0, 0.0, 0.0]]),
-        shown(Paths { r: r.clone(), g: g.clone(), b: b.clone(), first: vec![0], pdf: vec![1.0] }, &[COLOUR]),
-        shown(PathLight { r: r.clone(), g: g.clone(), b: b.clone() }, &[COLOUR]),
-        shown(
-            Surfaces { nx: nx.clone(), ny: ny.clone(), nz: nz.clone(), px: vec![7.0; 2], ..Default::default() },
-            &[LEANING, BLACK],
-        ),
-        shown(ShadingNormals { nx, ny, nz }, &[LEANING, BLACK]),
-        shown(SurfaceUvs { u: vec![1.25], v: vec![-0.25] }, &[[0.25, 0.75, 0.0]]),
+        shown(Paths { throughput: rgb.clone(), first: vec![0], pdf: vec![1.0] }, &[COLOUR]),
+        shown(PathLight { rgb: rgb.clone() }, &[COLOUR]),
+        shown(Surfaces { normal: normal.clone(), ..Default::default() }, &[LEANING, BLACK]),
+        shown(ShadingNormals { normal }, &[LEANING, BLACK]),
+        shown(SurfaceUvs { uv: [vec![1.25], vec![-0.25]] }, &[[0.25, 0.75, 0.0]]),
         shown(SurfaceSides { outside: vec![1, 0] }, &[WHITE, BLACK]),
         shown(MaterialRows { row: vec![3] }, &[WHITE]),
         shown(EmissiveRows { row: vec![3], emissive: vec![1] }, &[WHITE]),
         shown(TransmissiveRows { row: vec![3] }, &[WHITE]),
         shown(CausticPaths { spread: vec![1, 0] }, &[WHITE, BLACK]),
-        shown(LightPower { r: r.clone(), g: g.clone(), b: b.clone() }, &[COLOUR]),
-        shown(Splats { r: r.clone(), g: g.clone(), b: b.clone(), x: vec![9.0], y: vec![9.0] }, &[COLOUR]),
-        shown(
-            Scattered { row: vec![0], dx: dx.clone(), dy: dy.clone(), dz: dz.clone(), ..Default::default() },
-            &[LEANING],
-        ),
-        shown(Media { first: vec![4, NO_ROW], ..Default::default() }, &[WHITE, BLACK]),
+        shown(LightPower { rgb: rgb.clone() }, &[COLOUR]),
+        shown(Splats { rgb: rgb.clone(), raster: [vec![9.0], vec![9.0]] }, &[COLOUR]),
+        shown(Scattered { row: vec![0], direction: direction.clone(), ..Default::default() }, &[LEANING]),
+        shown(Media { stack: [4, 0, 0, 0].map(|row| vec![row, NO_ROW]) }, &[WHITE, BLACK]),
         shown(Contacts { crossings, ..Default::default() }, &[WHITE, BLACK]),
         // √9 of √9 + 1; a footprint without an end is all of it.
         shown(
             Footprints {
-                rx: vec![1.0, f64::INFINITY],
-                ry: vec![0.0; 2],
-                rz: vec![0.0; 2],
-                dx: vec![0.0; 2],
-                dy: vec![9.0; 2],
-                dz: vec![0.0; 2],
+                right: [vec![1.0, f64::INFINITY], vec![0.0; 2], vec![0.0; 2]],
+                down: [vec![0.0; 2], vec![9.0; 2], vec![0.0; 2]],
             },
             &[[0.5, 0.75, 0.0], [1.0, 0.75, 0.0]],
         ),
-        shown(JoinPoints { x: vec![0.25], y: vec![0.75] }, &[[0.25, 0.75, 0.0]]),
+        shown(JoinPoints { point: [vec![0.25], vec![0.75]] }, &[[0.25, 0.75, 0.0]]),
         shown(ShadowHits { t: vec![1.0; 2], shape: vec![NO_SHAPE, 0], ..Default::default() }, &[WHITE, BLACK]),
-        shown(SurfaceColours { r, g, b }, &[COLOUR]),
+        shown(SurfaceColours { rgb }, &[COLOUR]),
         shown(MetallicRoughness { metallic: vec![0.25, 0.0], roughness: vec![0.5, 0.0] }, &[[0.0, 0.5, 0.25], BLACK]),
-        shown(EmissionFactors { r: vec![0.25], g: vec![0.5], b: vec![0.75] }, &[[0.25, 0.5, 0.75]]),
+        shown(EmissionFactors { rgb: [vec![0.25], vec![0.5], vec![0.75]] }, &[[0.25, 0.5, 0.75]]),
         shown(
-            TexturePoints { x: vec![1.25], y: vec![-0.25], z: vec![0.5], ..Default::default() },
+            TexturePoints { point: [vec![1.25], vec![-0.25], vec![0.5]], ..Default::default() },
             &[[0.25, 0.75, 0.5]],
         ),
-        shown(ShadowRays { row: vec![0], dx, dy, dz, ..Default::default() }, &[LEANING]),
+        shown(ShadowRays { row: vec![0], direction, ..Default::default() }, &[LEANING]),
         shown(LightPdfs { row: vec![0; 2], pdf: vec![0.0, 3.0] }, &[BLACK, grey(0.75)]),
         // Half of the scale, which is red, at 64 boxes, 16 primitives or 4 nodes; white would be infinity.
         shown(BoxTests { boxes: vec![0, 64] }, &[BLACK, [0.8, 0.22, 0.28]]),
         shown(PrimitiveTests { primitives: vec![0, 16, 48] }, &[BLACK, [0.8, 0.22, 0.28], [0.98, 0.66, 0.15]]),
         shown(TraversalDepths { depth: vec![0, 4] }, &[BLACK, [0.8, 0.22, 0.28]]),
-        shown(Radiance { r: vec![0.25], g: vec![0.5], b: vec![2.0] }, &[COLOUR]),
+        shown(Radiance { rgb: [vec![0.25], vec![0.5], vec![2.0]] }, &[COLOUR]),
     ];
     let hits = Hits { t: vec![0.0, 60.0, 0.0, 1.0], shape: vec![0, 0, 1, NO_SHAPE] };
     let colours = [0, 1, 2, 3].map(|row| hits.paint(row, SIZE));

@@ -108,7 +108,7 @@ fn every_command_says_in_json_what_it_says_in_text() {
 fn add_fog(mut tiles: Query<(&Hits, &mut Radiance)>) {
     for (hits, mut radiance) in &mut tiles {
         for row in 0..hits.t.len() {
-            radiance.r[row] += if hits.t[row] < 7.0 { 0.25 } else { 0.0 };
+            radiance.rgb[0][row] += if hits.t[row] < 7.0 { 0.25 } else { 0.0 };
         }
     }
 }

@@ -20,7 +20,7 @@ fn on_a_wall([width, height]: [u32; 2], texel: fn(u32, u32) -> [u8; 3]) -> impl 
     world.spawn((Plane { normal: DVec3::Z }, Matte::default(), texture));
     let inspected = inspect(&world, &offer(), PIXELS).expect("inspects");
     let colours = inspected.world.get::<SurfaceColours>(inspected.tiles[0]).expect("colours").clone();
-    move |x, y| colours.get((y * PIXELS + x) as usize)
+    move |x, y| colours.rgb((y * PIXELS + x) as usize)
 }
 
 /// An image of 4 × 2 texels on a wall: its texels are squares, so that it repeats after one unit across and after half

@@ -1,6 +1,7 @@
 //! Maps of metallic, roughness and emission: the values at points are those of the image's texels.
 
 use super::*;
+use pinhole::plan::VectorRows;
 use pinhole::render::Inspection;
 use pinhole::shade::{EmissionFactors, MetallicRoughness};
 
@@ -55,7 +56,7 @@ fn rows(inspection: &Inspection) -> Vec<([f64; 2], [f64; 2], [f64; 3])> {
     let hit = (0..hits.t.len()).filter(|&row| hits.t[row].is_finite());
     hit.map(|row| {
         let factor = factors.times(row, [1.0; 3]).map(f64::from);
-        ([uvs.u[row], uvs.v[row]], found.get(row), factor)
+        (uvs.uv.at(row), found.get(row), factor)
     })
     .collect()
 }
@@ -121,6 +122,6 @@ fn the_map_of_a_shape_without_a_material_is_filtered() {
     world.spawn((Rectangle { width: 4.0, depth: 4.0 }, Emissive::default(), map));
     let inspection = inspect(&world, &offer(), 32).expect("inspects");
     let factors = inspection.world.get::<EmissionFactors>(inspection.tiles[0]).expect("factors");
-    let seen: Vec<f32> = factors.r.iter().copied().filter(|factor| *factor != 1.0).collect();
+    let seen: Vec<f32> = factors.rgb[0].iter().copied().filter(|factor| *factor != 1.0).collect();
     assert!(seen.len() == 32 * 32 && seen.iter().all(|factor| (factor - 4.0).abs() < 1e-4), "{seen:?}");
 }

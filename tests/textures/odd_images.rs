@@ -199,7 +199,7 @@ fn vertex_colours_are_a_factor_of_the_colour() {
             let at = surfaces.get(row).position;
             let (x, z) = (f64::from(at.x) + 0.3, f64::from(at.z) + 0.4);
             let expected = [0.8 * 0.5 * (x + 2.0) / 4.0, 0.8 * (z + 2.0) / 4.0, 0.8 * 0.5];
-            let found = colours.get(row);
+            let found = colours.rgb(row);
             assert!(
                 (0..3).all(|part| (found[part] - expected[part]).abs() < 1e-4),
                 "({x}, {z}): {found:?}, {expected:?}"

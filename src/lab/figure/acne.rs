@@ -122,13 +122,13 @@ impl Shadows {
         let (rays, mut pixels, mut wrong) = (&self.rays, self.unlit.clone(), 0);
         for (ray, &path) in rays.row.iter().enumerate() {
             let surface = self.surfaces.get(path as usize);
-            let direction = Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]).as_dvec3();
+            let direction = rays.direction_of(ray);
             let blocked = self.blocked(start(surface.position, surface.normal), direction, f64::from(rays.t_max[ray]));
             wrong += usize::from(blocked != (self.hits.shape[ray] != NO_SHAPE));
             if !blocked {
                 let colour =
                     self.materials.parameters.get(surface.material as usize).copied().unwrap_or_default().colour;
-                let irradiance = rays.irradiance(ray);
+                let irradiance = rays.irradiance(ray).map(f64::from);
                 let brings = [0, 1, 2].map(|part| lambertian(colour)[part] * irradiance[part]);
                 pixels[path as usize].iter_mut().zip(brings).for_each(|(sum, part)| *sum += part as f32);
             }

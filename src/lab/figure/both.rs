@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use pinhole::extract::{MeshTable, SphereTable, camera_entity};
 use pinhole::film::{Curve, byte_from_linear};
 use pinhole::intersect::{Hits, Surfaces};
-use pinhole::plan::Census;
+use pinhole::plan::{Census, VectorRows};
 use pinhole::rasterise::Projection;
 use pinhole::rays::WorldRays;
 use pinhole::render::{Execution, first_bounce_only, inspect, render};
@@ -202,7 +202,7 @@ pub fn draw_mirrored(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         of_meshes.chain(spheres.row.iter().map(|sphere| sphere.t(origin, direction))).fold(f64::INFINITY, f64::min)
     };
     let place = |row: usize| {
-        let [nx, ny, nz] = [surfaces.nx[row], surfaces.ny[row], surfaces.nz[row]].map(f64::from);
+        let [nx, ny, nz] = surfaces.normal.at(row).map(f64::from);
         let (normal, direction) = (DVec3::new(nx, ny, nz), rays.direction_of(row));
         let origin = rays.origin_of(row) + direction * hits.t[row];
         let reflected = direction - 2.0 * direction.dot(normal) * normal;

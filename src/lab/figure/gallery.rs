@@ -15,7 +15,7 @@ use pinhole::Result;
 use pinhole::extract::{
     PerspectiveProjection, angle_across, camera_entity, eye, half_extent, tan_half, world_from_entity,
 };
-use pinhole::plan::{Census, Stage, TileSystems};
+use pinhole::plan::{Census, Column, Stage, TileSystems, VectorRowsMut};
 use pinhole::rays::{CameraRays, ScreenPoints, camera_ray_perspective};
 use pinhole::scene::{Degrees, FovAxis, LookAt, PerspectiveCamera, Placement};
 
@@ -174,10 +174,9 @@ pub fn draw_naive(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 fn aimed_with(tangent: f64) -> Stage {
     let fill = move |mut tiles: Query<(&ScreenPoints, &mut CameraRays)>| {
         for (screen, mut rays) in &mut tiles {
-            let (x, y) = screen.slices();
-            let (_, _, _, dx, dy, dz) = rays.slices_mut(x.len());
-            for row in 0..x.len() {
-                (dx[row], dy[row], dz[row]) = camera_ray_perspective(DVec2::new(x[row], y[row]), tangent).into();
+            let (_, mut direction) = rays.slices_mut(screen.rows());
+            for row in 0..screen.rows() {
+                direction.put(row, camera_ray_perspective(screen.point(row), tangent));
             }
         }
     };

@@ -41,7 +41,7 @@ fn ndc_points(chapter: &Chapter, [width, height]: [u32; 2]) -> Result<Vec<([u32;
     for &tile in &inspection.tiles {
         let tile = inspection.world.entity(tile);
         if let (Some(place), Some(ndc)) = (tile.get::<Tile>(), tile.get::<NdcPoints>()) {
-            points.extend((0..place.rows()).map(|row| (place.pixel_of(row), DVec2::new(ndc.x[row], ndc.y[row]))));
+            points.extend((0..place.rows()).map(|row| (place.pixel_of(row), ndc.point(row))));
         }
     }
     Ok(points)

@@ -79,9 +79,7 @@ fn onward(tile: &EntityRef<'_>, path: u32, lights: &[DVec3]) -> Vec<Onward> {
     let Some(rays) = tile.get::<ShadowRays>() else { return Vec::new() };
     let shadows = tile.get::<ShadowHits>();
     let of_row = |row: usize| {
-        let part = |components: [&Vec<f32>; 3]| DVec3::from(components.map(|component| f64::from(component[row])));
-        let from = part([&rays.ox, &rays.oy, &rays.oz]);
-        let direction = part([&rays.dx, &rays.dy, &rays.dz]);
+        let (from, direction) = (rays.origin_of(row), rays.direction_of(row));
         let blocked = shadows.filter(|hits| hits.shape[row] != NO_SHAPE).map(|hits| hits.t[row]);
         // The column holds the direction only; the light is the one that lies there.
         let off = |light: &&DVec3| (**light - from).normalize().distance(direction);

@@ -39,7 +39,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 
 fn place_on_grid(mut tiles: Query<(&Tile, &SampleNumber, &ActivePixels, &mut RasterPoints, &mut PixelSamples)>) {
     for (tile, &SampleNumber(number), ActivePixels(active), mut raster, mut samples) in &mut tiles {
-        let (xs, ys) = raster.slices_mut(active.len());
+        let [xs, ys] = raster.slices_mut(active.len());
         let (pixels, numbers) = samples.slices_mut(active.len());
         pixels.copy_from_slice(active);
         numbers.fill(number);

@@ -89,7 +89,7 @@ fn seen(scene: &World) -> pinhole::Result<Vec<Seen>> {
         let (Some(hits), Some(raster)) = (tile.get::<Hits>(), tile.get::<RasterPoints>()) else { continue };
         let primitives = tile.get::<HitPrimitives>();
         all.extend(hits.t.iter().zip(&hits.shape).enumerate().map(|(row, (&t, &shape))| Seen {
-            raster: DVec2::new(raster.x[row], raster.y[row]),
+            raster: raster.point(row),
             t,
             shape,
             primitive: primitives.filter(|_| shape != NO_SHAPE).map_or(0, |primitives| primitives.primitive[row]),

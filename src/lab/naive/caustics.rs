@@ -16,7 +16,7 @@ pub fn forget_join_cosine(mut tiles: Query<(&Surfaces, &mut ShadowRays)>) {
         for ray in 0..rays.rows() {
             let normal = surfaces.get(rays.row[ray] as usize).normal.as_dvec3();
             let cosine = normal.dot(rays.direction_of(ray));
-            rays.weight_by(ray, 1.0 / cosine);
+            rays.weight_by(ray, [1.0 / cosine; 3]);
         }
     }
 }
@@ -25,7 +25,7 @@ pub fn forget_join_cosine(mut tiles: Query<(&Surfaces, &mut ShadowRays)>) {
 /// Forgets how much of the image plane a pixel is.
 pub fn forget_pixel_area(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<&mut ShadowRays>) {
     for mut rays in &mut tiles {
-        (0..rays.rows()).for_each(|ray| rays.weight_by(ray, join.pixel_area()));
+        (0..rays.rows()).for_each(|ray| rays.weight_by(ray, [join.pixel_area(); 3]));
     }
 }
 

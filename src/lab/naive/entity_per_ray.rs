@@ -13,7 +13,7 @@ use pinhole::extract::{
 };
 use pinhole::film::Film;
 use pinhole::intersect::{self, NO_SHAPE};
-use pinhole::plan::{Census, Sample, Shared, Table};
+use pinhole::plan::{Census, Sample, Shared, Table, VectorRowsMut};
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
 use pinhole::scene::SceneError;
 use pinhole::shapes::{RayHit, ShapeKind, l1_norm, nearness, plane_t, sphere_t};
@@ -112,7 +112,7 @@ impl EntityPerRay {
             let [x, y] = pixel.0;
             let tile = &mut film.tiles[(y / 32 * across + x / 32) as usize];
             if let Some(row) = tile.tile.row_of(x, y) {
-                [tile.r[row], tile.g[row], tile.b[row]] = sum.0;
+                tile.sum.put(row, sum.0);
                 tile.count[row] = sum.1;
             }
         }

@@ -4,7 +4,7 @@
 use super::emitter::{pdf_without_cosine, pdf_without_jacobian};
 use super::path::uniform_direction;
 use bevy_ecs::prelude::*;
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 use pinhole::extract::{
     AreaLightTable, GlassTable, IntegratorTable, LensTable, MaterialKind, MaterialTable, NO_ROW, SamplingTable,
     ShutterTable, bsdf_evidence, glass_evidence, material_evidence, mis_evidence, occlusion_evidence,
@@ -12,7 +12,7 @@ use pinhole::extract::{
 use pinhole::follow::{Scattered, ScatteredRay, SkyLists, SkyView, sample_sky_with};
 use pinhole::intersect::{MaterialRows, SurfaceSides, Surfaces};
 use pinhole::material::{MetalTable, cosine_pdf, frame_of};
-use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems};
+use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRows, VectorRowsMut};
 use pinhole::rays::{
     Depth, Draws, LensPoints, Paths, PixelSamples, RasterPoints, RayTimes, SampleNumber, Tile, draws_of_two,
 };
@@ -68,12 +68,8 @@ fn spoils(stage: Stage) -> Stage {
     stage.kind(StageKind::Alternative)
 }
 
-fn spoil_ray(Scattered { r, g, b, .. }: &mut Scattered, ray: usize, factor: f64) {
-    [r, g, b].into_iter().for_each(|component| component[ray] *= factor);
-}
-
-fn direction(Scattered { dx, dy, dz, .. }: &Scattered, ray: usize) -> DVec3 {
-    DVec3::new(dx[ray].into(), dy[ray].into(), dz[ray].into())
+fn spoil_ray(scattered: &mut Scattered, ray: usize, factor: f64) {
+    scattered.throughput.scale(ray, [factor; 3]);
 }
 
 /// The wrong pdf: rays off rough metal are sampled by its microfacets, and divided by the cosine-weighted pdf.
@@ -84,7 +80,7 @@ pub fn metal_counted_as_matte() -> Stage {
                 let surface = surfaces.get(scattered.row[ray] as usize);
                 let pdf = scattered.pdf[ray];
                 if materials.kind[surface.material as usize] == MaterialKind::Metal && pdf.is_finite() {
-                    let cosine = direction(&scattered, ray).dot(surface.normal.as_dvec3()).max(1e-6);
+                    let cosine = scattered.direction_of(ray).dot(surface.normal.as_dvec3()).max(1e-6);
                     spoil_ray(&mut scattered, ray, pdf / (cosine * FRAC_1_PI));
                 }
             }
@@ -103,7 +99,7 @@ pub fn glass_that_keeps_beams_narrow() -> Stage {
                 let row = scattered.row[ray] as usize;
                 let surface = surfaces.get(row);
                 let interior = materials.interior[surface.material as usize];
-                let through = direction(&scattered, ray).dot(surface.normal.as_dvec3()) < 0.0;
+                let through = scattered.direction_of(ray).dot(surface.normal.as_dvec3()) < 0.0;
                 if through && interior != NO_ROW && sides.outside[row] == 0 {
                     let ior = glass.ior[interior as usize];
                     spoil_ray(&mut scattered, ray, 1.0 / (ior * ior));
@@ -164,15 +160,13 @@ fn spoils_light_sampling(name: &'static str, forget: fn(Res<Shared<AreaLightTabl
 /// that is what points of the area would bring, weighted by that other.
 fn reweigh(lights: &AreaLightTable, rays: &mut ShadowRays, naive: impl Fn(DVec3, f64) -> f64) {
     for ray in 0..rays.rows() {
-        let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
+        let from = rays.origin_of(ray);
         let (direction, distance) = (rays.direction_of(ray), f64::from(rays.t_max[ray]));
         let ends_on = |light: &&Emitter| (distance_to(light, from, direction) / distance - 1.0).abs() < ON_LIGHT;
         let Some(Emitter::Rectangle(planar)) = lights.emitter.iter().find(ends_on) else { continue };
         let to = direction * distance;
         let factor = (parallelogram_area_pdf(planar, to) / naive(to, planar.area())) as f32;
-        for part in [&mut rays.r, &mut rays.g, &mut rays.b] {
-            part[ray] *= factor;
-        }
+        rays.irradiance.scale(ray, [factor; 3]);
     }
 }
 
@@ -180,13 +174,12 @@ fn reweigh(lights: &AreaLightTable, rays: &mut ShadowRays, naive: impl Fn(DVec3,
 pub fn opening_filled_by(point: fn(DVec2) -> DVec2) -> Stage {
     let fill = move |lens: Res<Shared<LensTable>>, mut tiles: Query<(&RasterPoints, &mut LensPoints)>| {
         for (raster, mut points) in &mut tiles {
-            let (x, y) = raster.slices();
-            let (lens_x, lens_y) = points.slices_mut(x.len());
-            for row in 0..x.len() {
+            let mut in_lens = points.slices_mut(raster.rows());
+            for row in 0..raster.rows() {
                 // Where in its pixel a sample is decides; enough for a picture.
-                let key = [x[row].to_bits() as u32, y[row].to_bits() as u32];
+                let key = raster.point.at(row).map(|along| along.to_bits() as u32);
                 let u = DVec2::new(uniform(1, key, 0, Purpose::Lens), uniform(2, key, 0, Purpose::Lens));
-                (lens_x[row], lens_y[row]) = (point(u) * lens.radius).into();
+                in_lens.put(row, point(u) * lens.radius);
             }
         }
     };

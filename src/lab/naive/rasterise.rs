@@ -71,7 +71,7 @@ pub fn fill_hits(
     let high = [tile.x + tile.width, tile.y + tile.height].map(|pixels| pixels as i32 * SUBPIXELS as i32 + margin);
     let near: Vec<&RasterTriangle> = triangles.iter().filter(|triangle| overlaps(triangle, low, high)).collect();
     for row in 0..raster.rows() {
-        let at = DVec2::new(raster.x[row], raster.y[row]);
+        let at = raster.point(row);
         let sample = fixed(at);
         let mut nearest: Option<(&RasterTriangle, f64)> = None;
         for &triangle in &near {

@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use pinhole::bvh::{Bvh, PACKET};
 use pinhole::extract::{ImageFrame, SphereTable};
 use pinhole::intersect::{Hits, Surfaces, sphere_stage};
-use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems};
+use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut};
 use pinhole::rays::{NdcPoints, ScreenPoints, WorldRays};
 use pinhole::shade::{ShadowRays, lit_evidence};
 use pinhole::shapes::{PlacedSphere, Shape, hierarchy_of};
@@ -21,11 +21,9 @@ use std::sync::{Arc, OnceLock};
 pub fn screen_placed_by(screen_from_ndc: fn(DVec2, f64) -> DVec2) -> Stage {
     let fill = move |image: Res<Shared<ImageFrame>>, mut tiles: Query<(&NdcPoints, &mut ScreenPoints)>| {
         for (ndc, mut screen) in &mut tiles {
-            let rows = ndc.rows();
-            let (ndc_x, ndc_y) = ndc.slices();
-            let (x, y) = screen.slices_mut(rows);
-            for row in 0..rows {
-                (x[row], y[row]) = screen_from_ndc(DVec2::new(ndc_x[row], ndc_y[row]), image.aspect()).into();
+            let mut in_screen = screen.slices_mut(ndc.rows());
+            for row in 0..ndc.rows() {
+                in_screen.put(row, screen_from_ndc(ndc.point(row), image.aspect()));
             }
         }
     };
@@ -56,7 +54,7 @@ pub fn shadow_rays_from_the_hit() -> Stage {
         for (surfaces, mut rays) in &mut tiles {
             for ray in 0..rays.rows() {
                 let start = start_at_hit(surfaces.get(rays.row[ray] as usize).position);
-                (rays.ox[ray], rays.oy[ray], rays.oz[ray]) = start.origin.into();
+                rays.origin.put(ray, start.origin);
             }
         }
     };

@@ -154,7 +154,7 @@ mod tests {
 
     /// The digests of a tile of two blocks, 3 pixels into the image, after `change`.
     fn two_blocks(change: impl Fn(&mut RasterPoints)) -> String {
-        let mut raster = RasterPoints { x: vec![0.25; 128], y: vec![-3.0; 128] };
+        let mut raster = RasterPoints { point: [vec![0.25; 128], vec![-3.0; 128]] };
         change(&mut raster);
         let mut world = World::new();
         let tile = world.spawn((Tile { x: 0, y: 0, width: 16, height: 8 }, raster)).id();
@@ -167,7 +167,7 @@ mod tests {
     fn the_lowest_bit_of_one_number_changes_the_digest_of_its_block_alone() {
         let before = two_blocks(|_| ());
         for (row, changed) in [(0, 0), (7, 0), (8, 1), (127, 1)] {
-            let after = two_blocks(|raster| raster.y[row] = f64::from_bits(raster.y[row].to_bits() ^ 1));
+            let after = two_blocks(|raster| raster.point[1][row] = f64::from_bits(raster.point[1][row].to_bits() ^ 1));
             let differs =
                 before.split_whitespace().zip(after.split_whitespace()).map(|(before, after)| before != after);
             assert_eq!(differs.collect::<Vec<bool>>(), [changed == 0, changed == 1], "row {row}");
@@ -176,8 +176,8 @@ mod tests {
 
     #[test]
     fn two_pixels_that_change_places_change_the_digest() {
-        let first = two_blocks(|raster| raster.x[0] = 1.0);
-        assert_ne!(first, two_blocks(|raster| raster.x[1] = 1.0));
+        let first = two_blocks(|raster| raster.point[0][0] = 1.0);
+        assert_ne!(first, two_blocks(|raster| raster.point[0][1] = 1.0));
     }
 
     #[test]

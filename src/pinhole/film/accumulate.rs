@@ -3,7 +3,8 @@
 use super::FilmTile;
 use crate::extract::layer_evidence;
 use crate::plan::{
-    Census, Column, ColumnComponent, ComponentValues, Evidence, Lifetime, Stage, TileSystems, column_component,
+    Census, Column, ColumnArrays, ColumnComponent, Evidence, Lifetime, Stage, TileSystems, VectorRows, VectorRowsMut,
+    column_component,
 };
 use crate::rays::{PixelSamples, SampleSigns, sampling_evidence, signed_evidence};
 use crate::scene::{Adaptive, LayerKind};
@@ -14,10 +15,10 @@ use bevy_ecs::prelude::*;
 pub fn add_to_film(mut tiles: Query<(&Radiance, Option<&PixelSamples>, Option<&SampleSigns>, &mut FilmTile)>) {
     for (radiance, samples, signs, mut film) in &mut tiles {
         let film = &mut *film;
-        let (r, g, b) = radiance.slices();
-        let light = |row: usize| [r[row], g[row], b[row]];
+        let rgb = radiance.slices();
+        let light = |row: usize| rgb.at(row);
         match (samples, signs) {
-            (None, _) => film.add_rows(r, g, b),
+            (None, _) => film.add_rows(rgb),
             (Some(samples), None) => {
                 for (row, &pixel) in samples.pixel.iter().enumerate() {
                     film.add(pixel as usize, light(row));
@@ -50,23 +51,19 @@ pub fn film_stage() -> Stage {
 /// It is updated by Welford's recurrence (1962) on the film's own sums, which avoids the cancellation of large sums.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmMoments {
-    /// Sum of the squared deviations of red radiance from its mean.
-    pub r: Vec<f64>,
-    /// The same for green.
-    pub g: Vec<f64>,
-    /// The same for blue.
-    pub b: Vec<f64>,
+    /// Sums of the squared deviations of red, green and blue radiance from their means.
+    pub sum: [Vec<f64>; 3],
 }
 
 impl FilmMoments {
     /// Moments without samples.
     pub fn new(rows: usize) -> Self {
-        Self { r: vec![0.0; rows], g: vec![0.0; rows], b: vec![0.0; rows] }
+        Self { sum: [(); 3].map(|()| vec![0.0; rows]) }
     }
 
     /// Takes all samples away.
     pub(super) fn empty(&mut self) {
-        [&mut self.r, &mut self.g, &mut self.b].into_iter().for_each(|sums| sums.fill(0.0));
+        self.sum.set_all([0.0; 3]);
     }
 
     /// Adds a sample that is about to be added to `film`.
@@ -82,9 +79,7 @@ impl FilmMoments {
             let deviation = f64::from(radiance[channel]) - mean[channel];
             deviation * deviation * factor
         };
-        self.r[row] += square(0);
-        self.g[row] += square(1);
-        self.b[row] += square(2);
+        self.sum.add(row, [square(0), square(1), square(2)]);
     }
 
     /// The estimated variance of a row's mean, times its number of samples: red, green, blue; 0 with fewer than two.
@@ -96,7 +91,7 @@ impl FilmMoments {
         let count = f64::from(film.count[row]);
         let ratio = if film.weight(row) > 0 { count / film.weight(row) as f64 } else { 1.0 };
         let factor = ratio * ratio / (count - 1.0).max(1.0);
-        [self.r[row] * factor, self.g[row] * factor, self.b[row] * factor]
+        self.sum.at(row).map(|sum| sum * factor)
     }
 }
 
@@ -109,29 +104,26 @@ impl Column for FilmMoments {
     const LIFETIME: Lifetime = Lifetime::Film;
 
     fn rows(&self) -> usize {
-        self.r.len()
+        self.sum.rows()
     }
 
     fn components(&self) -> Vec<ColumnComponent<'_>> {
-        vec![
-            ColumnComponent { name: "r", values: ComponentValues::F64(&self.r) },
-            ColumnComponent { name: "g", values: ComponentValues::F64(&self.g) },
-            ColumnComponent { name: "b", values: ComponentValues::F64(&self.b) },
-        ]
+        let mut listed = Vec::new();
+        self.sum.list(&["r", "g", "b"], &mut listed);
+        listed
     }
 
     fn paint(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.r[row] as f32, self.g[row] as f32, self.b[row] as f32]
+        self.sum.at(row).map(|sum| sum as f32)
     }
 }
 
 /// Adds each row's radiance to its pixel's second moments, before it is added to the film.
 pub fn add_to_moments(mut tiles: Query<(&Radiance, Option<&PixelSamples>, &FilmTile, &mut FilmMoments)>) {
     for (radiance, samples, film, mut moments) in &mut tiles {
-        let (r, g, b) = radiance.slices();
-        for row in 0..r.len() {
+        for row in 0..radiance.rows() {
             let pixel = samples.map_or(row, |samples| samples.pixel[row] as usize);
-            moments.add(film, pixel, [r[row], g[row], b[row]]);
+            moments.add(film, pixel, radiance.rgb(row));
         }
     }
 }

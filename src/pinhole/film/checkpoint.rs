@@ -159,7 +159,7 @@ fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
         if let Some(planned) = film.planned.get(number) {
             out.write_u32s(planned)?;
         }
-        for component in tile.sums() {
+        for component in &tile.sum {
             out.write_f64s(component)?;
         }
         out.write_u32s(&tile.count)?;
@@ -176,7 +176,7 @@ fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
             out.write_u32s(&rejected.radiance.map(f32::to_bits))?;
         }
         if let Some(moments) = film.moments.get(number) {
-            for component in [&moments.r, &moments.g, &moments.b] {
+            for component in &moments.sum {
                 out.write_f64s(component)?;
             }
         }
@@ -207,7 +207,7 @@ fn read_film<S: Read>(film: &mut Film, numbers: &mut Numbers<S>) -> io::Result<(
             numbers.read_u32s(planned)?;
         }
         read_tile(&mut film.tiles[number], numbers)?;
-        if let Some(FilmMoments { r, g, b }) = film.moments.get_mut(number) {
+        if let Some(FilmMoments { sum: [r, g, b] }) = film.moments.get_mut(number) {
             for component in [r, g, b] {
                 numbers.read_f64s(component)?;
             }
@@ -231,7 +231,7 @@ fn read_film<S: Read>(film: &mut Film, numbers: &mut Numbers<S>) -> io::Result<(
 }
 
 fn read_tile<S: Read>(tile: &mut FilmTile, numbers: &mut Numbers<S>) -> io::Result<()> {
-    for component in tile.sums_mut() {
+    for component in &mut tile.sum {
         numbers.read_f64s(component)?;
     }
     numbers.read_u32s(&mut tile.count)?;

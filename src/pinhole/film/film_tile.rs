@@ -2,7 +2,7 @@
 
 use super::develop::shown;
 use super::{FilmLayers, FilmMoments, FilmSplats};
-use crate::plan::{Column, ColumnComponent, ComponentValues, Lifetime, column_component};
+use crate::plan::{Column, ColumnArrays, ColumnComponent, Lifetime, VectorRows, VectorRowsMut, column_component};
 use crate::rays::Tile;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -41,12 +41,8 @@ impl Rejected {
 pub struct FilmTile {
     /// The pixels that it covers.
     pub tile: Tile,
-    /// Sum of red radiance.
-    pub r: Vec<f64>,
-    /// Sum of green radiance.
-    pub g: Vec<f64>,
-    /// Sum of blue radiance.
-    pub b: Vec<f64>,
+    /// Sums of red, green and blue radiance.
+    pub sum: [Vec<f64>; 3],
     /// Number of samples summed.
     pub count: Vec<u32>,
     /// Sums of the red, green and blue radiance of samples on a negative lobe of the filter; empty before the first.
@@ -63,15 +59,12 @@ impl FilmTile {
     /// An empty film of a tile.
     pub fn new(tile: Tile) -> Self {
         let rows = tile.rows();
-        let zeros = || vec![0.0; rows];
-        Self { tile, r: zeros(), g: zeros(), b: zeros(), count: vec![0; rows], ..Self::default() }
+        Self { tile, sum: [(); 3].map(|()| vec![0.0; rows]), count: vec![0; rows], ..Self::default() }
     }
 
     /// Takes all samples away, and keeps the memory.
     pub(super) fn empty(&mut self) {
-        for sums in [&mut self.r, &mut self.g, &mut self.b] {
-            sums.fill(0.0);
-        }
+        self.sum.set_all([0.0; 3]);
         self.count.fill(0);
         self.negative.iter_mut().for_each(Vec::clear);
         self.negative_count.clear();
@@ -90,9 +83,7 @@ impl FilmTile {
     #[inline(always)]
     pub fn add(&mut self, row: usize, radiance: [f32; 3]) {
         if Self::accepts(radiance) {
-            self.r[row] += f64::from(radiance[0]);
-            self.g[row] += f64::from(radiance[1]);
-            self.b[row] += f64::from(radiance[2]);
+            self.sum.add(row, radiance.map(f64::from));
             self.count[row] += 1;
         } else {
             self.reject(row, radiance);
@@ -100,10 +91,11 @@ impl FilmTile {
     }
 
     /// Adds a sample to each row, component by component; there may be fewer samples than rows.
-    pub fn add_rows(&mut self, r: &[f32], g: &[f32], b: &[f32]) {
+    pub fn add_rows(&mut self, radiance: [&[f32]; 3]) {
+        let [r, g, b] = radiance;
         let samples = r.iter().zip(g).zip(b).map(|((&r, &g), &b)| [r, g, b]);
         if samples.clone().fold(true, |all, sample| all & Self::accepts(sample)) {
-            for (sums, parts) in [(&mut self.r, r), (&mut self.g, g), (&mut self.b, b)] {
+            for (sums, parts) in self.sum.iter_mut().zip(radiance) {
                 sums.iter_mut().zip(parts).for_each(|(sum, &part)| *sum += f64::from(part));
             }
             self.count.iter_mut().zip(r).for_each(|(count, _)| *count += 1);
@@ -171,24 +163,14 @@ impl FilmTile {
     /// The weighted sums of a row.
     pub fn weighted_sums(&self, row: usize) -> [f64; 3] {
         let negative = |channel: usize| self.negative[channel].get(row).copied().unwrap_or(0.0);
-        [self.r[row] - 2.0 * negative(0), self.g[row] - 2.0 * negative(1), self.b[row] - 2.0 * negative(2)]
+        [0, 1, 2].map(|channel| self.sum[channel][row] - 2.0 * negative(channel))
     }
 
     /// The unweighted mean of a row's samples, unrounded.
     #[inline(always)]
     pub fn mean_f64(&self, row: usize) -> [f64; 3] {
         let count = f64::from(self.count[row].max(1));
-        [self.r[row] / count, self.g[row] / count, self.b[row] / count]
-    }
-
-    /// All components of sums, for checkpoints.
-    pub fn sums(&self) -> [&Vec<f64>; 3] {
-        [&self.r, &self.g, &self.b]
-    }
-
-    /// All components of sums, to be filled from a checkpoint.
-    pub fn sums_mut(&mut self) -> [&mut Vec<f64>; 3] {
-        [&mut self.r, &mut self.g, &mut self.b]
+        self.sum.at(row).map(|sum| sum / count)
     }
 }
 
@@ -205,18 +187,12 @@ impl Column for FilmTile {
     }
 
     fn components(&self) -> Vec<ColumnComponent<'_>> {
-        let mut components = vec![
-            ColumnComponent { name: "r", values: ComponentValues::F64(&self.r) },
-            ColumnComponent { name: "g", values: ComponentValues::F64(&self.g) },
-            ColumnComponent { name: "b", values: ComponentValues::F64(&self.b) },
-            ColumnComponent { name: "count", values: ComponentValues::U32(&self.count) },
-        ];
+        let mut components = Vec::new();
+        self.sum.list(&["r", "g", "b"], &mut components);
+        self.count.list(&["count"], &mut components);
         if !self.negative_count.is_empty() {
-            let names = ["negative_r", "negative_g", "negative_b"];
-            let sums = names.into_iter().zip(&self.negative);
-            components.extend(sums.map(|(name, sums)| ColumnComponent { name, values: ComponentValues::F64(sums) }));
-            components
-                .push(ColumnComponent { name: "negative_count", values: ComponentValues::U32(&self.negative_count) });
+            self.negative.list(&["negative_r", "negative_g", "negative_b"], &mut components);
+            self.negative_count.list(&["negative_count"], &mut components);
         }
         components
     }
@@ -329,7 +305,7 @@ impl Film {
             let start = (line * self.width + x) as usize;
             let rows = (line * width) as usize..((line + 1) * width) as usize;
             if is_plain {
-                let [red, green, blue] = [&own.r, &own.g, &own.b].map(|sums| &sums[rows.clone()]);
+                let [red, green, blue] = [0, 1, 2].map(|channel| &own.sum[channel][rows.clone()]);
                 let parts = red.iter().zip(green).zip(blue).zip(&own.count[rows]);
                 for (at, (((&red, &green), &blue), &count)) in parts.enumerate() {
                     let sums = [red, green, blue];

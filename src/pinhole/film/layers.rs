@@ -9,7 +9,7 @@ use crate::scene::LayerKind;
 use crate::shade::SurfaceColours;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// The layers of one tile's film, with a row per pixel; exists only if layers are requested.
 ///
@@ -156,13 +156,11 @@ impl LayerInputs<'_> {
             }
             (LayerKind::Uv, _) => {
                 if let Some(uvs) = self.uvs {
-                    self.add_rows(sums, pixels, |row| DVec3::new(uvs.u[row], uvs.v[row], 0.0));
+                    self.add_rows(sums, pixels, |row| DVec2::from(uvs.uv(row)).extend(0.0));
                 }
             }
             (LayerKind::Albedo, _) => match (self.colours, self.materials, self.surfaces) {
-                (Some(colours), _, _) => {
-                    self.add_rows(sums, pixels, |row| DVec3::new(colours.r[row], colours.g[row], colours.b[row]));
-                }
+                (Some(colours), _, _) => self.add_rows(sums, pixels, |row| colours.rgb(row).into()),
                 // A surface that only emits has no material, and reflects no light.
                 (None, Some(materials), Some(surfaces)) => self.add_rows(sums, pixels, |row| {
                     let own = materials.parameters.get(surfaces.material[row] as usize);

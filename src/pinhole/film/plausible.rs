@@ -29,11 +29,8 @@ fn is_plausible_tile(film: &Film, number: usize) -> bool {
     let counts = tile.count.iter().enumerate().all(|(row, &count)| count <= most_of(row));
     let negative = tile.negative_count.iter().zip(&tile.count).all(|(negative, count)| negative <= count);
     let rejected = tile.rejected <= tile.count.len() as u64 * u64::from(max);
-    let sums = tile.sums().into_iter().chain(&tile.negative).all(|component| is_valid(component));
-    let moments = film
-        .moments
-        .get(number)
-        .is_none_or(|own| [&own.r, &own.g, &own.b].into_iter().all(|component| is_valid(component)));
+    let sums = tile.sum.iter().chain(&tile.negative).all(|component| is_valid(component));
+    let moments = film.moments.get(number).is_none_or(|own| own.sum.iter().all(|component| is_valid(component)));
     let layers = film.layers.get(number).is_none_or(|own| {
         let hits = own.hits.iter().zip(&own.taken).all(|(hits, taken)| hits <= taken);
         hits && own.taken.iter().all(|&taken| taken <= max)

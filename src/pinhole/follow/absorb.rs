@@ -4,7 +4,7 @@ use super::interface::{Interface, InterfaceView};
 use super::{Media, Scattered};
 use crate::extract::{GlassTable, MaterialTable, NO_ROW, absorption_evidence, followed_evidence};
 use crate::intersect::{Hits, NO_SHAPE, Surface, Surfaces};
-use crate::plan::{Column, Shared, Stage, TileSystems};
+use crate::plan::{Column, Shared, Stage, TileSystems, VectorRowsMut};
 use crate::rays::Paths;
 use crate::shade::{ShadowHits, ShadowRays, light_distance, shadow_evidence};
 use bevy_ecs::prelude::*;
@@ -38,10 +38,7 @@ pub fn absorb_at_start(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Surfac
             }
             let surface = surfaces.get(rays.row[ray] as usize);
             let passed = passed_at_start(&surface, rays.origin_of(ray), rays.direction_of(ray));
-            let [r, g, b] = transmittances(&glass, there, passed);
-            rays.r[ray] *= r;
-            rays.g[ray] *= g;
-            rays.b[ray] *= b;
+            rays.throughput.scale(ray, transmittances(&glass, there, passed));
         }
     }
 }
@@ -55,10 +52,7 @@ pub fn absorb_in_glass(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Hits, 
             if there == NO_ROW {
                 continue;
             }
-            let [r, g, b] = transmittances(&glass, there, hits.t[row]);
-            paths.r[row] *= r;
-            paths.g[row] *= g;
-            paths.b[row] *= b;
+            paths.throughput.scale(row, transmittances(&glass, there, hits.t[row]));
         }
     }
 }
@@ -85,10 +79,8 @@ pub fn absorb_shadow_rays(
             let there = if is_behind { far } else { near };
             if there != NO_ROW {
                 let passed = passed_at_start(&surface, rays.origin_of(ray), rays.direction_of(ray));
-                let [r, g, b] = transmittances(&glass, there, passed + light_distance(rays.t_max[ray]));
-                rays.r[ray] = (f64::from(rays.r[ray]) * r) as f32;
-                rays.g[ray] = (f64::from(rays.g[ray]) * g) as f32;
-                rays.b[ray] = (f64::from(rays.b[ray]) * b) as f32;
+                let length = passed + light_distance(rays.t_max[ray]);
+                rays.weight_by(ray, transmittances(&glass, there, length));
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::Scattered;
 use crate::extract::{followed_evidence, glass_contact_evidence, lit_from_behind_evidence};
 use crate::intersect::{Contacts, Surfaces};
-use crate::plan::{Column, Stage, TileSystems};
+use crate::plan::{Column, Stage, TileSystems, VectorRowsMut};
 use crate::shade::{ShadowRays, light_distance, shadow_evidence, shadow_t_max};
 use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
@@ -22,9 +22,8 @@ fn beyond(surfaces: &Surfaces, contacts: &Contacts, row: u32, direction: Vec3) -
 pub fn leave_contacts(mut tiles: Query<(&Surfaces, &Contacts, &mut Scattered)>) {
     for (surfaces, contacts, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
-            let direction = Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]);
-            if let Some(origin) = beyond(surfaces, contacts, rays.row[ray], direction) {
-                (rays.ox[ray], rays.oy[ray], rays.oz[ray]) = origin.into();
+            if let Some(origin) = beyond(surfaces, contacts, rays.row[ray], rays.direction(ray)) {
+                rays.origin.put(ray, origin);
             }
         }
     }
@@ -36,14 +35,14 @@ pub fn leave_contacts_to_lights(mut tiles: Query<(&Surfaces, &Contacts, &mut Sha
         for ray in 0..rays.rows() {
             let direction = rays.direction_of(ray);
             if let Some(origin) = beyond(surfaces, contacts, rays.row[ray], direction.as_vec3()) {
-                let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
-                (rays.ox[ray], rays.oy[ray], rays.oz[ray]) = origin.into();
+                let from = rays.origin_of(ray);
+                rays.origin.put(ray, origin);
                 // Aimed anew at the same point: beside it, a light that is seen obliquely would be before its own point.
                 // A distant light has no point, and one without shadows, whose t_max is 0, needs none.
                 if rays.t_max[ray] > 0.0 && rays.t_max[ray] < f32::INFINITY {
                     let to_light = from + direction * light_distance(rays.t_max[ray]) - origin.as_dvec3();
                     let distance = to_light.length();
-                    (rays.dx[ray], rays.dy[ray], rays.dz[ray]) = (to_light * (1.0 / distance)).as_vec3().into();
+                    rays.direction.put(ray, (to_light * (1.0 / distance)).as_vec3());
                     rays.t_max[ray] = shadow_t_max(distance);
                 }
             }

@@ -12,13 +12,15 @@ use crate::intersect::{Contacts, Hits, MaterialRows, NO_SHAPE, ShadingNormals, S
 use crate::material::{
     Bsdf, BsdfClass, MaterialKind, MatteTable, Parameters, ShadingContext, Transport, for_each_bsdf,
 };
-use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{
+    Census, Column, ColumnArrays, Evidence, Shared, Stage, StageKind, TileSystems, VectorRows, VectorRowsMut,
+};
 use crate::rays::{DrawsView, Paths, WorldRays, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
 use crate::shade::{LightPdfs, ParameterColumns, ReflectionView, ReflectionViewItem, ShadowRays, light_evidence};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// What a path carries, by the pass that a stage runs in.
 pub(super) const fn transport(from_light: bool) -> Transport {
@@ -97,15 +99,14 @@ struct Seen<'a> {
 
 impl<'a> Seen<'a> {
     fn new(rays: &'a WorldRays, surfaces: &'a Surfaces, shading: Option<&'a ShadingNormals>) -> Self {
-        let (.., nx, ny, nz, _, material) = surfaces.slices();
-        let ray = [&rays.dx, &rays.dy, &rays.dz].map(|component| &component[..material.len()]);
-        Self { ray, normal: [nx, ny, nz], shading, material }
+        let (_, normal, _, material) = surfaces.slices();
+        Self { ray: rays.direction.slices(material.len()), normal, shading, material }
     }
 
     /// A direction of world space and that to the eye, in the frame of a row's surface.
     #[inline(always)]
     fn local<B: Bsdf>(&self, row: usize, to_light: DVec3) -> [DVec3; 2] {
-        let of = |components: &[&[f32]; 3]| DVec3::from(components.map(|component| f64::from(component[row])));
+        let of = |vectors: &[&[f32]; 3]| Vec3::from(vectors.at(row)).as_dvec3();
         let normal = self.shading.map_or_else(|| of(&self.normal), |normals| normals.get(row));
         let local_from_world = B::frame(normal).transpose();
         [to_light, -of(&self.ray)].map(|direction| local_from_world * direction)
@@ -131,7 +132,7 @@ pub fn mis_bsdf<B: Bsdf>(
             let of_row = (columns.get(&materials, row, material), row, material);
             let context = shading_context::<B>(&materials, &interface, of_row, Transport::Radiance);
             let by_bsdf = bsdf.pdf(&context, to_light, to_eye);
-            rays.weight_by(ray, power_heuristic(by_light, by_bsdf));
+            rays.weight_by(ray, [power_heuristic(by_light, by_bsdf); 3]);
         }
     }
 }
@@ -147,9 +148,9 @@ pub fn add_direct_light<B: Bsdf, const FROM_LIGHT: bool>(
         let ReflectionViewItem { eye, surfaces, shading, light, shadow: hits, mut radiance } = view;
         let interface = Interface::new(interface, glass.as_deref());
         let seen = Seen::new(eye, surfaces, shading);
-        let (rows, .., dx, dy, dz, _, r, g, b) = light.slices();
+        let (rows, _, direction, _, irradiance) = light.slices();
         let blocked = hits.map(|hits| &hits.shape[..rows.len()]);
-        let sum = radiance.slices_mut(seen.material.len());
+        let mut sum = radiance.slices_mut(seen.material.len());
         for ray in 0..rows.len() {
             let row = rows[ray] as usize;
             let material = seen.material[row] as usize;
@@ -157,16 +158,12 @@ pub fn add_direct_light<B: Bsdf, const FROM_LIGHT: bool>(
                 continue;
             }
             // A BSDF is a function of two directions in the frame of the surface.
-            let to_light = DVec3::from([dx[ray], dy[ray], dz[ray]].map(f64::from));
-            let [to_light, to_eye] = seen.local::<B>(row, to_light);
+            let [to_light, to_eye] = seen.local::<B>(row, Vec3::from(direction.at(ray)).as_dvec3());
             let of_row = (columns.get(&materials, row, material), row, material);
             let context = shading_context::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
             // The cosine is in the irradiance.
-            let (bsdf, irradiance) = (bsdf.eval(&context, to_light, to_eye), [r[ray], g[ray], b[ray]].map(f64::from));
-            let [r, g, b] = [0, 1, 2].map(|part| (bsdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
-            sum.0[row] += r;
-            sum.1[row] += g;
-            sum.2[row] += b;
+            let (bsdf, irradiance) = (bsdf.eval(&context, to_light, to_eye), irradiance.at(ray).map(f64::from));
+            sum.add(row, [0, 1, 2].map(|part| (bsdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32));
         }
     }
 }

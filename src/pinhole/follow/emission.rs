@@ -7,7 +7,7 @@ use crate::extract::{
 };
 use crate::intersect::{EmissiveRows, HitPrimitives, Hits, NO_SHAPE, SurfaceSides};
 use crate::lights::Receiver;
-use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems, VectorRowsMut};
 use crate::rays::{Depth, Paths, WorldRays};
 use crate::shade::{EmissionFactors, Radiance, area_light_pdf, environment_pdf, environment_radiance};
 use bevy_ecs::prelude::*;
@@ -63,7 +63,7 @@ pub fn add_mis_emission(
         let MisEmissionViewItem { depth, paths, rays, caustic, previous, hits, primitives, .. } = view;
         let MisEmissionViewItem { list, sides, factors, mut radiance, .. } = view;
         for (&row, &of) in list.row.iter().zip(&list.emissive) {
-            let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
+            let (row, emitted) = (row as usize, emissive.radiance[of as usize]);
             if sides.is_some_and(|sides| sides.outside[row] == 0 && emissive.one_sided[of as usize]) {
                 continue;
             }
@@ -76,7 +76,7 @@ pub fn add_mis_emission(
                 0.0
             } else if let Some(light) = light.filter(|_| !by_mirror && integrator.samples_lights) {
                 if integrator.mis {
-                    let normal = previous.map_or(DVec3::ZERO, |previous| previous.normal(row));
+                    let normal = previous.map_or(DVec3::ZERO, |previous| previous.normal(row).as_dvec3());
                     let receiver = Receiver { position: rays.origin_of(row), normal };
                     let at = rays.point_at(row, hits.t[row]);
                     power_heuristic(paths.pdf[row], area_light_pdf(&lights, light, &receiver, at))
@@ -86,10 +86,8 @@ pub fn add_mis_emission(
             } else {
                 1.0
             } as f32;
-            let [r, g, b] = factors.map_or([r, g, b], |factors| factors.times(row, [r, g, b]));
-            radiance.r[row] += weight * r;
-            radiance.g[row] += weight * g;
-            radiance.b[row] += weight * b;
+            let emitted = factors.map_or(emitted, |factors| factors.times(row, emitted));
+            radiance.rgb.add(row, emitted.map(|part| weight * part));
         }
     }
 }
@@ -131,10 +129,8 @@ pub fn add_mis_environment(
             } else {
                 0.0
             };
-            let [r, g, b] = environment_radiance(&environment, direction).map(|part| (weight * part) as f32);
-            radiance.r[row] += r;
-            radiance.g[row] += g;
-            radiance.b[row] += b;
+            let found = environment_radiance(&environment, direction);
+            radiance.rgb.add(row, found.map(|part| (weight * part) as f32));
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::extract::{
 use crate::intersect::{Hits, MaterialRows, NO_SHAPE, ShadingNormals, Surfaces, vertex_normal_evidence};
 use crate::lights::{LightStart, MAX_TARGETS_SOLID_ANGLE, StartDraws, direction_to_targets};
 use crate::material::{cosine_direction, frame_of};
-use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
 use crate::rays::{Depth, Paths, SampleNumber, Tile, WorldRays, join_camera};
 use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
 use crate::shade::{JoinPoints, Radiance, ShadowRays, environment_direction, environment_radiance};
@@ -25,19 +25,15 @@ pub const LIGHT_PATHS: u32 = 1024;
 column! {
     /// The power with which each light path leaves its light, divided by the pdf of that start.
     pub struct LightPower("light power", "light", "linear Rec. 709", Path) {
-        /// Red.
-        r: f64,
-        /// Green.
-        g: f64,
-        /// Blue.
-        b: f64,
+        /// Red, green and blue.
+        rgb: [f64; 3] as [r, g, b],
     }
 }
 
 impl LightPower {
     /// The light's colour at its full brightness.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.r[row], self.g[row], self.b[row]].map(|part| part as f32)
+        self.rgb(row).map(|part| part as f32)
     }
 }
 
@@ -118,8 +114,7 @@ pub fn start_on_lights(
         let sample = SampleIndex { number: number.0, samples: sampling.samples, depth: 0 };
         with_sampler!(sampling.sampler, D => start_rows(of, purposes.map(|own| D::of(sample, own)), to));
         let rows = crate::plan::Column::rows(&*rays);
-        let (r, g, b) = radiance.slices_mut(rows);
-        [r, g, b].into_iter().for_each(|component| component.fill(0.0));
+        radiance.slices_mut(rows).set_all([0.0; 3]);
     }
 }
 
@@ -134,21 +129,22 @@ fn start_rows<D: Draw>(
     (rays, paths, power): StartColumns<'_>,
 ) {
     let rows = tile.rows();
-    let (ox, oy, oz, dx, dy, dz) = rays.slices_mut(rows);
-    let (first, r, g, b, pdf) = paths.slices_mut(rows);
-    let (pr, pg, pb) = power.slices_mut(rows);
-    [r, g, b].into_iter().for_each(|component| component.fill(1.0));
+    let (mut origin, mut direction) = rays.slices_mut(rows);
+    let (first, mut throughput, pdf) = paths.slices_mut(rows);
+    let mut powers = power.slices_mut(rows);
+    throughput.set_all([1.0; 3]);
     pdf.fill(f64::INFINITY);
     let mut at = 0;
     for row in 0..rows {
         let key = PixelKey::new(seed, tile.pixel_of(row));
         let [target, side] = lens.two(key).map(unit);
-        let (point, direction) = (place.two(key).map(unit), pixel.two(key).map(unit));
-        let start = light_start(table, &StartDraws { light: choice.one(key), point, direction, target, side });
-        (ox[at], oy[at], oz[at]) = start.origin.into();
-        (dx[at], dy[at], dz[at]) = start.direction.as_vec3().into();
+        let draws = [place.two(key), pixel.two(key)].map(|draws| draws.map(unit));
+        let draws = StartDraws { light: choice.one(key), point: draws[0], direction: draws[1], target, side };
+        let start = light_start(table, &draws);
+        origin.put(at, start.origin);
+        direction.put(at, start.direction.as_vec3());
         first[at] = row as u32;
-        [pr[row], pg[row], pb[row]] = start.power;
+        powers.put(row, start.power);
         at += usize::from(start.power != [0.0; 3]);
     }
     rays.slices_mut(at);
@@ -219,11 +215,11 @@ pub fn leave_environment_caustics(mut tiles: Query<EnvironmentCausticsView>) {
             continue;
         }
         let radiance = &mut *radiance;
-        for row in 0..radiance.r.len() {
+        for row in 0..radiance.rows() {
             let missed = hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE);
             let by_mirror = paths.pdf[row] == f64::INFINITY;
             if missed && by_mirror && caustic.spread[paths.first[row] as usize] != 0 {
-                (radiance.r[row], radiance.g[row], radiance.b[row]) = (0.0, 0.0, 0.0);
+                radiance.rgb.put(row, [0.0; 3]);
             }
         }
     }
@@ -240,23 +236,17 @@ pub fn environment_caustics_stage() -> Stage {
 column! {
     /// The light that a batch of light paths adds to the film, in the order of bounces and paths.
     pub struct Splats("splats", "raster", "pixels; linear Rec. 709", Film) {
-        /// x, to the right.
-        x: f64,
-        /// y, downward.
-        y: f64,
-        /// Red.
-        r: f64,
-        /// Green.
-        g: f64,
-        /// Blue.
-        b: f64,
+        /// Where it lands: to the right, and downward.
+        raster: DVec2 as [x, y],
+        /// Red, green and blue.
+        rgb: [f64; 3] as [r, g, b],
     }
 }
 
 impl Splats {
     /// The radiance that is added.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.r[row], self.g[row], self.b[row]].map(|part| part as f32)
+        self.rgb(row).map(|part| part as f32)
     }
 }
 
@@ -295,19 +285,15 @@ pub fn splat_light(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<SplatVie
         let splats = &mut *splats;
         for ray in 0..rays.rows() {
             let row = rays.row[ray] as usize;
-            let sent = [radiance.r[row], radiance.g[row], radiance.b[row]];
+            let sent = radiance.rgb(row);
             if sent == [0.0; 3] {
                 continue;
             }
             let origin = rays.origin_of(ray);
-            let lens = points.map_or(DVec2::ZERO, |points| points.get(row));
+            let lens = points.map_or(DVec2::ZERO, |points| points.point(row));
             let Some(joined) = join_camera(&join, lens, origin) else { continue };
-            let (first, throughput) = (paths.first[row] as usize, paths.throughput(row));
-            splats.x.push(joined.raster.x);
-            splats.y.push(joined.raster.y);
-            splats.r.push(power.r[first] * throughput[0] * f64::from(sent[0]));
-            splats.g.push(power.g[first] * throughput[1] * f64::from(sent[1]));
-            splats.b.push(power.b[first] * throughput[2] * f64::from(sent[2]));
+            let (power, throughput) = (power.rgb(paths.first[row] as usize), paths.throughput(row));
+            splats.push((joined.raster, [0, 1, 2].map(|part| power[part] * throughput[part] * f64::from(sent[part]))));
         }
     }
 }
@@ -352,11 +338,8 @@ pub fn correct_for_shading_normals(
             } else {
                 shading.get(row)
             };
-            let onward = [scattered.dx[ray], scattered.dy[ray], scattered.dz[ray]].map(f64::from);
-            let more = shading_adjoint(own, by, -direction, DVec3::from(onward));
-            [&mut scattered.r, &mut scattered.g, &mut scattered.b]
-                .into_iter()
-                .for_each(|component| component[ray] *= more);
+            let more = shading_adjoint(own, by, -direction, scattered.direction_of(ray));
+            scattered.throughput.scale(ray, [more; 3]);
         }
     }
 }

@@ -7,8 +7,8 @@ use crate::extract::{
 };
 use crate::intersect::{Contacts, GlassCrossing, SurfaceSides, Surfaces};
 use crate::plan::{
-    Census, Column, ColumnComponent, ComponentValues, Evidence, Lifetime, RowLists, Shared, Stage, TileSystems, column,
-    column_component,
+    Census, Column, ColumnArrays, ColumnComponent, ComponentValues, Evidence, Lifetime, RowLists, Shared, Stage,
+    TileSystems, VectorRowsMut, column, column_component,
 };
 use crate::rays::{RayTimes, WorldRays};
 use crate::shapes::Bounds;
@@ -20,14 +20,9 @@ column! {
     /// The glass that each ray travels through, as a stack of the media around its origin; exists where glass absorbs
     /// or overlaps.
     pub struct Media("media", "light", "rows of the table of glass", Path, begun in Media) {
-        /// The medium at the origin.
-        first: u32,
-        /// The medium that would be there without the first.
-        second: u32,
-        /// The third.
-        third: u32,
-        /// The fourth; any others are in the column of deeper media, where that exists.
-        fourth: u32,
+        /// The medium at the origin, the one that would be there without it, and so on; those beyond the fourth are in the
+        /// column of deeper media, where that exists.
+        stack: [u32; 4] as [first, second, third, fourth],
     }
 }
 
@@ -37,20 +32,13 @@ impl Media {
 
     /// White inside glass.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [f32::from(u8::from(self.first[row] != NO_ROW)); 3]
+        [f32::from(u8::from(self.stack[0][row] != NO_ROW)); 3]
     }
 
     /// The media around a row's ray origin; none before any stage has set them.
     #[inline(always)]
     pub fn get(&self, row: usize) -> MediumStack {
-        if row >= self.first.len() {
-            return MediumStack::OUTSIDE;
-        }
-        MediumStack { rows: [self.first[row], self.second[row], self.third[row], self.fourth[row]] }
-    }
-
-    fn set(&mut self, row: usize, stack: MediumStack) {
-        [self.first[row], self.second[row], self.third[row], self.fourth[row]] = stack.rows;
+        if row < self.rows() { MediumStack { rows: self.stack(row) } } else { MediumStack::OUTSIDE }
     }
 }
 
@@ -81,8 +69,8 @@ pub fn start_media(
         if let Some(deeper) = &mut deeper {
             deeper.0.start(if near.is_empty() { rows } else { 0 });
         }
-        let (first, second, third, fourth) = media.slices_mut(rows);
-        [first, second, third, fourth].into_iter().for_each(|component| component.fill(NO_ROW));
+        let mut stacks = media.slices_mut(rows);
+        stacks.set_all([NO_ROW; 4]);
         if near.is_empty() {
             continue;
         }
@@ -96,7 +84,7 @@ pub fn start_media(
                 last = Some((origin, time));
             }
             let (stack, beyond) = MediumStack::of(&around);
-            media.set(row, stack);
+            stacks.put(row, stack.rows);
             if let Some(deeper) = &mut deeper {
                 deeper.0.push(beyond);
             }
@@ -122,7 +110,7 @@ fn list_near(bodies: &GlassBodyTable, rays: &WorldRays, near: &mut Vec<u32>) {
         });
         range.map(f64::from)
     };
-    let [x, y, z] = [&rays.ox, &rays.oy, &rays.oz].map(|origins| along(origins));
+    let [x, y, z] = rays.origin.slices(rays.rows()).map(along);
     let starts = Bounds { min: DVec3::new(x[0], y[0], z[0]), max: DVec3::new(x[1], y[1], z[1]) };
     let overlapping = bodies.row.iter().zip(0..).filter(|(body, _)| body.bounds.overlaps(&starts));
     near.extend(overlapping.map(|(_, number)| number));
@@ -150,7 +138,7 @@ pub fn carry_media(
 ) {
     for CarryViewItem { scattered, surfaces, sides, mut media, mut deeper, contacts } in &mut tiles {
         carrier.start();
-        kept.slices_mut(scattered.rows());
+        let mut next_stacks = kept.slices_mut(scattered.rows());
         for ray in 0..scattered.rows() {
             let row = scattered.row[ray] as usize;
             let goes = scattered.direction_of(ray);
@@ -169,7 +157,7 @@ pub fn carry_media(
                 None if together.is_empty() => crossing(),
                 None => stack.beyond_all(together, &glass.priority),
             };
-            kept.set(ray, next);
+            next_stacks.put(ray, next.rows);
         }
         if let Some(deeper) = &mut deeper {
             carrier.swap(deeper);

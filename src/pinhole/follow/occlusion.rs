@@ -1,7 +1,7 @@
 use crate::extract::{IntegratorTable, SamplingTable, occlusion_evidence};
 use crate::intersect::{Hits, NO_SHAPE, Surfaces, shape_evidence};
 use crate::material::{cosine_direction, frame_of};
-use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut};
 use crate::rays::{Depth, Draws, PixelSamples, SampleNumber, Tile, draws_of_two};
 use crate::sample::Purpose;
 use crate::shade::{Radiance, ShadowHits, ShadowRays};
@@ -58,15 +58,14 @@ pub fn sample_sky_with(
         list.extend((0..hits.rows() as u32).filter(|&row| hits.shape[row as usize] != NO_SHAPE));
         let draws = Draws { sampling, tile, number, samples, paths: None, depth: Depth(0) };
         draws_of_two(&draws, Purpose::Direction, list, points);
-        let (path, ox, oy, oz, dx, dy, dz, t_max, r, g, b) = rays.slices_mut(list.len());
+        let (path, mut origin, mut direction, t_max, mut irradiance) = rays.slices_mut(list.len());
         path.copy_from_slice(list);
         t_max.fill(integrator.distance);
-        [r, g, b].into_iter().for_each(|component| component.fill(PI as f32));
+        irradiance.set_all([PI as f32; 3]);
         for (at, &row) in list.iter().enumerate() {
             let surface = surfaces.get(row as usize);
-            let direction = (frame_of(surface.normal.as_dvec3()) * direction_of(points[at])).as_vec3();
-            (ox[at], oy[at], oz[at]) = offset_origin(surface.position, surface.normal, surface.bound).into();
-            (dx[at], dy[at], dz[at]) = direction.into();
+            origin.put(at, offset_origin(surface.position, surface.normal, surface.bound));
+            direction.put(at, (frame_of(surface.normal.as_dvec3()) * direction_of(points[at])).as_vec3());
         }
     }
 }
@@ -77,14 +76,14 @@ pub fn sample_sky_with(
 pub fn show_occlusion(mut tiles: Query<(Option<&Hits>, Option<(&ShadowRays, &ShadowHits)>, &mut Radiance)>) {
     for (hits, rays, mut radiance) in &mut tiles {
         let rows = radiance.rows();
-        let (r, g, b) = radiance.slices_mut(rows);
+        let mut radiance = radiance.slices_mut(rows);
         for row in (0..rows).filter(|&row| hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE)) {
-            (r[row], g[row], b[row]) = (1.0, 1.0, 1.0);
+            radiance.put(row, [1.0; 3]);
         }
         let Some((rays, shadows)) = rays else { continue };
         for ray in (0..rays.rows()).filter(|&ray| shadows.shape[ray] == NO_SHAPE) {
             let row = rays.row[ray] as usize;
-            (r[row], g[row], b[row]) = (1.0, 1.0, 1.0);
+            radiance.put(row, [1.0; 3]);
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::extract::{
 };
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces};
 use crate::material::{Bsdf, BsdfSample};
-use crate::plan::{Bounce, Column, Shared, Stage, StageKind, TileSystems, column};
+use crate::plan::{Bounce, Column, Shared, Stage, StageKind, TileSystems, VectorRows, VectorRowsMut, column};
 use crate::rays::{Depth, DrawsView, PathLight, Paths, RayTimes, WorldRays, draws_of_one, ray_vectors};
 use crate::sample::Purpose;
 use crate::shade::{Footprints, Radiance};
@@ -23,13 +23,12 @@ use std::time::Instant;
 pub fn start_paths(mut tiles: Query<(&mut Depth, &WorldRays, &mut Paths, Option<&mut PathLight>)>) {
     for (mut depth, rays, mut paths, light) in &mut tiles {
         *depth = Depth(0);
-        let (first, r, g, b, pdf) = paths.slices_mut(rays.rows());
+        let (first, mut throughput, pdf) = paths.slices_mut(rays.rows());
         first.iter_mut().zip(0..).for_each(|(first, row)| *first = row);
-        [r, g, b].into_iter().for_each(|component| component.fill(1.0));
+        throughput.set_all([1.0; 3]);
         pdf.fill(f64::INFINITY);
         if let Some(mut light) = light {
-            let (r, g, b) = light.slices_mut(rays.rows());
-            [r, g, b].into_iter().for_each(|component| component.fill(0.0));
+            light.slices_mut(rays.rows()).set_all([0.0; 3]);
         }
     }
 }
@@ -47,24 +46,12 @@ column! {
     pub struct Scattered("scattered", "world, from the eye", "scene units", Ray, begun in Start) {
         /// The row of the ray that it was scattered from.
         row: u32,
-        /// Origin, x: offset from the surface by its error bound.
-        ox: f32,
-        /// Origin, y.
-        oy: f32,
-        /// Origin, z.
-        oz: f32,
-        /// Direction, x; the three are a unit vector.
-        dx: f32,
-        /// Direction, y.
-        dy: f32,
-        /// Direction, z.
-        dz: f32,
-        /// Path throughput, red.
-        r: f64,
-        /// Green.
-        g: f64,
-        /// Blue.
-        b: f64,
+        /// Where the ray starts: off the surface by its error bound.
+        origin: Vec3 as [ox, oy, oz],
+        /// Where it goes; a unit vector.
+        direction: Vec3 as [dx, dy, dz],
+        /// The path's throughput.
+        throughput: [f64; 3] as [r, g, b],
         /// The pdf of its direction under BSDF sampling, in 1/sr; infinite after a specular bounce.
         pdf: f64,
     }
@@ -119,7 +106,7 @@ ray_vectors!(Scattered);
 impl Scattered {
     /// The direction, each component mapped from [−1, 1] to [0, 1].
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
+        self.direction.at(row).map(|part| 0.5 + 0.5 * part)
     }
 
     /// Appends a ray for each of these rows, except for rays of throughput 0.
@@ -128,14 +115,14 @@ impl Scattered {
     #[inline(always)]
     pub fn append(&mut self, rows: &[u32], ray_of: impl Fn(usize, usize) -> ScatteredRay) {
         let length = self.row.len();
-        let (path, ox, oy, oz, dx, dy, dz, r, g, b, pdf) = self.slices_mut(length + rows.len());
+        let (from, mut origin, mut direction, mut throughput, pdf) = self.slices_mut(length + rows.len());
         let mut at = length;
         for (number, &row) in rows.iter().enumerate() {
             let ray = ray_of(number, row as usize);
-            path[at] = row;
-            (ox[at], oy[at], oz[at]) = ray.origin.into();
-            (dx[at], dy[at], dz[at]) = ray.direction.as_vec3().into();
-            [r[at], g[at], b[at]] = ray.throughput;
+            from[at] = row;
+            origin.put(at, ray.origin);
+            direction.put(at, ray.direction.as_vec3());
+            throughput.put(at, ray.throughput);
             pdf[at] = ray.pdf;
             at += usize::from(ray.throughput != [0.0; 3]);
         }
@@ -145,9 +132,9 @@ impl Scattered {
     /// Moves a row to an earlier place.
     pub(super) fn moved(&mut self, from: usize, to: usize) {
         self.row[to] = self.row[from];
-        [&mut self.ox, &mut self.oy, &mut self.oz].into_iter().for_each(|component| component[to] = component[from]);
-        [&mut self.dx, &mut self.dy, &mut self.dz].into_iter().for_each(|component| component[to] = component[from]);
-        [&mut self.r, &mut self.g, &mut self.b].into_iter().for_each(|component| component[to] = component[from]);
+        self.origin.put(to, self.origin.at(from));
+        self.direction.put(to, self.direction.at(from));
+        self.throughput.put(to, self.throughput.at(from));
         self.pdf[to] = self.pdf[from];
     }
 }
@@ -168,10 +155,8 @@ pub fn add_bounce(mut tiles: Query<(&Paths, &Radiance, &mut PathLight)>) {
     for (paths, radiance, mut light) in &mut tiles {
         let light = &mut *light;
         for row in 0..paths.rows() {
-            let (first, [r, g, b]) = (paths.first[row] as usize, paths.throughput(row));
-            light.r[first] += r * f64::from(radiance.r[row]);
-            light.g[first] += g * f64::from(radiance.g[row]);
-            light.b[first] += b * f64::from(radiance.b[row]);
+            let (throughput, added) = (paths.throughput(row), radiance.rgb(row));
+            light.rgb.add(paths.first[row] as usize, [0, 1, 2].map(|part| throughput[part] * f64::from(added[part])));
         }
     }
 }
@@ -187,20 +172,19 @@ pub fn advance_to_next_bounce(
     for (mut depth, scattered, mut rays, mut paths, mut radiance) in &mut tiles {
         depth.0 += 1;
         let rows = if depth.0 < integrator.max_depth { scattered.rows() } else { 0 };
-        let (ox, oy, oz, dx, dy, dz) = rays.slices_mut(rows);
-        let from = [&scattered.ox, &scattered.oy, &scattered.oz, &scattered.dx, &scattered.dy, &scattered.dz];
-        [ox, oy, oz, dx, dy, dz].into_iter().zip(from).for_each(|(to, from)| to.copy_from_slice(&from[..rows]));
+        let (mut origin, mut direction) = rays.slices_mut(rows);
+        origin.copy_from(&scattered.origin);
+        direction.copy_from(&scattered.direction);
 
-        let (first, r, g, b, pdf) = kept.slices_mut(rows);
+        let (first, mut throughput, pdf) = kept.slices_mut(rows);
         for (first, &path) in first.iter_mut().zip(&scattered.row) {
             *first = paths.first[path as usize];
         }
-        let from = [&scattered.r, &scattered.g, &scattered.b, &scattered.pdf];
-        [r, g, b, pdf].into_iter().zip(from).for_each(|(to, from)| to.copy_from_slice(&from[..rows]));
+        throughput.copy_from(&scattered.throughput);
+        pdf.copy_from_slice(&scattered.pdf[..rows]);
         std::mem::swap(&mut *kept, &mut *paths);
 
-        let (r, g, b) = radiance.slices_mut(rows);
-        [r, g, b].into_iter().for_each(|component| component.fill(0.0));
+        radiance.slices_mut(rows).set_all([0.0; 3]);
     }
 }
 // ANCHOR_END: advance_to_next_bounce
@@ -218,8 +202,9 @@ pub fn carry_times(mut kept: Local<RayTimes>, mut tiles: Query<(&Scattered, &Wor
 /// unfiltered.
 pub fn drop_footprints(mut tiles: Query<(&WorldRays, &mut Footprints)>) {
     for (rays, mut footprints) in &mut tiles {
-        let (rx, ry, rz, dx, dy, dz) = footprints.slices_mut(rays.rows());
-        [rx, ry, rz, dx, dy, dz].into_iter().for_each(|component| component.fill(0.0));
+        let (mut right, mut down) = footprints.slices_mut(rays.rows());
+        right.set_all([0.0; 3]);
+        down.set_all([0.0; 3]);
     }
 }
 
@@ -245,8 +230,7 @@ pub fn trace_bounces(world: &mut World, tiles: &mut QueryState<&mut WorldRays, W
 pub fn sum_bounces(mut tiles: Query<(&mut Depth, &PathLight, &mut Radiance)>) {
     for (mut depth, light, mut radiance) in &mut tiles {
         *depth = Depth(0);
-        let (r, g, b) = radiance.slices_mut(light.rows());
-        for (to, from) in [r, g, b].into_iter().zip([&light.r, &light.g, &light.b]) {
+        for (to, from) in radiance.slices_mut(light.rows()).into_iter().zip(&light.rgb) {
             to.iter_mut().zip(from).for_each(|(to, &from)| *to = from as f32);
         }
     }
@@ -389,13 +373,12 @@ pub fn play_roulette(
         let mut kept = 0;
         for row in 0..scattered.rows() {
             let scale = if scattered.pdf[row] == f64::INFINITY { integrator.eta_scale } else { 1.0 };
-            let throughput = [scattered.r[row], scattered.g[row], scattered.b[row]];
+            let throughput = scattered.throughput(row);
             let probability = survival_probability(throughput.map(|part| part * scale));
             if numbers[row] < probability {
                 scattered.moved(row, kept);
                 let more = 1.0 / probability;
-                let light = &mut *scattered;
-                [&mut light.r, &mut light.g, &mut light.b].into_iter().for_each(|component| component[kept] *= more);
+                scattered.throughput.scale(kept, [more; 3]);
                 kept += 1;
             }
         }

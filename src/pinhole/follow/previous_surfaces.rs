@@ -1,53 +1,41 @@
 use super::Scattered;
 use crate::extract::{followed_evidence, many_area_lights_evidence, mis_evidence};
 use crate::intersect::Surfaces;
-use crate::plan::{Census, Column, Evidence, Stage, TileSystems, column};
+use crate::plan::{Census, Column, Evidence, Stage, TileSystems, VectorRows, VectorRowsMut, column};
 use crate::rays::WorldRays;
 use bevy_ecs::prelude::*;
-use glam::DVec3;
+use glam::Vec3;
 
 column! {
     /// The surface that each ray was scattered from, by which the probability is computed that light sampling chose the
     /// light which the ray hits; exists where one of many lights is chosen.
     pub struct PreviousSurfaces("previous surface", "world, from the eye", "unit vectors", Path, begun in Start) {
-        /// The geometric normal on the side of the ray, x; all 0 for camera rays.
-        nx: f32,
-        /// Normal, y.
-        ny: f32,
-        /// Normal, z.
-        nz: f32,
+        /// The geometric normal on the side of the ray; 0 for camera rays.
+        normal: Vec3 as [nx, ny, nz],
     }
 }
 
 impl PreviousSurfaces {
     /// The normal, each component mapped from [−1, 1] to [0, 1].
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.nx[row], self.ny[row], self.nz[row]].map(|part| 0.5 + 0.5 * part)
-    }
-
-    /// The normal of a row.
-    #[inline(always)]
-    pub fn normal(&self, row: usize) -> DVec3 {
-        DVec3::new(self.nx[row].into(), self.ny[row].into(), self.nz[row].into())
+        self.normal.at(row).map(|part| 0.5 + 0.5 * part)
     }
 }
 
 /// Camera rays leave no surface.
 pub fn start_previous_surfaces(mut tiles: Query<(&WorldRays, &mut PreviousSurfaces)>) {
     for (rays, mut previous) in &mut tiles {
-        let (x, y, z) = previous.slices_mut(rays.rows());
-        [x, y, z].into_iter().for_each(|component| component.fill(0.0));
+        previous.slices_mut(rays.rows()).set_all([0.0; 3]);
     }
 }
 
 /// Keeps the normals of the surfaces that the rays of the next bounce leave.
 pub fn keep_previous_surfaces(mut tiles: Query<(&Surfaces, &Scattered, &mut PreviousSurfaces)>) {
     for (surfaces, scattered, mut previous) in &mut tiles {
-        let (x, y, z) = previous.slices_mut(scattered.rows());
+        let mut left = previous.slices_mut(scattered.rows());
         for (ray, &row) in scattered.row.iter().enumerate() {
-            let normal = surfaces.get(row as usize).normal;
-            let along = normal.x * scattered.dx[ray] + normal.y * scattered.dy[ray] + normal.z * scattered.dz[ray];
-            (x[ray], y[ray], z[ray]) = if along < 0.0 { -normal } else { normal }.into();
+            let normal = surfaces.normal(row as usize);
+            left.put(ray, if normal.dot(scattered.direction(ray)) < 0.0 { -normal } else { normal });
         }
     }
 }

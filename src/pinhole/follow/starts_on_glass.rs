@@ -6,7 +6,7 @@ use crate::extract::{
     end_close_to_glass_evidence, followed_evidence, list_around, start_on_glass_evidence,
 };
 use crate::intersect::{NO_SHAPE, Surfaces};
-use crate::plan::{Column, Shared, Stage, TileSystems};
+use crate::plan::{Column, Shared, Stage, TileSystems, VectorRowsMut};
 use crate::rays::{RayTimes, WorldRays};
 use crate::shade::{ShadowHits, ShadowRays, light_distance, shadow_evidence};
 use bevy_ecs::prelude::*;
@@ -34,7 +34,7 @@ pub fn leave_glass_at_start(
             let is_near = |body: &&GlassBody| body.bounds.contains(ahead) || body.bounds.contains(behind);
             let mut near = bodies.row.iter().filter(is_near);
             if near.any(|body| body.windings(ahead, time) != body.windings(behind, time)) {
-                (rays.ox[row], rays.oy[row], rays.oz[row]) = ahead.as_vec3().into();
+                rays.origin.put(row, ahead.as_vec3());
             }
         }
     }
@@ -72,7 +72,7 @@ pub fn block_across_surfaces(
             let before_light = light.position - light.step * direction;
             list_around(&bodies.row, &glass, (before_light, times.map_or(0.0, |times| times.time[row])), &mut around);
             if around.first().copied().unwrap_or(NO_ROW) != if is_behind { far } else { near } {
-                (rays.r[ray], rays.g[ray], rays.b[ray]) = (0.0, 0.0, 0.0);
+                rays.irradiance.put(ray, [0.0; 3]);
             }
         }
     }

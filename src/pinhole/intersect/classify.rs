@@ -1,7 +1,7 @@
 use super::hits::{EmissiveRows, MaterialRows, ShapeRows};
 use super::{Hits, NO_SHAPE, SurfaceSides, SurfaceUvs, Surfaces};
 use crate::extract::{NO_ROW, ShapeTable, kind_evidence, shape_evidence};
-use crate::plan::{Column, Shared, Stage, TileSystems};
+use crate::plan::{Column, Shared, Stage, TileSystems, VectorRowsMut};
 use crate::shapes::{Listed, ShapeKind, with_shapes};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
@@ -57,9 +57,7 @@ pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(ShapeLis
             clear_misses(hits, &mut surfaces);
         }
         if let Some(mut uvs) = uvs {
-            let (u, v) = uvs.slices_mut(hits.rows());
-            u.fill(0.0);
-            v.fill(0.0);
+            uvs.slices_mut(hits.rows()).set_all([0.0; 2]);
         }
         if let Some(mut sides) = sides {
             sides.slices_mut(hits.rows()).fill(0);
@@ -80,10 +78,10 @@ fn list_rows(hits: &Hits, list: &mut Vec<u32>, of_kind: impl Fn(usize) -> bool) 
 
 fn clear_misses(hits: &Hits, surfaces: &mut Surfaces) {
     let rows = hits.rows();
-    let (px, py, pz, nx, ny, nz, bound, material) = surfaces.slices_mut(rows);
+    let (mut position, mut normal, bound, material) = surfaces.slices_mut(rows);
     for row in (0..rows).filter(|&row| hits.shape[row] == NO_SHAPE) {
-        (px[row], py[row], pz[row]) = (0.0, 0.0, 0.0);
-        (nx[row], ny[row], nz[row]) = (0.0, 0.0, 0.0);
+        position.put(row, [0.0; 3]);
+        normal.put(row, [0.0; 3]);
         (bound[row], material[row]) = (0.0, 0);
     }
 }

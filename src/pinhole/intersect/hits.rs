@@ -74,8 +74,8 @@ pub trait HitColumn: Column {
 
 impl RayColumn for WorldRays {
     fn ray_components(&self) -> RaySlices<'_> {
-        let (ox, oy, oz, dx, dy, dz) = self.slices();
-        RaySlices { origin: [ox, oy, oz], direction: [dx, dy, dz] }
+        let (origin, direction) = self.slices();
+        RaySlices { origin, direction }
     }
 }
 

@@ -2,7 +2,7 @@ use super::hits::ShapeRows;
 use super::moving::at_rest;
 use super::{HitPrimitives, Hits, NO_SHAPE, Surfaces};
 use crate::extract::{MeshTable, MovingTable, ShapeTable, TriangleTable, VertexNormalTable, moving_evidence};
-use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems, VectorRows, VectorRowsMut, column};
 use crate::rays::{RayTimes, WorldRays};
 use crate::scene::{MeshInstance, Triangle};
 use crate::shapes::{AnyShape, PlacedMesh, RayHit, ShapeKind, TriangleHit, TriangleRow};
@@ -17,32 +17,28 @@ column! {
     /// It is the geometric normal except on triangles with vertex normals and where a normal map tilts it; exists if the
     /// scene has one or the other.
     pub struct ShadingNormals("shading", "world", "unit vector", Ray, begun in Normal) {
-        /// x; the normal is on the side of the ray, or nearly so.
-        nx: f32,
-        /// y.
-        ny: f32,
-        /// z.
-        nz: f32,
+        /// A unit vector on the side of the ray, or nearly so.
+        normal: Vec3 as [nx, ny, nz],
     }
 }
 
 impl ShadingNormals {
     /// Paints the normal: each component from −1 to 1 is mapped to 0 to 1; black for a miss.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        let normal = [self.nx[row], self.ny[row], self.nz[row]];
+        let normal = self.normal.at(row);
         if normal == [0.0; 3] { normal } else { normal.map(|component| 0.5 + 0.5 * component) }
     }
 
     /// Writes a row.
     #[inline(always)]
     pub fn set(&mut self, row: usize, normal: DVec3) {
-        (self.nx[row], self.ny[row], self.nz[row]) = normal.as_vec3().into();
+        self.normal.put(row, normal.as_vec3());
     }
 
     /// Reads a row, in f64.
     #[inline(always)]
     pub fn get(&self, row: usize) -> DVec3 {
-        DVec3::new(f64::from(self.nx[row]), f64::from(self.ny[row]), f64::from(self.nz[row]))
+        self.normal(row).as_dvec3()
     }
 }
 
@@ -104,11 +100,8 @@ pub fn interpolate_normals(table: VertexNormals<'_>, mut tiles: Query<ShadingNor
         mut shading,
     } in &mut tiles
     {
-        let (nx, ny, nz) = shading.slices_mut(hits.rows());
-        nx.copy_from_slice(&surfaces.nx);
-        ny.copy_from_slice(&surfaces.ny);
-        nz.copy_from_slice(&surfaces.nz);
-        let mut set = |row: usize, normal: Vec3| (nx[row], ny[row], nz[row]) = normal.into();
+        shading.normal.clone_from(&surfaces.normal);
+        let mut set = |row: usize, normal: Vec3| shading.normal.put(row, normal);
         let row_of = |row: usize| shapes.row[hits.shape[row] as usize] as usize;
         if let (Some(list), Some(triangles), Some(normals)) = (list, &triangles, &of_triangles) {
             for row in list.row.iter().map(|&row| row as usize) {

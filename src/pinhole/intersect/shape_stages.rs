@@ -1,14 +1,14 @@
 //! The two stages of each kind of shape: rays are intersected with it, and the surfaces of those that hit it computed.
 
 use super::hits::ShapeRows;
-use super::surface::{Surface, SurfaceUvs, SurfaceView, SurfaceViewItem};
+use super::surface::{SurfaceUvs, SurfaceView, SurfaceViewItem};
 use super::{HitColumn, HitPrimitives, Hits, RayColumn};
 use crate::bvh::Stack;
 use crate::extract::{
     HierarchyOf, ShapeTable, ShapesOf, UvSpaceTable, hierarchy_evidence, kind_evidence, primitive_evidence,
     rasterising_camera,
 };
-use crate::plan::{Column, Shared, Stage, TileSystems};
+use crate::plan::{Column, Shared, Stage, TileSystems, VectorRowsMut};
 use crate::rays::WorldRays;
 use crate::shapes::{
     ClosestHits, HITS, HitBlock, Listed, RayHit, RaySlices, ShapeVisitor, keep_closest_of, visit_shapes,
@@ -65,6 +65,7 @@ pub fn fill_surfaces<S: Listed>(
     mut tiles: Query<SurfaceView<ShapeRows<S>>>,
 ) {
     for SurfaceViewItem { rays, hits, primitives, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
+        let (mut position, mut normal, bound, material) = surfaces.slices_mut(hits.rows());
         for rows in list.row.chunks(if S::IS_TRIANGULAR { HITS } else { 1 }) {
             for (lane, &row) in rows.iter().enumerate() {
                 let row = row as usize;
@@ -76,7 +77,9 @@ pub fn fill_surfaces<S: Listed>(
             for (lane, &row) in rows.iter().enumerate() {
                 let row = row as usize;
                 let (number, surface) = (hits.shape[row] as usize, block.surface(lane));
-                surfaces.set(row, Surface::of(surface, all.material[number]));
+                position.put(row, surface.point.as_vec3());
+                normal.put(row, surface.normal.as_vec3());
+                (bound[row], material[row]) = (surface.bound, all.material[number]);
                 if let Some(sides) = &mut sides {
                     sides.outside[row] = u32::from(surface.outside);
                 }

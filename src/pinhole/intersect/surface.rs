@@ -1,7 +1,7 @@
 //! The surfaces at hits.
 
 use super::{HitPrimitives, Hits};
-use crate::plan::column;
+use crate::plan::{VectorRows, VectorRowsMut, column};
 use crate::rays::WorldRays;
 use crate::shapes::SurfacePoint;
 use bevy_ecs::prelude::*;
@@ -11,18 +11,10 @@ use glam::{DVec3, Vec3};
 column! {
     /// The surface at each hit, in render space; all zero for a miss.
     pub struct Surfaces("surface", "world, from the eye", "scene units", Ray, begun in Classify) {
-        /// Position, x.
-        px: f32,
-        /// Position, y.
-        py: f32,
-        /// Position, z.
-        pz: f32,
-        /// Geometric normal, facing the ray, x; a unit vector.
-        nx: f32,
-        /// Normal, y.
-        ny: f32,
-        /// Normal, z.
-        nz: f32,
+        /// The hit point.
+        position: Vec3 as [px, py, pz],
+        /// The geometric normal, facing the ray; a unit vector.
+        normal: Vec3 as [nx, ny, nz],
         /// How far along the normal a spawned ray must start to be certainly off the surface.
         bound: f32,
         /// The row of the material table.
@@ -33,10 +25,8 @@ column! {
 column! {
     /// The texture coordinates of each hit, in the shape's own parametrisation; exists if a stage reads it.
     pub struct SurfaceUvs("uv", "on the shape", "of the shape's own", Ray) {
-        /// u.
-        u: f64,
-        /// v.
-        v: f64,
+        /// u and v.
+        uv: [f64; 2] as [u, v],
     }
 }
 
@@ -44,12 +34,13 @@ impl SurfaceUvs {
     /// Writes a row.
     #[inline(always)]
     pub fn set(&mut self, row: usize, uv: [f64; 2]) {
-        [self.u[row], self.v[row]] = uv;
+        self.uv.put(row, uv);
     }
 
     /// Paints the fractional parts of u and v.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.u[row], self.v[row], 0.0].map(|coordinate| (coordinate - coordinate.floor()) as f32)
+        let [u, v] = self.uv(row).map(|coordinate| (coordinate - coordinate.floor()) as f32);
+        [u, v, 0.0]
     }
 }
 
@@ -99,15 +90,15 @@ impl Surface {
 impl Surfaces {
     /// Paints the normal: each component from −1 to 1 is mapped to 0 to 1; black for a miss.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        let normal = [self.nx[row], self.ny[row], self.nz[row]];
+        let normal = self.normal.at(row);
         if normal == [0.0; 3] { normal } else { normal.map(|component| 0.5 + 0.5 * component) }
     }
 
     /// Writes a row.
     #[inline(always)]
     pub fn set(&mut self, row: usize, surface: Surface) {
-        (self.px[row], self.py[row], self.pz[row]) = surface.position.into();
-        (self.nx[row], self.ny[row], self.nz[row]) = surface.normal.into();
+        self.position.put(row, surface.position);
+        self.normal.put(row, surface.normal);
         self.bound[row] = surface.bound;
         self.material[row] = surface.material;
     }
@@ -116,8 +107,8 @@ impl Surfaces {
     #[inline(always)]
     pub fn get(&self, row: usize) -> Surface {
         Surface {
-            position: Vec3::new(self.px[row], self.py[row], self.pz[row]),
-            normal: Vec3::new(self.nx[row], self.ny[row], self.nz[row]),
+            position: self.position(row),
+            normal: self.normal(row),
             bound: self.bound[row],
             material: self.material[row],
         }

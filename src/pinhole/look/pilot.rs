@@ -119,10 +119,7 @@ pub fn pilot(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), patience:
         let light = |row: usize| match radiance.filter(|radiance| radiance.rows() == rays) {
             // Where no light is in the scene, the column is missing or has no rows.
             None => [0.0; 3],
-            Some(radiance) => {
-                let (r, g, b) = radiance.slices();
-                [r[row], g[row], b[row]]
-            }
+            Some(radiance) => radiance.rgb(row),
         };
         for row in 0..rays {
             let [r, g, b] = light(row);

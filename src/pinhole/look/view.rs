@@ -1,5 +1,7 @@
 use crate::extract::ImageFrame;
-use crate::plan::{Census, Column, ColumnKind, ComponentValues, Evidence, Shared, Stage, Table, TileSystems};
+use crate::plan::{
+    Census, Column, ColumnKind, ComponentValues, Evidence, Shared, Stage, Table, TileSystems, VectorRowsMut,
+};
 use crate::rays::{RasterPoints, Tile};
 use crate::scene::{SceneError, View};
 use crate::shade::Radiance;
@@ -50,11 +52,11 @@ fn paint_view(columns: Vec<ColumnKind>) -> impl FnMut(&mut World, &mut QueryStat
 fn paint_tile(column: ColumnKind, tile: &EntityRef<'_>, image: [u32; 2]) -> Radiance {
     let rows = tile.get::<RasterPoints>().map_or(0, Column::rows);
     let mut painted = Radiance::default();
-    let (r, g, b) = painted.slices_mut(rows);
+    let mut rgb = painted.slices_mut(rows);
     for (row, path) in (0..(column.rows)(tile)).zip(paths(column, tile)).rev() {
         // Samples beyond the image's edge have coordinates below 0, which no picture can show.
         let shown = (column.paint)(tile, row, image).map(|part| if part < 0.0 { 0.0 } else { part });
-        [r[path], g[path], b[path]] = shown;
+        rgb.put(path, shown);
     }
     painted
 }

@@ -1,9 +1,11 @@
 use super::TileSystems;
 use bevy_ecs::prelude::*;
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
+use glam::{DVec2, DVec3, Vec3};
 use serde::Serialize;
 use std::any::TypeId;
 use std::fmt;
+use std::ops::{AddAssign, MulAssign};
 
 /// How long a row of a column remains valid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -170,42 +172,296 @@ macro_rules! column_component {
 }
 pub use column_component;
 
+/// A type of a column's values: a number, or a vector or colour, each of whose parts has an array of its own.
+pub trait ColumnValue: Copy {
+    /// The arrays that hold the values.
+    type Arrays: ColumnArrays;
+    /// The value of a row.
+    fn read(arrays: &Self::Arrays, row: usize) -> Self;
+    /// Appends a row.
+    fn append(self, arrays: &mut Self::Arrays);
+}
+
+/// One array, or one a part, of the same length.
+pub trait ColumnArrays {
+    /// The arrays, borrowed.
+    type Slices<'a>
+    where
+        Self: 'a;
+    /// The arrays, borrowed to be written.
+    type SlicesMut<'a>
+    where
+        Self: 'a;
+    /// The number of rows.
+    fn rows(&self) -> usize;
+    /// Their first rows.
+    fn slices(&self, rows: usize) -> Self::Slices<'_>;
+    /// All of them, made as long as `rows`; new ones are 0.
+    fn slices_mut(&mut self, rows: usize) -> Self::SlicesMut<'_>;
+    /// Removes all rows but keeps the memory.
+    fn clear(&mut self);
+    /// Lists the arrays under these names.
+    fn list<'a>(&'a self, names: &[&'static str], listed: &mut Vec<ColumnComponent<'a>>);
+}
+
+impl<T: ComponentValue> ColumnArrays for Vec<T> {
+    type Slices<'a>
+        = &'a [T]
+    where
+        T: 'a;
+    type SlicesMut<'a>
+        = &'a mut [T]
+    where
+        T: 'a;
+
+    #[inline(always)]
+    fn rows(&self) -> usize {
+        self.len()
+    }
+
+    #[inline(always)]
+    fn slices(&self, rows: usize) -> &[T] {
+        &self[..rows]
+    }
+
+    #[inline(always)]
+    fn slices_mut(&mut self, rows: usize) -> &mut [T] {
+        self.resize(rows, T::default());
+        &mut self[..rows]
+    }
+
+    fn clear(&mut self) {
+        self.clear();
+    }
+
+    fn list<'a>(&'a self, names: &[&'static str], listed: &mut Vec<ColumnComponent<'a>>) {
+        listed.push(ColumnComponent { name: names[0], values: T::values(self) });
+    }
+}
+
+/// The rows of vectors or colours that are kept as one array a part.
+pub trait VectorRows<T, const N: usize> {
+    /// The parts of a row.
+    fn at(&self, row: usize) -> [T; N];
+}
+
+/// The same, to be written.
+pub trait VectorRowsMut<T, const N: usize> {
+    /// Replaces the parts of a row.
+    fn put(&mut self, row: usize, value: impl Into<[T; N]>);
+    /// Replaces the parts of all rows.
+    fn set_all(&mut self, value: [T; N]);
+    /// Replaces all rows by the first ones of others.
+    fn copy_from(&mut self, other: &[Vec<T>; N]);
+    /// Adds to a row, part by part.
+    fn add(&mut self, row: usize, value: [T; N])
+    where
+        T: AddAssign;
+    /// Multiplies a row, part by part.
+    fn scale(&mut self, row: usize, by: [T; N])
+    where
+        T: MulAssign;
+}
+
+/// What holds of vectors of so many parts, written out: a closure for each would be compiled for each.
+macro_rules! vectors_of {
+    ($count:literal: $($part:ident $place:tt)+) => {
+        impl<T: ComponentValue> ColumnArrays for [Vec<T>; $count] {
+            type Slices<'a> = [&'a [T]; $count] where T: 'a;
+            type SlicesMut<'a> = [&'a mut [T]; $count] where T: 'a;
+
+            #[inline(always)]
+            fn rows(&self) -> usize {
+                self[0].len()
+            }
+
+            #[inline(always)]
+            fn slices(&self, rows: usize) -> [&[T]; $count] {
+                [$(&self[$place][..rows]),+]
+            }
+
+            #[inline(always)]
+            fn slices_mut(&mut self, rows: usize) -> [&mut [T]; $count] {
+                let [$($part),+] = self;
+                [$($part.slices_mut(rows)),+]
+            }
+
+            fn clear(&mut self) {
+                $(self[$place].clear();)+
+            }
+
+            fn list<'a>(&'a self, names: &[&'static str], listed: &mut Vec<ColumnComponent<'a>>) {
+                $(self[$place].list(&names[$place..], listed);)+
+            }
+        }
+
+        impl<T: Copy, A: AsRef<[T]>> VectorRows<T, $count> for [A; $count] {
+            #[inline(always)]
+            fn at(&self, row: usize) -> [T; $count] {
+                [$(self[$place].as_ref()[row]),+]
+            }
+        }
+
+        impl<T: Copy, A: AsMut<[T]>> VectorRowsMut<T, $count> for [A; $count] {
+            #[inline(always)]
+            fn put(&mut self, row: usize, value: impl Into<[T; $count]>) {
+                let value = value.into();
+                $(self[$place].as_mut()[row] = value[$place];)+
+            }
+
+            #[inline(always)]
+            fn set_all(&mut self, value: [T; $count]) {
+                $(self[$place].as_mut().fill(value[$place]);)+
+            }
+
+            #[inline(always)]
+            fn copy_from(&mut self, other: &[Vec<T>; $count]) {
+                $({
+                    let to = self[$place].as_mut();
+                    to.copy_from_slice(&other[$place][..to.len()]);
+                })+
+            }
+
+            #[inline(always)]
+            fn add(&mut self, row: usize, value: [T; $count])
+            where
+                T: AddAssign,
+            {
+                $(self[$place].as_mut()[row] += value[$place];)+
+            }
+
+            #[inline(always)]
+            fn scale(&mut self, row: usize, by: [T; $count])
+            where
+                T: MulAssign,
+            {
+                $(self[$place].as_mut()[row] *= by[$place];)+
+            }
+        }
+    };
+}
+vectors_of!(2: x 0 y 1);
+vectors_of!(3: x 0 y 1 z 2);
+vectors_of!(4: x 0 y 1 z 2 w 3);
+
+macro_rules! numbers {
+    ($($number:ty)+) => {$(
+        impl ColumnValue for $number {
+            type Arrays = Vec<$number>;
+
+            #[inline(always)]
+            fn read(arrays: &Vec<$number>, row: usize) -> Self {
+                arrays[row]
+            }
+
+            #[inline(always)]
+            fn append(self, arrays: &mut Vec<$number>) {
+                arrays.push(self);
+            }
+        }
+    )+};
+}
+numbers!(f32 f64 u32);
+
+macro_rules! vectors {
+    ($($vector:ty: [$number:ty; $count:literal] $($place:literal)+,)+) => {$(
+        impl ColumnValue for $vector {
+            type Arrays = [Vec<$number>; $count];
+
+            #[inline(always)]
+            fn read(arrays: &[Vec<$number>; $count], row: usize) -> Self {
+                Self::from(arrays.at(row))
+            }
+
+            #[inline(always)]
+            fn append(self, arrays: &mut [Vec<$number>; $count]) {
+                let value: [$number; $count] = self.into();
+                $(arrays[$place].push(value[$place]);)+
+            }
+        }
+    )+};
+}
+vectors! {
+    DVec2: [f64; 2] 0 1,
+    [f64; 2]: [f64; 2] 0 1,
+    Vec3: [f32; 3] 0 1 2,
+    DVec3: [f64; 3] 0 1 2,
+    [f32; 3]: [f32; 3] 0 1 2,
+    [f64; 3]: [f64; 3] 0 1 2,
+    [u32; 4]: [u32; 4] 0 1 2 3,
+}
+
+/// The names of a field's parts: its own name for a number.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! part_names {
+    ($component:ident) => {
+        &[stringify!($component)]
+    };
+    ($component:ident $($part:ident)+) => {
+        &[$(stringify!($part)),+]
+    };
+}
+pub use part_names;
+
 /// Declares a column: its documentation, its name, space, unit and lifetime, and its components.
 ///
 /// The lifetime may be followed by `begun in` and the set whose stages begin the column; see
 /// [`Column::BEGUN`](crate::plan::Column::BEGUN).
-/// The struct gets one `Vec` per component, `slices` and `slices_mut` that give all components at one length, and an
-/// implementation of [`Column`](crate::plan::Column); a row is painted by the type's own `paint_row`.
+/// A component is a number, or a vector or colour with the names that `trace` shows of its parts:
+/// `origin: Vec3 as [ox, oy, oz]`.
+///
+/// The struct gets one `Vec` per number, and for each component the value of a row under the component's name;
+/// `slices` and `slices_mut` give the arrays of all components at one length, those of a vector as one array of slices.
+/// The column implements [`Column`](crate::plan::Column); a row is painted by the type's own `paint_row`.
 #[macro_export]
 macro_rules! column {
     ($(#[$doc:meta])* pub struct $column:ident(
         $name:literal, $space:literal, $unit:literal, $lifetime:ident $(, begun in $begun:ident)?
     ) {
-        $($(#[$component_doc:meta])* $component:ident: $number:ty,)+
+        $($(#[$component_doc:meta])* $component:ident: $value:ty $(as [$($part:ident),+])?,)+
     }) => {
         $(#[$doc])*
         #[derive(Clone, Debug, Default, PartialEq)]
-        pub struct $column { $($(#[$component_doc])* pub $component: Vec<$number>,)+ }
+        pub struct $column {
+            $($(#[$component_doc])* pub $component: <$value as $crate::plan::ColumnValue>::Arrays,)+
+        }
 
         #[allow(dead_code, unused_parens)]
         impl $column {
+            $($(#[$component_doc])*
+            #[inline(always)]
+            pub fn $component(&self, row: usize) -> $value {
+                <$value as $crate::plan::ColumnValue>::read(&self.$component, row)
+            })+
+
             /// All components, in order, at one length.
             #[inline(always)]
-            pub fn slices(&self) -> ($(&[$number]),+) {
+            pub fn slices(
+                &self,
+            ) -> ($(<<$value as $crate::plan::ColumnValue>::Arrays as $crate::plan::ColumnArrays>::Slices<'_>),+) {
                 let rows = $crate::plan::Column::rows(self);
-                ($(&self.$component[..rows]),+)
+                ($($crate::plan::ColumnArrays::slices(&self.$component, rows)),+)
             }
 
             /// All components, in order, resized to `rows`.
             #[inline(always)]
-            pub fn slices_mut(&mut self, rows: usize) -> ($(&mut [$number]),+) {
-                $(self.$component.resize(rows, Default::default());)+
-                ($(&mut self.$component[..rows]),+)
+            pub fn slices_mut(
+                &mut self,
+                rows: usize,
+            ) -> ($(<<$value as $crate::plan::ColumnValue>::Arrays as $crate::plan::ColumnArrays>::SlicesMut<'_>),+) {
+                ($($crate::plan::ColumnArrays::slices_mut(&mut self.$component, rows)),+)
             }
 
             /// Removes all rows but keeps the memory.
             pub fn clear(&mut self) {
-                $(self.$component.clear();)+
+                $($crate::plan::ColumnArrays::clear(&mut self.$component);)+
+            }
+
+            /// Appends a row.
+            #[inline(always)]
+            pub fn push(&mut self, ($($component),+): ($($value),+)) {
+                $($crate::plan::ColumnValue::append($component, &mut self.$component);)+
             }
         }
 
@@ -219,14 +475,17 @@ macro_rules! column {
             $(const BEGUN: Option<$crate::plan::TileSystems> = Some($crate::plan::TileSystems::$begun);)?
 
             fn rows(&self) -> usize {
-                [$(self.$component.len()),+][0]
+                [$($crate::plan::ColumnArrays::rows(&self.$component)),+][0]
             }
 
             fn components(&self) -> Vec<$crate::plan::ColumnComponent<'_>> {
-                vec![$($crate::plan::ColumnComponent {
-                    name: stringify!($component),
-                    values: $crate::plan::ComponentValue::values(&self.$component),
-                }),+]
+                let mut listed = Vec::new();
+                $($crate::plan::ColumnArrays::list(
+                    &self.$component,
+                    $crate::part_names!($component $($($part)+)?),
+                    &mut listed,
+                );)+
+                listed
             }
 
             fn paint(&self, row: usize, size: [u32; 2]) -> [f32; 3] {

@@ -38,7 +38,8 @@ pub use census::{declared, entities};
 pub use column::{Column, Lifetime};
 #[doc(hidden)]
 pub use column::{
-    ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, column, column_component,
+    ColumnArrays, ColumnComponent, ColumnKind, ColumnValue, ComponentNumber, ComponentValue, ComponentValues,
+    VectorRows, VectorRowsMut, column, column_component, part_names,
 };
 pub(crate) use custom::{Added, add_kind, check_added, check_is_added, with_added};
 #[doc(hidden)]

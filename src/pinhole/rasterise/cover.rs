@@ -2,6 +2,7 @@
 
 use super::table::RasterTriangles;
 use super::triangle::{Edge, RasterTriangle, SUBPIXELS, within};
+use crate::plan::Column;
 use crate::rays::{RasterPoints, Tile};
 use multiversion::multiversion;
 
@@ -26,7 +27,7 @@ impl Cover {
     /// Finds the nearest triangle at each sample of a tile; `pixel_of` says which pixel of the tile a row belongs to
     /// where it is not that of its number.
     pub fn fill(&mut self, table: &RasterTriangles, tile: &Tile, raster: &RasterPoints, in_order: bool) {
-        let rows = raster.x.len();
+        let rows = raster.rows();
         let room = rows.max(SAMPLES);
         for column in [&mut self.x, &mut self.y] {
             column.resize(room, 0.0);
@@ -49,7 +50,7 @@ impl Cover {
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn cover(own: &mut Cover, table: &RasterTriangles, (tile, raster): (&Tile, &RasterPoints), in_order: bool) {
     let corner = [tile.x, tile.y].map(|pixels| f64::from(pixels) * SUBPIXELS);
-    for (points, corner, steps) in [(&raster.x, corner[0], &mut own.x), (&raster.y, corner[1], &mut own.y)] {
+    for ((points, corner), steps) in raster.slices().into_iter().zip(corner).zip([&mut own.x, &mut own.y]) {
         for (point, step) in points.iter().zip(steps) {
             // Rounded before the corner is taken away, so that no tile's size or place changes a sample.
             *step = (point * SUBPIXELS + 0.5).floor() - corner;

@@ -3,40 +3,33 @@ use crate::cameras::{
     Camera, CameraRaySlices, Listed, OrthographicWindow, PerspectiveProjection, ScreenSlices, with_cameras,
 };
 use crate::extract::lens_evidence;
-use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
+use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, VectorRows, column};
 use bevy_ecs::prelude::*;
+use glam::DVec3;
 
 column! {
     /// Camera rays in camera space, where the camera is at the origin and looks down −z; directions are unit vectors.
     pub struct CameraRays("camera", "camera", "scene units", Ray) {
-        /// Origin, x: to the right.
-        ox: f64,
-        /// Origin, y: upward.
-        oy: f64,
-        /// Origin, z: backward.
-        oz: f64,
-        /// Direction, x: to the right.
-        dx: f64,
-        /// Direction, y: upward.
-        dy: f64,
-        /// Direction, z: backward.
-        dz: f64,
+        /// Where the ray starts.
+        origin: DVec3 as [ox, oy, oz],
+        /// Where it goes.
+        direction: DVec3 as [dx, dy, dz],
     }
 }
 
 impl CameraRays {
     /// Paints the direction: each component from −1 to 1 is mapped to 0 to 1.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.dx[row], self.dy[row], self.dz[row]].map(|component| (0.5 + 0.5 * component) as f32)
+        self.direction.at(row).map(|component| (0.5 + 0.5 * component) as f32)
     }
 }
 
 /// Generates a tile's camera rays; what the camera does not write stays 0.
 pub fn generate_camera_rays<C: Listed>(projection: Res<Shared<C>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
     for (screen, mut rays) in &mut tiles {
-        let (x, y) = screen.slices();
-        let (ox, oy, oz, dx, dy, dz) = rays.slices_mut(screen.rows());
-        projection.generate(ScreenSlices { x, y }, CameraRaySlices { origin: [ox, oy, oz], direction: [dx, dy, dz] });
+        let [x, y] = screen.slices();
+        let (origin, direction) = rays.slices_mut(screen.rows());
+        projection.generate(ScreenSlices { x, y }, CameraRaySlices { origin, direction });
     }
 }
 

@@ -1,7 +1,7 @@
 use super::draws::{Rows, draw_two};
 use super::{CameraRays, PixelSamples, RasterPoints, SampleNumber, ScreenPoints, Tile};
 use crate::extract::{LensTable, PerspectiveProjection, SamplingTable, lens_evidence};
-use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRows, VectorRowsMut, column};
 use crate::sample::Purpose;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
@@ -10,19 +10,18 @@ use std::f64::consts::PI;
 column! {
     /// The point of the lens at which each ray starts, relative to the lens's centre, in the plane of the lens.
     pub struct LensPoints("lens", "camera", "scene units", Pixel) {
-        /// To the right.
-        x: f64,
-        /// Upward.
-        y: f64,
+        /// To the right, and upward.
+        point: DVec2 as [x, y],
     }
 }
 
 impl LensPoints {
     /// Paints the direction from the lens's centre: right as red, up as green.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        let length = libm::hypot(self.x[row], self.y[row]);
+        let [x, y] = self.point.at(row);
+        let length = libm::hypot(x, y);
         let channel = |offset: f64| if length > 0.0 { (0.5 + 0.5 * offset / length) as f32 } else { 0.5 };
-        [channel(self.x[row]), channel(self.y[row]), 0.5]
+        [channel(x), channel(y), 0.5]
     }
 }
 
@@ -91,7 +90,7 @@ pub fn draw_lens_points(
 ) {
     for (tile, number, samples, raster, mut points) in &mut tiles {
         let rows = Rows { sampling: &sampling, tile, number, samples };
-        let (xs, ys) = points.slices_mut(raster.rows());
+        let [xs, ys] = points.slices_mut(raster.rows());
         draw_two(rows, Purpose::Lens, xs, ys);
         for (x, y) in xs.iter_mut().zip(ys) {
             (*x, *y) = lens_point(DVec2::new(*x, *y), &lens).into();
@@ -107,14 +106,11 @@ pub fn fill_lens_rays(
     mut tiles: Query<(&ScreenPoints, &LensPoints, &mut CameraRays)>,
 ) {
     for (screen, points, mut rays) in &mut tiles {
-        let (screen_x, screen_y) = screen.slices();
-        let (lens_x, lens_y) = points.slices();
-        let (ox, oy, _, dx, dy, dz) = rays.slices_mut(screen.rows());
+        let (mut origin, mut direction) = rays.slices_mut(screen.rows());
         for row in 0..screen.rows() {
-            let (screen, point) = (DVec2::new(screen_x[row], screen_y[row]), DVec2::new(lens_x[row], lens_y[row]));
-            let direction = camera_ray_lens(screen, pinhole.tan_half_vertical, point, lens.focus_distance);
-            (ox[row], oy[row]) = (point.x, point.y);
-            (dx[row], dy[row], dz[row]) = (direction.x, direction.y, direction.z);
+            let (screen, point) = (screen.point(row), points.point(row));
+            origin.put(row, point.extend(0.0));
+            direction.put(row, camera_ray_lens(screen, pinhole.tan_half_vertical, point, lens.focus_distance));
         }
     }
 }

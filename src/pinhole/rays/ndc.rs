@@ -1,7 +1,7 @@
 use super::RasterPoints;
 use super::raster::aligned_rows;
 use crate::extract::ImageFrame;
-use crate::plan::{Shared, Stage, TileSystems, column};
+use crate::plan::{Shared, Stage, TileSystems, VectorRows, VectorRowsMut, column};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use multiversion::multiversion;
@@ -9,17 +9,15 @@ use multiversion::multiversion;
 column! {
     /// Points of the image in normalised device coordinates: (0, 0) is the top left corner, (1, 1) the bottom right.
     pub struct NdcPoints("ndc", "NDC", "image size", Pixel) {
-        /// To the right.
-        x: f64,
-        /// Downward.
-        y: f64,
+        /// To the right, and downward.
+        point: DVec2 as [x, y],
     }
 }
 
 impl NdcPoints {
     /// Paints x as red, which grows to the right, and y as green, which grows downward.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.x[row] as f32, self.y[row] as f32, 0.0]
+        self.point(row).as_vec2().extend(0.0).into()
     }
 }
 
@@ -41,11 +39,9 @@ pub fn fill_ndc(image: Res<Shared<ImageFrame>>, mut tiles: Query<(&RasterPoints,
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn ndc_rows(raster: &RasterPoints, size: DVec2, ndc: &mut NdcPoints) {
     let rows = aligned_rows(raster);
-    let (raster_x, raster_y) = raster.slices();
-    let (x, y) = ndc.slices_mut(rows);
+    let (in_raster, mut in_ndc) = (raster.slices(), ndc.slices_mut(rows));
     for row in 0..rows {
-        let ndc = ndc_from_raster(DVec2::new(raster_x[row], raster_y[row]), size);
-        (x[row], y[row]) = (ndc.x, ndc.y);
+        in_ndc.put(row, ndc_from_raster(in_raster.at(row).into(), size));
     }
 }
 

@@ -12,12 +12,8 @@ column! {
     pub struct Paths("path", "light", "throughput, 1/sr", Path, begun in Start) {
         /// The row of the path's camera ray.
         first: u32,
-        /// Throughput, red: the factor by which radiance along this ray contributes to the film.
-        r: f64,
-        /// Throughput, green.
-        g: f64,
-        /// Throughput, blue.
-        b: f64,
+        /// The throughput: the factor by which radiance along this ray contributes to the film.
+        throughput: [f64; 3] as [r, g, b],
         /// The pdf, per solid angle, with which BSDF sampling chose this direction; infinite for camera rays and after
         /// specular bounces (a delta distribution).
         pdf: f64,
@@ -29,30 +25,20 @@ impl Paths {
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         self.throughput(row).map(|component| component as f32)
     }
-
-    /// The throughput of a row, as red, green and blue.
-    #[inline(always)]
-    pub fn throughput(&self, row: usize) -> [f64; 3] {
-        [self.r[row], self.g[row], self.b[row]]
-    }
 }
 
 column! {
     /// The radiance that each path has contributed to the film so far.
     pub struct PathLight("path light", "light", "linear Rec. 709", Path, begun in Start) {
-        /// Red.
-        r: f64,
-        /// Green.
-        g: f64,
-        /// Blue.
-        b: f64,
+        /// Red, green and blue.
+        rgb: [f64; 3] as [r, g, b],
     }
 }
 
 impl PathLight {
     /// Paints the radiance.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.r[row], self.g[row], self.b[row]].map(|component| component as f32)
+        self.rgb(row).map(|component| component as f32)
     }
 }
 

@@ -76,7 +76,7 @@ pub fn place_samples(
         mut signs,
     } in &mut tiles
     {
-        let (xs, ys) = raster.slices_mut(active.len());
+        let [xs, ys] = raster.slices_mut(active.len());
         let (of_pixel, sample) = samples.slices_mut(active.len());
         of_pixel.copy_from_slice(active);
         sample.fill(number);

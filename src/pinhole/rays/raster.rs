@@ -1,5 +1,5 @@
 use super::sampling_evidence;
-use crate::plan::{Column, Evidence, Stage, StageKind, TileSystems, column};
+use crate::plan::{Column, Evidence, Stage, StageKind, TileSystems, VectorRows, column};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use std::ops::Range;
@@ -64,17 +64,16 @@ impl Tile {
 column! {
     /// Points of the image in raster space: in pixels, with the origin at the top left corner and y down.
     pub struct RasterPoints("raster", "raster", "pixels", Pixel) {
-        /// To the right.
-        x: f64,
-        /// Downward.
-        y: f64,
+        /// To the right, and downward.
+        point: DVec2 as [x, y],
     }
 }
 
 impl RasterPoints {
     /// Paints x as red, which grows to the right, and y as green, which grows downward.
     fn paint_row(&self, row: usize, size: [u32; 2]) -> [f32; 3] {
-        [(self.x[row] / f64::from(size[0])) as f32, (self.y[row] / f64::from(size[1])) as f32, 0.0]
+        let [x, y] = self.point.at(row);
+        [(x / f64::from(size[0])) as f32, (y / f64::from(size[1])) as f32, 0.0]
     }
 }
 
@@ -91,7 +90,7 @@ pub fn raster_from_pixel(x: u32, y: u32) -> DVec2 {
 /// Fills a tile's raster points, line by line.
 pub fn fill_raster(mut tiles: Query<(&Tile, &mut RasterPoints)>) {
     for (tile, mut raster) in &mut tiles {
-        let (xs, ys) = raster.slices_mut(tile.rows());
+        let [xs, ys] = raster.slices_mut(tile.rows());
         let lines = xs.chunks_mut(tile.width as usize).zip(ys.chunks_mut(tile.width as usize));
         for (y, (xs, ys)) in (tile.y..).zip(lines) {
             for (x, (raster_x, raster_y)) in (tile.x..).zip(xs.iter_mut().zip(ys)) {

@@ -1,6 +1,6 @@
 use super::NdcPoints;
 use crate::extract::ImageFrame;
-use crate::plan::{Column, Shared, Stage, TileSystems, column};
+use crate::plan::{Column, Shared, Stage, TileSystems, VectorRows, VectorRowsMut, column};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use multiversion::multiversion;
@@ -8,10 +8,8 @@ use multiversion::multiversion;
 column! {
     /// Points of the image in screen space: the origin at the centre, y up from −1 to 1, x from −aspect to aspect.
     pub struct ScreenPoints("screen", "screen", "half heights", Pixel) {
-        /// To the right, from −aspect to aspect.
-        x: f64,
-        /// Upward, from −1 to 1.
-        y: f64,
+        /// To the right, from −aspect to aspect, and upward, from −1 to 1.
+        point: DVec2 as [x, y],
     }
 }
 
@@ -19,7 +17,8 @@ impl ScreenPoints {
     /// Paints x as red, which grows to the right, and y as green, which grows upward; both are 0.5 at the centre.
     fn paint_row(&self, row: usize, size: [u32; 2]) -> [f32; 3] {
         let aspect = f64::from(size[0]) / f64::from(size[1]);
-        [(0.5 + 0.5 * self.x[row] / aspect) as f32, (0.5 + 0.5 * self.y[row]) as f32, 0.0]
+        let [x, y] = self.point.at(row);
+        [(0.5 + 0.5 * x / aspect) as f32, (0.5 + 0.5 * y) as f32, 0.0]
     }
 }
 
@@ -41,11 +40,9 @@ pub fn fill_screen(image: Res<Shared<ImageFrame>>, mut tiles: Query<(&NdcPoints,
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn screen_rows(ndc: &NdcPoints, aspect: f64, screen: &mut ScreenPoints) {
     let rows = ndc.rows();
-    let (ndc_x, ndc_y) = ndc.slices();
-    let (x, y) = screen.slices_mut(rows);
+    let (in_ndc, mut in_screen) = (ndc.slices(), screen.slices_mut(rows));
     for row in 0..rows {
-        let screen = screen_from_ndc(DVec2::new(ndc_x[row], ndc_y[row]), aspect);
-        (x[row], y[row]) = (screen.x, screen.y);
+        in_screen.put(row, screen_from_ndc(in_ndc.at(row).into(), aspect));
     }
 }
 

@@ -1,32 +1,24 @@
 use super::{CameraRays, RayTimes};
 use crate::extract::{CameraAxes, RayOrigins, ShutterTable, camera_moves_evidence, ray_origins_evidence};
-use crate::plan::{Column, Shared, Stage, TileSystems, column};
+use crate::plan::{Column, Shared, Stage, TileSystems, VectorRows, VectorRowsMut, column};
 use bevy_ecs::prelude::*;
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec3};
 use multiversion::multiversion;
 
 column! {
     /// Rays in render space: the world's axes, with the eye at the origin (PBRT's camera-world space).
     pub struct WorldRays("world", "world, from the eye", "scene units", Ray, begun in World) {
-        /// Origin, x.
-        ox: f32,
-        /// Origin, y.
-        oy: f32,
-        /// Origin, z.
-        oz: f32,
-        /// Direction, x; a unit vector.
-        dx: f32,
-        /// Direction, y.
-        dy: f32,
-        /// Direction, z.
-        dz: f32,
+        /// Where the ray starts.
+        origin: Vec3 as [ox, oy, oz],
+        /// Where it goes; a unit vector.
+        direction: Vec3 as [dx, dy, dz],
     }
 }
 
 impl WorldRays {
     /// Paints the direction: each component from −1 to 1 is mapped to 0 to 1.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.dx[row], self.dy[row], self.dz[row]].map(|component| 0.5 + 0.5 * component)
+        self.direction.at(row).map(|component| 0.5 + 0.5 * component)
     }
 }
 
@@ -37,13 +29,13 @@ macro_rules! ray_vectors {
             /// The origin of a row, exact in f64.
             #[inline(always)]
             pub fn origin_of(&self, row: usize) -> glam::DVec3 {
-                glam::DVec3::new(f64::from(self.ox[row]), f64::from(self.oy[row]), f64::from(self.oz[row]))
+                self.origin(row).as_dvec3()
             }
 
             /// The direction of a row, exact in f64.
             #[inline(always)]
             pub fn direction_of(&self, row: usize) -> glam::DVec3 {
-                glam::DVec3::new(f64::from(self.dx[row]), f64::from(self.dy[row]), f64::from(self.dz[row]))
+                self.direction(row).as_dvec3()
             }
         }
     };
@@ -77,11 +69,10 @@ pub fn fill_world(
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn direction_rows(camera: &CameraRays, world_from_camera: DMat3, world: &mut WorldRays) {
     let rows = camera.rows();
-    let (_, _, _, x, y, z) = camera.slices();
-    let (_, _, _, dx, dy, dz) = world.slices_mut(rows);
+    let (_, in_camera) = camera.slices();
+    let (_, mut in_world) = world.slices_mut(rows);
     for row in 0..rows {
-        let direction = (world_from_camera * DVec3::new(x[row], y[row], z[row])).as_vec3();
-        (dx[row], dy[row], dz[row]) = (direction.x, direction.y, direction.z);
+        in_world.put(row, (world_from_camera * DVec3::from(in_camera.at(row))).as_vec3());
     }
 }
 // ANCHOR_END: direction_rows
@@ -89,21 +80,19 @@ fn direction_rows(camera: &CameraRays, world_from_camera: DMat3, world: &mut Wor
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn origin_rows(camera: &CameraRays, world_from_camera: DMat3, world: &mut WorldRays) {
     let rows = camera.rows();
-    let (x, y, z, _, _, _) = camera.slices();
-    let (ox, oy, oz, _, _, _) = world.slices_mut(rows);
+    let (in_camera, _) = camera.slices();
+    let (mut in_world, _) = world.slices_mut(rows);
     for row in 0..rows {
-        let origin = (world_from_camera * DVec3::new(x[row], y[row], z[row])).as_vec3();
-        (ox[row], oy[row], oz[row]) = (origin.x, origin.y, origin.z);
+        in_world.put(row, (world_from_camera * DVec3::from(in_camera.at(row))).as_vec3());
     }
 }
 
 /// The origins of a moving camera's rays: its position at each ray's time.
 fn moved_rows(camera: &CameraRays, world_from_camera: DMat3, velocity: DVec3, times: &[f64], world: &mut WorldRays) {
-    let (x, y, z, _, _, _) = camera.slices();
-    let (ox, oy, oz, _, _, _) = world.slices_mut(camera.rows());
+    let (in_camera, _) = camera.slices();
+    let (mut in_world, _) = world.slices_mut(camera.rows());
     for (row, &time) in times.iter().enumerate() {
-        let origin = (world_from_camera * DVec3::new(x[row], y[row], z[row]) + velocity * time).as_vec3();
-        (ox[row], oy[row], oz[row]) = origin.into();
+        in_world.put(row, (world_from_camera * DVec3::from(in_camera.at(row)) + velocity * time).as_vec3());
     }
 }
 

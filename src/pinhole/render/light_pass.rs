@@ -3,7 +3,7 @@ use super::render_world::{Hook, RenderWorld};
 use crate::extract::{FilterTable, ImageFrame, LightTracingTable, SamplingTable};
 use crate::film::{Film, SplatFilter};
 use crate::follow::{LIGHT_PATHS, Splats, Stop};
-use crate::plan::{Census, ExtractedTable, Plan, RowKind, Shared};
+use crate::plan::{Census, Column, ExtractedTable, Plan, RowKind, Shared, VectorRows};
 use crate::rays::{SampleNumber, Tile};
 use crate::render::Watch;
 use crate::scene::SceneError;
@@ -114,9 +114,8 @@ impl LightPass {
             }
             for list in &self.lists[..count as usize] {
                 let mut list = list.lock().unwrap_or_else(PoisonError::into_inner);
-                let (x, y, r, g, b) = list.slices();
-                for at in 0..x.len() {
-                    splats.add(&mut filter, [x[at], y[at]], [r[at], g[at], b[at]]);
+                for at in 0..list.rows() {
+                    splats.add(&mut filter, list.raster.at(at), list.rgb(at));
                 }
                 list.clear();
             }

@@ -3,7 +3,7 @@ use super::receivers::{LightRay, LightRows, append_sampled};
 use super::{ShadowRays, TransmissiveRows};
 use crate::extract::{CameraJoinTable, LensTable, SamplingTable, lens_evidence, traced_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine};
-use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
 use crate::rays::{Depth, Draws, Paths, SampleNumber, Tile, WorldRays, draws_of_two, join_camera, lens_point};
 use crate::sample::Purpose;
 use crate::shapes::offset_origin;
@@ -14,23 +14,15 @@ use glam::DVec2;
 column! {
     /// The point on the lens to which each surface on a light path is connected.
     pub struct JoinPoints("join", "camera", "scene units", Ray) {
-        /// x, to the right.
-        x: f64,
-        /// y, upward.
-        y: f64,
+        /// To the right, and upward.
+        point: DVec2 as [x, y],
     }
 }
 
 impl JoinPoints {
     /// x as red, y as green.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.x[row] as f32, self.y[row] as f32, 0.0]
-    }
-
-    /// A row's point.
-    #[inline(always)]
-    pub fn get(&self, row: usize) -> DVec2 {
-        DVec2::new(self.x[row], self.y[row])
+        self.point(row).as_vec2().extend(0.0).into()
     }
 }
 
@@ -56,9 +48,9 @@ pub fn sample_join_points(
     for JoinPointViewItem { tile, depth: &depth, number, paths, list, mut points } in &mut tiles {
         let draws = Draws { sampling: &sampling, tile, number: Some(number), samples: None, paths: Some(paths), depth };
         draws_of_two(&draws, Purpose::Lens, &list.row, &mut points_of_square);
-        let (xs, ys) = points.slices_mut(paths.rows());
+        let mut joined = points.slices_mut(paths.rows());
         for (&row, &u) in list.row.iter().zip(&*points_of_square) {
-            (xs[row as usize], ys[row as usize]) = lens_point(u.into(), &lens).into();
+            joined.put(row as usize, lens_point(u.into(), &lens));
         }
     }
 }
@@ -104,7 +96,7 @@ pub fn connect_to_camera(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<Co
         let receivers = LightRows::new(surfaces, shading, list, far);
         append_sampled(&receivers, (&mut rays, None), |row, surface, normal| {
             let origin = offset_origin(surface.position, surface.normal, surface.bound);
-            let lens = points.map_or(DVec2::ZERO, |points| points.get(row));
+            let lens = points.map_or(DVec2::ZERO, |points| points.point(row));
             let joined = join_camera(&join, lens, origin.as_dvec3()).unwrap_or_default();
             let distance = joined.to_camera.length();
             let direction = (joined.to_camera * (1.0 / distance)).as_vec3();

@@ -5,7 +5,7 @@ use crate::extract::{
     kind_evidence,
 };
 use crate::intersect::{EmissiveRows, HitPrimitives, Hits, MaterialRows, Surfaces};
-use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, VectorRowsMut, column};
 use crate::rays::WorldRays;
 use crate::shapes::{PlacedMesh, Shape, UvSlope};
 use bevy_ecs::prelude::*;
@@ -17,18 +17,10 @@ column! {
     /// The footprint of each pixel on the surface that it sees: the offsets from its ray's intersection with the
     /// tangent plane to those of its right and lower neighbours' rays; infinite where they do not intersect it.
     pub struct Footprints("footprint", "world", "scene units", Ray, begun in Footprint) {
-        /// The offset to the right, x.
-        rx: f64,
-        /// The offset to the right, y.
-        ry: f64,
-        /// The offset to the right, z.
-        rz: f64,
-        /// The offset down, x.
-        dx: f64,
-        /// The offset down, y.
-        dy: f64,
-        /// The offset down, z.
-        dz: f64,
+        /// The offset to the right.
+        right: DVec3 as [rx, ry, rz],
+        /// The offset down.
+        down: DVec3 as [dx, dy, dz],
     }
 }
 
@@ -47,7 +39,7 @@ impl Footprints {
     /// The offsets of a row: to the right, and down.
     #[inline(always)]
     pub fn get(&self, row: usize) -> [DVec3; 2] {
-        [DVec3::new(self.rx[row], self.ry[row], self.rz[row]), DVec3::new(self.dx[row], self.dy[row], self.dz[row])]
+        [self.right(row), self.down(row)]
     }
 }
 
@@ -86,8 +78,9 @@ pub fn compute_footprints(
     for FootprintViewItem { rays, hits, surfaces, list, emissive, mut footprints } in &mut tiles {
         // A shape that only emits has no material.
         let emissive = emissive.filter(|_| emission.is_some()).map_or(&[][..], |emissive| &emissive.row);
-        let (rx, ry, rz, dx, dy, dz) = footprints.slices_mut(surfaces.rows());
-        [&mut *rx, ry, rz, dx, dy, dz].into_iter().for_each(|component| component.fill(0.0));
+        let (mut right, mut down) = footprints.slices_mut(surfaces.rows());
+        right.set_all([0.0; 3]);
+        down.set_all([0.0; 3]);
         for &row in list.row.iter().chain(emissive) {
             let row = row as usize;
             let direction = rays.direction_of(row);
@@ -103,8 +96,8 @@ pub fn compute_footprints(
                     <[DVec3; 2]>::from(direction.any_orthonormal_pair()).map(|tangent| tangent * (angle * hits.t[row]))
                 }
             };
-            (rx[row], ry[row], rz[row]) = step_on_surface(moved[0], direction, normal).into();
-            (dx[row], dy[row], dz[row]) = step_on_surface(moved[1], direction, normal).into();
+            right.put(row, step_on_surface(moved[0], direction, normal));
+            down.put(row, step_on_surface(moved[1], direction, normal));
         }
     }
 }

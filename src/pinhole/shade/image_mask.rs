@@ -1,18 +1,16 @@
 use super::Radiance;
 use crate::cameras::{Camera, Listed, with_cameras};
-use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, VectorRowsMut};
 use crate::rays::ScreenPoints;
 use bevy_ecs::prelude::*;
-use glam::DVec2;
 
 /// Blackens the samples outside a camera's outline; they still count, so that its edge is antialiased.
 pub fn mask_image<C: Listed>(projection: Res<Shared<C>>, mut tiles: Query<(&ScreenPoints, &mut Radiance)>) {
     for (screen, mut radiance) in &mut tiles {
-        let (x, y) = screen.slices();
-        let (r, g, b) = radiance.slices_mut(screen.rows());
+        let mut radiance = radiance.slices_mut(screen.rows());
         for row in 0..screen.rows() {
-            if !projection.is_in_image(DVec2::new(x[row], y[row])) {
-                (r[row], g[row], b[row]) = (0.0, 0.0, 0.0);
+            if !projection.is_in_image(screen.point(row)) {
+                radiance.put(row, [0.0; 3]);
             }
         }
     }

@@ -3,7 +3,7 @@ use crate::extract::{
     occlusion_evidence, traced_evidence, unless_occlusion,
 };
 use crate::intersect::{RayColumn, Surface, falling_cosine};
-use crate::plan::{Census, Evidence, Stage, TileSystems, column};
+use crate::plan::{Census, Evidence, Stage, TileSystems, VectorRows, VectorRowsMut, column};
 use crate::rays::ray_vectors;
 use crate::shapes::RaySlices;
 use bevy_ecs::prelude::*;
@@ -15,26 +15,14 @@ column! {
     pub struct ShadowRays("shadow ray", "world, from the eye", "scene units", Ray, begun in Start) {
         /// The row of the tile whose surface it starts on.
         row: u32,
-        /// Origin, x: offset from the surface by its error bound.
-        ox: f32,
-        /// Origin, y.
-        oy: f32,
-        /// Origin, z.
-        oz: f32,
-        /// Direction to the light, x; the three are a unit vector.
-        dx: f32,
-        /// Direction, y.
-        dy: f32,
-        /// Direction, z.
-        dz: f32,
+        /// Where the ray starts: off the surface by its error bound.
+        origin: Vec3 as [ox, oy, oz],
+        /// The direction to the light; a unit vector.
+        direction: Vec3 as [dx, dy, dz],
         /// The distance up to which a shape blocks the ray; 0 for a light without shadows.
         t_max: f32,
-        /// The irradiance at its surface if it is not blocked, red.
-        r: f32,
-        /// Green.
-        g: f32,
-        /// Blue.
-        b: f32,
+        /// The irradiance at its surface if it is not blocked.
+        irradiance: [f32; 3] as [r, g, b],
     }
 }
 
@@ -61,26 +49,21 @@ ray_vectors!(ShadowRays);
 impl ShadowRays {
     /// The direction, each component mapped from [−1, 1] to [0, 1].
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
+        self.direction.at(row).map(|part| 0.5 + 0.5 * part)
     }
 
-    /// Multiplies a ray's irradiance by a weight.
+    /// Multiplies a ray's irradiance by a weight, colour by colour.
     #[inline(always)]
-    pub fn weight_by(&mut self, ray: usize, weight: f64) {
-        let weighted = |part: f32| (f64::from(part) * weight) as f32;
-        (self.r[ray], self.g[ray], self.b[ray]) = (weighted(self.r[ray]), weighted(self.g[ray]), weighted(self.b[ray]));
-    }
-
-    /// The irradiance of a ray if it is not blocked.
-    #[inline(always)]
-    pub fn irradiance(&self, ray: usize) -> [f64; 3] {
-        [f64::from(self.r[ray]), f64::from(self.g[ray]), f64::from(self.b[ray])]
+    pub fn weight_by(&mut self, ray: usize, weight: [f64; 3]) {
+        let carried = self.irradiance(ray);
+        self.irradiance.put(ray, [0, 1, 2].map(|part| (f64::from(carried[part]) * weight[part]) as f32));
     }
 }
 
 impl RayColumn for ShadowRays {
     fn ray_components(&self) -> RaySlices<'_> {
-        RaySlices { origin: [&self.ox, &self.oy, &self.oz], direction: [&self.dx, &self.dy, &self.dz] }
+        let (_, origin, direction, ..) = self.slices();
+        RaySlices { origin, direction }
     }
 
     fn path_component(&self) -> Option<&[u32]> {

@@ -14,7 +14,7 @@ use crate::intersect::{
     vertex_normal_evidence,
 };
 use crate::material::{Parameters, frame_of};
-use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
+use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
 use crate::rays::WorldRays;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
@@ -36,7 +36,7 @@ impl ParameterColumnsItem<'_, '_> {
         let own = &materials.parameters[material];
         let [metallic, roughness] =
             self.metallic_roughness.map_or([own.metallic, own.roughness], |column| column.get(row));
-        Parameters { colour: self.colours.map_or(own.colour, |column| column.get(row)), metallic, roughness }
+        Parameters { colour: self.colours.map_or(own.colour, |column| column.rgb(row)), metallic, roughness }
     }
 }
 
@@ -68,25 +68,22 @@ impl MetallicRoughness {
 column! {
     /// What images make of each surface's emission: a factor of its radiance; exists only where there is such an image.
     pub struct EmissionFactors("emission factor", "surface", "linear Rec. 709", Ray) {
-        /// Red; 1 where no image gives it.
-        r: f32,
-        /// Green.
-        g: f32,
-        /// Blue.
-        b: f32,
+        /// Red, green and blue; 1 where no image gives them.
+        rgb: [f32; 3] as [r, g, b],
     }
 }
 
 impl EmissionFactors {
     /// The factor itself, as a colour.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.r[row], self.g[row], self.b[row]]
+        self.rgb(row)
     }
 
     /// A row's radiance, multiplied by its factor.
     #[inline(always)]
     pub fn times(&self, row: usize, [r, g, b]: [f32; 3]) -> [f32; 3] {
-        [r * self.r[row], g * self.g[row], b * self.b[row]]
+        let factor = self.rgb(row);
+        [r * factor[0], g * factor[1], b * factor[2]]
     }
 }
 
@@ -139,17 +136,15 @@ pub fn evaluate_emission(
 ) {
     for (surfaces, list, at, mut found) in &mut tiles {
         let at: UvPointViewItem<'_, '_> = at;
-        let (r, g, b) = found.slices_mut(surfaces.rows());
-        r.fill(1.0);
-        g.fill(1.0);
-        b.fill(1.0);
+        let mut factors = found.slices_mut(surfaces.rows());
+        factors.set_all([1.0; 3]);
         for (&row, &of) in list.row.iter().zip(&list.emissive) {
             let (row, map) = (row as usize, maps.of_emissive[of as usize]);
             if map == NO_TEXTURE {
                 continue;
             }
             let factor = looked_up(&maps.images, map as usize, at.uv_point(&spaces, &slopes, row));
-            [r[row], g[row], b[row]] = factor.map(|part| part.max(0.0) as f32);
+            factors.put(row, factor.map(|part| part.max(0.0) as f32));
         }
     }
 }
@@ -244,7 +239,7 @@ pub fn map_normals(
                 continue;
             }
             let (map, shape) = (map as usize, hits.shape[row] as usize);
-            let mut at = DVec2::new(uvs.u[row], uvs.v[row]) / maps.size[map];
+            let mut at = DVec2::from(uvs.uv(row)) / maps.size[map];
             if let Some((matrix, offset)) = maps.transform[map] {
                 at = matrix * at + offset;
             }
@@ -268,10 +263,7 @@ pub fn map_normals(
 /// Makes every shading normal the geometric one, where no vertex normals are interpolated.
 pub fn copy_normals(mut tiles: Query<(&Surfaces, &mut ShadingNormals)>) {
     for (surfaces, mut shading) in &mut tiles {
-        let (nx, ny, nz) = shading.slices_mut(surfaces.rows());
-        nx.copy_from_slice(&surfaces.nx);
-        ny.copy_from_slice(&surfaces.ny);
-        nz.copy_from_slice(&surfaces.nz);
+        shading.normal.clone_from(&surfaces.normal);
     }
 }
 

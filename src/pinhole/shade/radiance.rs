@@ -7,7 +7,7 @@ use crate::extract::{
     occlusion_evidence, one_sided_evidence, traced_evidence, unless_occlusion,
 };
 use crate::intersect::{EmissiveRows, MaterialRows, ShadingNormals, SurfaceSides, Surfaces, shape_evidence};
-use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
 use crate::rays::{RasterPoints, WorldRays};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
@@ -15,29 +15,22 @@ use bevy_ecs::query::QueryData;
 column! {
     /// The radiance that each ray carries to its origin.
     pub struct Radiance("radiance", "light", "linear Rec. 709", Ray, begun in Start) {
-        /// Red.
-        r: f32,
-        /// Green.
-        g: f32,
-        /// Blue.
-        b: f32,
+        /// Red, green and blue.
+        rgb: [f32; 3] as [r, g, b],
     }
 }
 
 impl Radiance {
     /// The values themselves, without the sRGB curve that the picture gets.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.r[row], self.g[row], self.b[row]]
+        self.rgb(row)
     }
 }
 
 /// Sets the radiance of every row of a tile to zero.
 pub fn start_radiance(mut tiles: Query<(&RasterPoints, &mut Radiance)>) {
     for (raster, mut radiance) in &mut tiles {
-        let (r, g, b) = radiance.slices_mut(raster.rows());
-        r.fill(0.0);
-        g.fill(0.0);
-        b.fill(0.0);
+        radiance.slices_mut(raster.rows()).set_all([0.0; 3]);
     }
 }
 
@@ -57,14 +50,11 @@ pub fn add_emission(
 ) {
     for (list, sides, factors, mut radiance) in &mut tiles {
         for (&row, &of) in list.row.iter().zip(&list.emissive) {
-            let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
+            let (row, emitted) = (row as usize, emissive.radiance[of as usize]);
             if sides.is_some_and(|sides| sides.outside[row] == 0 && emissive.one_sided[of as usize]) {
                 continue;
             }
-            let [r, g, b] = factors.map_or([r, g, b], |factors| factors.times(row, [r, g, b]));
-            radiance.r[row] += r;
-            radiance.g[row] += g;
-            radiance.b[row] += b;
+            radiance.rgb.add(row, factors.map_or(emitted, |factors| factors.times(row, emitted)));
         }
     }
 }
@@ -99,8 +89,8 @@ pub fn shade_unlit(
         for &row in &list.row {
             let row = row as usize;
             let material = surfaces.material[row] as usize;
-            let [r, g, b] = colours.map_or_else(|| materials.parameters[material].colour, |colours| colours.get(row));
-            (radiance.r[row], radiance.g[row], radiance.b[row]) = (r as f32, g as f32, b as f32);
+            let colour = colours.map_or_else(|| materials.parameters[material].colour, |colours| colours.rgb(row));
+            radiance.rgb.put(row, colour.map(|part| part as f32));
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::light::ShadowRay;
 use super::{LightPdfs, ShadowRays, TransmissiveRows};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces};
-use crate::plan::Column;
+use crate::plan::{Column, VectorRows, VectorRowsMut};
 use glam::{DVec3, Vec3};
 
 /// A shadow ray with the irradiance that it carries.
@@ -124,9 +124,6 @@ pub(super) fn is_apart(ray: &ShadowRay) -> bool {
 /// How many shadow rays are made at once.
 const AT_ONCE: usize = 32;
 
-/// The place of t_max among the components of a ray.
-const T_MAX: usize = 6;
-
 /// The surfaces of some rows, component by component, so that one loop handles several.
 struct SurfaceBlock {
     position: [[f32; AT_ONCE]; 3],
@@ -136,9 +133,12 @@ struct SurfaceBlock {
     normal: [[f64; AT_ONCE]; 3],
 }
 
-/// Their shadow rays: the components in the order of [`ShadowRays`], and 1 for each that carries light.
+/// Their shadow rays, and 1 for each that carries light.
 struct LightRayBlock {
-    components: [[f32; AT_ONCE]; 10],
+    origin: [[f32; AT_ONCE]; 3],
+    direction: [[f32; AT_ONCE]; 3],
+    t_max: [f32; AT_ONCE],
+    irradiance: [[f32; AT_ONCE]; 3],
     counts: [u32; AT_ONCE],
 }
 
@@ -153,34 +153,42 @@ impl SurfaceBlock {
 
     #[inline(always)]
     fn set(&mut self, lane: usize, (surface, normal): (Surface, DVec3)) {
-        let [position, geometric] = [surface.position, surface.normal].map(|vector| vector.to_array());
-        let normal = normal.to_array();
-        for axis in 0..3 {
-            self.position[axis][lane] = position[axis];
-            self.geometric[axis][lane] = geometric[axis];
-            self.normal[axis][lane] = normal[axis];
-        }
+        self.position.put(lane, surface.position);
+        self.geometric.put(lane, surface.normal);
+        self.normal.put(lane, normal);
         (self.bound[lane], self.material[lane]) = (surface.bound, surface.material);
     }
 
     #[inline(always)]
     fn get(&self, lane: usize) -> (Surface, DVec3) {
-        let [position, normal] =
-            [&self.position, &self.geometric].map(|of| Vec3::new(of[0][lane], of[1][lane], of[2][lane]));
+        let [position, normal] = [&self.position, &self.geometric].map(|vectors| Vec3::from(vectors.at(lane)));
         let surface = Surface { position, normal, bound: self.bound[lane], material: self.material[lane] };
-        (surface, DVec3::new(self.normal[0][lane], self.normal[1][lane], self.normal[2][lane]))
+        (surface, self.normal.at(lane).into())
     }
 }
 
 impl LightRayBlock {
+    const NONE: Self = Self {
+        origin: [[0.0; AT_ONCE]; 3],
+        direction: [[0.0; AT_ONCE]; 3],
+        t_max: [0.0; AT_ONCE],
+        irradiance: [[0.0; AT_ONCE]; 3],
+        counts: [0; AT_ONCE],
+    };
+
+    /// The components in the order of [`ShadowRays`].
+    #[inline(always)]
+    fn components(&mut self) -> [&mut [f32; AT_ONCE]; 10] {
+        let Self { origin: [ox, oy, oz], direction: [dx, dy, dz], t_max, irradiance: [r, g, b], .. } = self;
+        [ox, oy, oz, dx, dy, dz, t_max, r, g, b]
+    }
+
     #[inline(always)]
     fn set(&mut self, lane: usize, LightRay { ray, t_max, irradiance }: &LightRay) {
-        let [r, g, b] = irradiance.map(|part| if part < MAX { part as f32 } else { f32::MAX });
-        let (origin, direction) = (ray.origin, ray.direction);
-        let all = [origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, *t_max, r, g, b];
-        for component in 0..10 {
-            self.components[component][lane] = all[component];
-        }
+        self.origin.put(lane, ray.origin);
+        self.direction.put(lane, ray.direction);
+        self.t_max[lane] = *t_max;
+        self.irradiance.put(lane, irradiance.map(|part| if part < MAX { part as f32 } else { f32::MAX }));
         self.counts[lane] = u32::from((ray.cosine > 0.0) & is_apart(ray));
     }
 }
@@ -203,8 +211,7 @@ fn append(
     light: &impl MakesRays,
     receivers: &impl Receivers,
 ) {
-    let (mut block, mut made) =
-        (SurfaceBlock::NONE, LightRayBlock { components: [[0.0; AT_ONCE]; 10], counts: [0; AT_ONCE] });
+    let (mut block, mut made) = (SurfaceBlock::NONE, LightRayBlock::NONE);
     let mut path = [0; AT_ONCE];
     for rows in rows.chunks(AT_ONCE) {
         for (lane, &row) in rows.iter().enumerate() {
@@ -218,18 +225,18 @@ fn append(
             // Every ray is written, and the next one overwrites it unless it counts, so that no branch depends on it.
             for (lane, &row) in rows.iter().enumerate() {
                 path[count] = row;
-                for component in &mut made.components {
+                for component in made.components() {
                     component[count] = component[lane];
                 }
                 count += made.counts[lane] as usize;
             }
         }
         if !casts_shadows {
-            made.components[T_MAX] = [0.0; AT_ONCE];
+            made.t_max = [0.0; AT_ONCE];
         }
         rays.row.extend_from_slice(&path[..count]);
-        let ShadowRays { ox, oy, oz, dx, dy, dz, t_max, r, g, b, .. } = rays;
-        for (column, component) in [ox, oy, oz, dx, dy, dz, t_max, r, g, b].into_iter().zip(&made.components) {
+        let ShadowRays { origin: [ox, oy, oz], direction: [dx, dy, dz], t_max, irradiance: [r, g, b], .. } = rays;
+        for (column, component) in [ox, oy, oz, dx, dy, dz, t_max, r, g, b].into_iter().zip(made.components()) {
             column.extend_from_slice(&component[..count]);
         }
     }
@@ -260,16 +267,16 @@ pub(super) fn append_sampled(
 fn append_sampled_rows(rows: &[u32], (rays, mut pdfs): RayLists<'_>, ray_of: impl Fn(usize) -> (LightRay, f64)) {
     let length = rays.rows();
     let max = length + rows.len();
-    let (path, ox, oy, oz, dx, dy, dz, t_max, r, g, b) = rays.slices_mut(max);
+    let (path, mut origin, mut direction, t_max, mut irradiance) = rays.slices_mut(max);
     let mut pdf_columns = pdfs.as_deref_mut().map(|pdfs| pdfs.slices_mut(max));
     let mut at = length;
     for &row in rows {
         let (light_ray, pdf) = ray_of(row as usize);
         path[at] = row;
-        (ox[at], oy[at], oz[at]) = light_ray.ray.origin.into();
-        (dx[at], dy[at], dz[at]) = light_ray.ray.direction.into();
+        origin.put(at, light_ray.ray.origin);
+        direction.put(at, light_ray.ray.direction);
         t_max[at] = light_ray.t_max;
-        [r[at], g[at], b[at]] = light_ray.irradiance.map(|part| part.min(MAX) as f32);
+        irradiance.put(at, light_ray.irradiance.map(|part| part.min(MAX) as f32));
         if let Some(columns) = &mut pdf_columns {
             (columns.0[at], columns.1[at]) = (row, pdf);
         }

@@ -10,7 +10,7 @@ use crate::extract::{
     environment_light_evidence, followed_evidence, light_sampling_evidence, material_evidence, unless_occlusion,
 };
 use crate::intersect::{Hits, NO_SHAPE, Surface};
-use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, VectorRowsMut};
 use crate::rays::{DrawsView, Paths, WorldRays};
 use crate::sample::{Draw, Purpose, with_sampler};
 use crate::scene::{Background, Environment, Gradient, Rgb};
@@ -21,17 +21,12 @@ use std::f64::consts::{PI, TAU};
 
 /// Adds the background's radiance to the rows that hit nothing; to all rows where the scene has no shapes.
 pub fn add_background(background: Res<Shared<BackgroundTable>>, mut tiles: Query<(Option<&Hits>, &mut Radiance)>) {
-    let [red, green, blue] = background.radiance;
     for (hits, mut radiance) in &mut tiles {
-        let (r, g, b) = {
-            let radiance = &mut *radiance;
-            (&mut radiance.r, &mut radiance.g, &mut radiance.b)
-        };
-        for row in 0..r.len() {
+        let rows = radiance.rows();
+        let mut radiance = radiance.slices_mut(rows);
+        for row in 0..rows {
             if hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE) {
-                r[row] += red;
-                g[row] += green;
-                b[row] += blue;
+                radiance.add(row, background.radiance);
             }
         }
     }
@@ -64,10 +59,8 @@ pub fn add_gradient(
     for (rays, hits, mut radiance) in &mut tiles {
         for row in 0..rays.rows() {
             if hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE) {
-                let [r, g, b] = gradient_radiance(gradient.bottom, gradient.top, f64::from(rays.dy[row]));
-                radiance.r[row] += r as f32;
-                radiance.g[row] += g as f32;
-                radiance.b[row] += b as f32;
+                let found = gradient_radiance(gradient.bottom, gradient.top, rays.direction_of(row).y);
+                radiance.rgb.add(row, found.map(|part| part as f32));
             }
         }
     }
@@ -146,10 +139,8 @@ pub fn add_environment(
     for (rays, hits, mut radiance) in &mut tiles {
         for row in 0..rays.rows() {
             if hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE) {
-                let [r, g, b] = environment_radiance(&environment, rays.direction_of(row));
-                radiance.r[row] += r as f32;
-                radiance.g[row] += g as f32;
-                radiance.b[row] += b as f32;
+                let found = environment_radiance(&environment, rays.direction_of(row));
+                radiance.rgb.add(row, found.map(|part| part as f32));
             }
         }
     }

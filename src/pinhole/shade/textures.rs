@@ -10,62 +10,37 @@ use crate::extract::{
     vertex_colour_evidence,
 };
 use crate::intersect::{HitPrimitives, Hits, MaterialRows, SurfaceUvs, Surfaces, at_rest};
-use crate::plan::{Column, Shared, Stage, TileSystems, column};
+use crate::plan::{Column, Shared, Stage, TileSystems, VectorRows, VectorRowsMut, column};
 use crate::rays::{RayTimes, WorldRays};
 use crate::scene::{Checker, ImageTexture, Rgb, Stripes};
 use crate::shapes::{AnyShape, PlacedMesh, RayHit, ShapeKind, face_axes, most_of};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use bevy_ecs::system::SystemParam;
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 column! {
     /// The texture coordinates of each surface, and the pixel's footprint in them; all 0 where there is no texture.
     pub struct TexturePoints("texture", "of the texture", "cells, stripes, images", Ray) {
-        /// The first coordinate.
-        x: f64,
-        /// The second.
-        y: f64,
-        /// The third.
-        z: f64,
-        /// The footprint's offset to the right, x; 0 where nothing is filtered.
-        rx: f64,
-        /// The offset to the right, y.
-        ry: f64,
-        /// The offset to the right, z.
-        rz: f64,
-        /// The offset down, x.
-        dx: f64,
-        /// The offset down, y.
-        dy: f64,
-        /// The offset down, z.
-        dz: f64,
+        /// The point, in the space of its texture.
+        point: DVec3 as [x, y, z],
+        /// The footprint's offset to the right; 0 where nothing is filtered.
+        right: DVec3 as [rx, ry, rz],
+        /// The offset down.
+        down: DVec3 as [dx, dy, dz],
     }
 }
 
 impl TexturePoints {
     /// The fractional part of each coordinate.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.x[row], self.y[row], self.z[row]].map(|part| (part - part.floor()) as f32)
+        self.point.at(row).map(|part| (part - part.floor()) as f32)
     }
 
     /// Gets a row.
     #[inline(always)]
     pub fn get(&self, row: usize) -> TexturePoint {
-        TexturePoint {
-            point: DVec3::new(self.x[row], self.y[row], self.z[row]),
-            steps: [
-                DVec3::new(self.rx[row], self.ry[row], self.rz[row]),
-                DVec3::new(self.dx[row], self.dy[row], self.dz[row]),
-            ],
-        }
-    }
-
-    #[inline(always)]
-    fn set(&mut self, row: usize, at: TexturePoint) {
-        (self.x[row], self.y[row], self.z[row]) = at.point.into();
-        (self.rx[row], self.ry[row], self.rz[row]) = at.steps[0].into();
-        (self.dx[row], self.dy[row], self.dz[row]) = at.steps[1].into();
+        TexturePoint { point: self.point(row), steps: [self.right(row), self.down(row)] }
     }
 }
 
@@ -112,7 +87,7 @@ impl UvPointViewItem<'_, '_> {
     #[inline(always)]
     pub fn uv_point(&self, spaces: &ShapeSpaces, slopes: &RowSlopes<'_>, row: usize) -> TexturePoint {
         let (shape, steps) = (self.hits.shape[row] as usize, self.steps(row));
-        let uv = self.uvs.map_or(DVec3::ZERO, |uvs| DVec3::new(uvs.u[row], uvs.v[row], 0.0));
+        let uv = self.uvs.map_or(DVec3::ZERO, |uvs| DVec2::from(uvs.uv(row)).extend(0.0));
         let steps = slopes.get(shape, self.primitives, row).map_or([DVec3::ZERO; 2], |slope| {
             let at = in_space(spaces, shape, self.rays.point_at(row, self.hits.t[row]), steps);
             let normal = self.surfaces.get(row).normal.as_dvec3();
@@ -133,8 +108,8 @@ pub fn compute_texture_points(
     for (hit, list, mut points) in &mut tiles {
         let hit: UvPointViewItem<'_, '_> = hit;
         let (rays, hits, surfaces) = (hit.rays, hit.hits, hit.surfaces);
-        let (x, y, z, rx, ry, rz, dx, dy, dz) = points.slices_mut(surfaces.rows());
-        [&mut *x, y, z, rx, ry, rz, dx, dy, dz].into_iter().for_each(|component| component.fill(0.0));
+        let (mut point, mut right, mut down) = points.slices_mut(surfaces.rows());
+        [&mut point, &mut right, &mut down].into_iter().for_each(|vectors| vectors.set_all([0.0; 3]));
         for &row in &list.row {
             let row = row as usize;
             let map = &maps.map[surfaces.material[row] as usize];
@@ -149,7 +124,10 @@ pub fn compute_texture_points(
                     on_face(face_from_space(spaces.world_from_shape[shape].transpose() * normal), at)
                 }
             };
-            points.set(row, on_texture(map, at));
+            let at = on_texture(map, at);
+            point.put(row, at.point);
+            right.put(row, at.steps[0]);
+            down.put(row, at.steps[1]);
         }
     }
 }
@@ -186,22 +164,12 @@ pub fn colour_surfaces(
     mut tiles: Query<(&Surfaces, &MaterialRows, &mut SurfaceColours)>,
 ) {
     for (surfaces, list, mut colours) in &mut tiles {
-        let (r, g, b) = colours.slices_mut(surfaces.rows());
-        r.fill(0.0);
-        g.fill(0.0);
-        b.fill(0.0);
+        let mut colours = colours.slices_mut(surfaces.rows());
+        colours.set_all([0.0; 3]);
         for &row in &list.row {
             let row = row as usize;
-            [r[row], g[row], b[row]] = materials.parameters[surfaces.material[row] as usize].colour;
+            colours.put(row, materials.parameters[surfaces.material[row] as usize].colour);
         }
-    }
-}
-
-impl SurfaceColours {
-    /// Sets the colour of a row.
-    #[inline(always)]
-    pub(super) fn set(&mut self, row: usize, colour: [f64; 3]) {
-        [self.r[row], self.g[row], self.b[row]] = colour;
     }
 }
 
@@ -213,25 +181,15 @@ pub fn colour_stage() -> Stage {
 column! {
     /// The albedo of each surface's diffuse reflection; exists where it is not the material's own colour everywhere.
     pub struct SurfaceColours("colour", "surface", "linear Rec. 709", Ray, begun in Colour) {
-        /// Red, from 0 to 1.
-        r: f64,
-        /// Green.
-        g: f64,
-        /// Blue.
-        b: f64,
+        /// Red, green and blue, from 0 to 1.
+        rgb: [f64; 3] as [r, g, b],
     }
 }
 
 impl SurfaceColours {
     /// The colour itself, without the sRGB curve that the picture gets.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.r[row] as f32, self.g[row] as f32, self.b[row] as f32]
-    }
-
-    /// The colour of a row.
-    #[inline(always)]
-    pub fn get(&self, row: usize) -> [f64; 3] {
-        [self.r[row], self.g[row], self.b[row]]
+        self.rgb(row).map(|part| part as f32)
     }
 }
 
@@ -344,7 +302,7 @@ pub fn evaluate_pattern<T: Pattern>(
                 continue;
             }
             let (pattern, at) = (&table.pattern[texture as usize], points.get(row));
-            colours.set(row, pattern.colour(&if pattern.is_filtered() { at } else { at.alone() }));
+            colours.rgb.put(row, pattern.colour(&if pattern.is_filtered() { at } else { at.alone() }));
         }
     }
 }
@@ -389,7 +347,7 @@ pub fn evaluate_images(
             } else {
                 nearest_texel(&pyramid.levels[0], at.point.truncate(), wrap)
             };
-            colours.set(row, colour);
+            colours.rgb.put(row, colour);
         }
     }
 }
@@ -457,8 +415,8 @@ pub fn tint_surfaces(tints: Res<Shared<TintTable>>, meshes: ColouredMeshes<'_>, 
             let row = row as usize;
             let Some(tint) = tints.row_of(hit.surfaces.material[row] as usize) else { continue };
             let vertices = if tints.by_vertex[tint] { meshes.colour(&hit, row) } else { None };
-            let (own, factor, vertices) = (hit.colours.get(row), tints.factor[tint], vertices.unwrap_or([1.0; 3]));
-            hit.colours.set(row, [0, 1, 2].map(|part| own[part] * factor[part] * vertices[part]));
+            let (own, factor, vertices) = (hit.colours.rgb(row), tints.factor[tint], vertices.unwrap_or([1.0; 3]));
+            hit.colours.rgb.put(row, [0, 1, 2].map(|part| own[part] * factor[part] * vertices[part]));
         }
     }
 }

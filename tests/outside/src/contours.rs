@@ -2,6 +2,7 @@
 
 use pinhole::extend::Radiance;
 use pinhole::intersect::{Hits, Surfaces};
+use pinhole::plan::VectorRowsMut;
 use pinhole::prelude::*;
 
 /// On any entity: lines are drawn.
@@ -42,13 +43,10 @@ impl Table for ContourTable {
 fn draw(table: Res<Shared<ContourTable>>, mut tiles: Query<(&Hits, &Surfaces, &mut Radiance)>) {
     let Contours { step, width } = table.contours;
     for (hits, surfaces, mut radiance) in &mut tiles {
-        let radiance = &mut *radiance;
         for row in 0..hits.t.len() {
-            let height = surfaces.py[row] + table.eye;
+            let height = surfaces.position[1][row] + table.eye;
             if hits.t[row] < f64::INFINITY && (height + 0.5 * width).rem_euclid(step) < width {
-                for part in [&mut radiance.r, &mut radiance.g, &mut radiance.b] {
-                    part[row] *= 0.2;
-                }
+                radiance.rgb.scale(row, [0.2; 3]);
             }
         }
     }

@@ -93,9 +93,8 @@ impl ClosedForm {
         world.entity_mut(camera).insert((sampling, Resolution { width: SIDE, height: SIDE }));
         let film = render(&world, stages, &Execution::default(), &())?.film;
         let of_tile = |tile: &FilmTile| {
-            let FilmTile { r, g, b, count, .. } = tile;
-            let component = [r, g, b][self.component.min(2)];
-            component.iter().zip(count).map(|(sum, &n)| sum / f64::from(n)).collect::<Vec<_>>()
+            let component = &tile.sum[self.component.min(2)];
+            component.iter().zip(&tile.count).map(|(sum, &n)| sum / f64::from(n)).collect::<Vec<_>>()
         };
         Ok(film.tiles.iter().flat_map(of_tile).collect())
     }

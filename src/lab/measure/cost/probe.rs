@@ -12,11 +12,11 @@ use crate::measure::oracle_rectangle::rectangle_hit;
 use crate::measure::oracle_sphere::{Sphere, sphere_hit};
 use crate::measure::oracle_triangle::triangle_hit;
 use bevy_ecs::prelude::*;
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, Vec3};
 use pinhole::Result;
 use pinhole::film::film_stage;
 use pinhole::intersect::{self, Hits, NO_SHAPE, Surfaces};
-use pinhole::plan::Stage;
+use pinhole::plan::{Stage, VectorRows};
 use pinhole::rays::{self, CameraRays, NdcPoints, PixelSamples, RasterPoints, ScreenPoints, Tile, WorldRays};
 use pinhole::render::{Inspection, first_bounce_only, inspect};
 use pinhole::shade;
@@ -91,21 +91,21 @@ fn probe(tile: &EntityRef<'_>, row: usize, pixel: [u32; 2], exact: &Exact, worst
     let camera = &exact.camera;
     // A sample's place in its pixel is chosen at random, so it is taken for right; without samples it is the centre.
     let within = match (tile.get::<PixelSamples>(), tile.get::<RasterPoints>()) {
-        (Some(_), Some(points)) => DVec2::new(points.x[row], points.y[row]) - DVec2::from(pixel.map(f64::from)),
+        (Some(_), Some(points)) => points.point(row) - DVec2::from(pixel.map(f64::from)),
         _ => DVec2::splat(0.5),
     };
     let raster = camera.raster(pixel, within);
     let size = DVec2::new(f64::from(camera.width), f64::from(camera.height));
     let rounded = |point: &ExactPoint| DVec2::new(point.x.to_f64(), point.y.to_f64());
     if let Some(points) = tile.get::<RasterPoints>() {
-        note(&mut worst.points[0], (DVec2::new(points.x[row], points.y[row]) - rounded(&raster)).length());
+        note(&mut worst.points[0], (points.point(row) - rounded(&raster)).length());
     }
     if let Some(points) = tile.get::<NdcPoints>() {
-        let off = DVec2::new(points.x[row], points.y[row]) - rounded(&camera.ndc(&raster));
+        let off = points.point(row) - rounded(&camera.ndc(&raster));
         note(&mut worst.points[1], (off * size).length());
     }
     if let Some(points) = tile.get::<ScreenPoints>() {
-        let off = DVec2::new(points.x[row], points.y[row]) - rounded(&camera.screen(&raster));
+        let off = points.point(row) - rounded(&camera.screen(&raster));
         note(&mut worst.points[2], off.length() * size.y / 2.0);
     }
     match exact.half_height {
@@ -127,11 +127,11 @@ fn probe(tile: &EntityRef<'_>, row: usize, pixel: [u32; 2], exact: &Exact, worst
 
 fn probe_perspective(tile: &EntityRef<'_>, row: usize, raster: &ExactPoint, exact: &ExactCamera, worst: &mut Worst) {
     if let Some(rays) = tile.get::<CameraRays>() {
-        let direction = DVec3::new(rays.dx[row], rays.dy[row], rays.dz[row]);
+        let direction = rays.direction(row);
         note(&mut worst.points[3], exact.camera_error_in_pixels(direction / -direction.z, raster));
     }
     if let Some(rays) = tile.get::<WorldRays>() {
-        let direction = Vec3::new(rays.dx[row], rays.dy[row], rays.dz[row]);
+        let direction = rays.direction(row);
         let errors = [exact.world_error_in_pixels(direction, raster), exact.world_error_in_radians(direction, raster)];
         let [pixels, radians] = worst.world.unwrap_or_default();
         worst.world = Some([pixels.max(errors[0]), radians.max(errors[1])]);
@@ -152,14 +152,14 @@ fn probe_orthographic(
     let origin = ExactVector { x: &screen.x * &half, y: &screen.y * &half, z: Dyadic::of(0) };
     let pixels = |off: ExactVector| off.squared_length().sqrt() * f64::from(exact.height) / (2.0 * half_height);
     if let Some(rays) = tile.get::<CameraRays>() {
-        let measured = ExactVector::of([rays.ox[row], rays.oy[row], rays.oz[row]]);
+        let measured = ExactVector::of(rays.origin.at(row));
         note(&mut worst.points[3], pixels(measured.minus(&origin)));
     }
     if let Some(rays) = tile.get::<WorldRays>() {
         let axes = [0, 1, 2].map(|axis| ExactVector::of(exact.rotation.row(axis)).dot(&origin));
         let [x, y, z] = axes;
-        let measured = ExactVector::of([rays.ox[row], rays.oy[row], rays.oz[row]]);
-        let direction = ExactVector::of([rays.dx[row], rays.dy[row], rays.dz[row]]);
+        let measured = ExactVector::of(rays.origin.at(row));
+        let direction = ExactVector::of(rays.direction.at(row));
         let across = direction.cross(&ExactVector::of(-exact.rotation.z_axis)).squared_length().sqrt();
         let [most_pixels, most_radians] = worst.world.unwrap_or_default();
         let off = pixels(measured.minus(&ExactVector { x, y, z }));
@@ -201,8 +201,8 @@ fn kind(shape: &ExactShape) -> usize {
 }
 
 fn probe_hit(rays: &WorldRays, hits: &Hits, row: usize, exact: &Exact, worst: &mut Worst) {
-    let origin = Vec3::new(rays.ox[row], rays.oy[row], rays.oz[row]);
-    let direction = Vec3::new(rays.dx[row], rays.dy[row], rays.dz[row]);
+    let origin = rays.origin(row);
+    let direction = rays.direction(row);
     let nearest = exact_nearest(origin, direction, &exact.shapes);
     let found = Some(hits.shape[row] as usize).filter(|_| hits.shape[row] != NO_SHAPE);
     let Some(shape) = found.or(nearest.as_ref().map(|(shape, _)| *shape)) else { return };

@@ -6,7 +6,7 @@ use crate::measure::ray_aim::AimedRay;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::SingleThreadedExecutor;
 use pinhole::extract::{PlaneTable, SphereTable};
-use pinhole::plan::{Column, Sample, Shared, Slot, Stage, Table};
+use pinhole::plan::{Column, Sample, Shared, Slot, Stage, Table, VectorRowsMut};
 use pinhole::rays::{Tile, WorldRays};
 use pinhole::shapes::{PlacedPlane, PlacedSphere};
 
@@ -50,10 +50,10 @@ impl Bench {
     /// Makes these the tile's world rays.
     pub fn aim(&mut self, rays: &[AimedRay]) {
         let Some(mut column) = self.world.get_mut::<WorldRays>(self.tile) else { return };
-        let (ox, oy, oz, dx, dy, dz) = column.slices_mut(rays.len());
+        let (mut origin, mut direction) = column.slices_mut(rays.len());
         for (row, ray) in rays.iter().enumerate() {
-            (ox[row], oy[row], oz[row]) = ray.origin.into();
-            (dx[row], dy[row], dz[row]) = ray.direction.into();
+            origin.put(row, ray.origin);
+            direction.put(row, ray.direction);
         }
     }
 

@@ -123,11 +123,11 @@ impl CameraChain {
         let (screen, camera) = (bench.column::<ScreenPoints>(), bench.column::<CameraRays>());
         let world = bench.column::<WorldRays>();
         let chain = |row: usize| PixelChain {
-            raster: DVec2::new(raster.x[row], raster.y[row]),
-            ndc: DVec2::new(ndc.x[row], ndc.y[row]),
-            screen: DVec2::new(screen.x[row], screen.y[row]),
-            camera: DVec3::new(camera.dx[row], camera.dy[row], camera.dz[row]),
-            world: Vec3::new(world.dx[row], world.dy[row], world.dz[row]),
+            raster: raster.point(row),
+            ndc: ndc.point(row),
+            screen: screen.point(row),
+            camera: camera.direction(row),
+            world: world.direction(row),
         };
         (0..count as usize).map(chain).collect()
     }

@@ -9,7 +9,7 @@ use crate::naive::film::{
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::film::{FilmTile, film_stage};
-use pinhole::plan::Stage;
+use pinhole::plan::{Stage, VectorRows};
 use pinhole::rays::Tile;
 use pinhole::render::{Execution, render};
 use pinhole::scene::*;
@@ -131,7 +131,7 @@ fn check_no_light(range: Range<u64>) -> Tally {
         bench.put(FilmTile::new(TILE));
         for pass in &passes {
             let mut radiance = Radiance::default();
-            let (r, g, b) = radiance.slices_mut(rows);
+            let [r, g, b] = radiance.slices_mut(rows);
             r.copy_from_slice(pass);
             g.fill(0.5);
             b.fill(0.25);
@@ -167,7 +167,7 @@ fn is_only_light(film: &FilmTile, samples: &[Vec<f32>]) -> bool {
     let rows = samples.iter().enumerate();
     let sums = rows.clone().all(|(row, samples)| {
         let (count, mean) = light_of(samples);
-        film.count[row] == count && film.r[row] / f64::from(count.max(1)) == mean
+        film.count[row] == count && film.sum[0][row] / f64::from(count.max(1)) == mean
     });
     let bad: u64 = rows.map(|(row, _)| u64::from(TURNS - film.count[row])).sum();
     let named = film.first_rejected.iter().all(|rejected| {
@@ -210,7 +210,7 @@ fn offer() -> Vec<Stage> {
 fn film_bits(scene: &World, threads: usize, tile_side: u32) -> Option<Vec<([u32; 2], [u64; 3])>> {
     let execution = Execution { threads: Some(threads), tile_side, ..Execution::default() };
     let film = render(scene, &offer(), &execution, &()).ok()?.film;
-    let sums = |tile: &FilmTile, row: usize| [tile.r[row], tile.g[row], tile.b[row]].map(f64::to_bits);
+    let sums = |tile: &FilmTile, row: usize| tile.sum.at(row).map(f64::to_bits);
     let rows = |tile: &FilmTile| -> Vec<_> {
         (0..tile.count.len()).map(|row| (tile.tile.pixel_of(row), sums(tile, row))).collect()
     };

@@ -15,6 +15,7 @@ use pinhole::lights::{
     PlacedDirectionalLight, PlacedPointLight, PlacedSpotLight, spot_falloff, versine, versine_of_half,
 };
 use pinhole::material::{BlinnPhongTable, MatteTable, PhongTable, highlight, mirror_cosine, phong_peak};
+use pinhole::plan::VectorRows;
 use pinhole::scene::Degrees;
 use pinhole::shade::{self, Radiance, ShadowRays};
 use pinhole::shapes::offset_bound;
@@ -138,7 +139,7 @@ fn check_suns(range: Range<u64>) -> Tally {
         bench.run();
         let rays = bench.column::<ShadowRays>();
         let (pinhole, t_max) =
-            rays.r.first().zip(rays.t_max.first()).map_or((0.0, f32::INFINITY), |(&r, &t_max)| (r, t_max));
+            rays.irradiance[0].first().zip(rays.t_max.first()).map_or((0.0, f32::INFINITY), |(&r, &t_max)| (r, t_max));
         tally.scores[0].check(t_max == f32::INFINITY);
         tally.scores[0].measure((f64::from(pinhole) - exact).abs() / U);
         let naive = sun_as_a_far_light(1.0, to_light.as_vec3(), position, normal);
@@ -189,11 +190,11 @@ fn check_numbers(range: Range<u64>) -> Tally {
         bench.run();
         let rays = bench.column::<ShadowRays>();
         let radiance = bench.column::<Radiance>();
-        tally.count(!rays.r.is_empty());
+        tally.count(!rays.irradiance[0].is_empty());
         let sound = |part: f32| part >= 0.0;
-        let brought = rays.r.iter().chain(&rays.g).chain(&rays.b);
+        let brought = rays.irradiance[0].iter().chain(&rays.irradiance[1]).chain(&rays.irradiance[2]);
         tally.scores[0].check(brought.copied().all(|part| sound(part) && part.is_finite()));
-        tally.scores[0].check([radiance.r[0], radiance.g[0], radiance.b[0]].into_iter().all(sound));
+        tally.scores[0].check(radiance.rgb.at(0).into_iter().all(sound));
         let direction = (light - position.as_dvec3()).as_vec3();
         let height =
             highlight_f32(phong_peak(exponent) as f32, exponent as f32, normal, away.as_vec3(), -eye.direction);

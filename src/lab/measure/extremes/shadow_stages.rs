@@ -97,8 +97,8 @@ impl ShadowStages {
         self.to_light.run();
         let (rays, hits) = (self.to_light.column::<ShadowRays>(), self.to_light.column::<ShadowHits>());
         (rays.rows() == 1).then(|| Shadow {
-            origin: Vec3::new(rays.ox[0], rays.oy[0], rays.oz[0]),
-            direction: Vec3::new(rays.dx[0], rays.dy[0], rays.dz[0]),
+            origin: rays.origin(0),
+            direction: rays.direction(0),
             t_max: rays.t_max[0],
             blocked: Some(hits.shape[0]).filter(|&shape| shape != NO_SHAPE),
         })

@@ -59,11 +59,8 @@ fn rays_of(scene: &World, offer: &[Stage]) -> Result<Vec<AimedRay>> {
     // One tile, whose rows then are the image's lines.
     let frame = inspect(scene, offer, image.width.max(image.height))?;
     let Some(rays) = frame.world.get::<WorldRays>(frame.tiles[0]) else { return Ok(Vec::new()) };
-    let ray = |row: usize| AimedRay {
-        origin: Vec3::new(rays.ox[row], rays.oy[row], rays.oz[row]),
-        direction: Vec3::new(rays.dx[row], rays.dy[row], rays.dz[row]),
-    };
-    Ok((0..rays.dx.len()).map(ray).collect())
+    let ray = |row: usize| AimedRay { origin: rays.origin(row), direction: rays.direction(row) };
+    Ok((0..rays.direction[0].len()).map(ray).collect())
 }
 
 /// A sphere so many radii away, filling the image; grey is how far before its centre it is hit.

@@ -8,7 +8,7 @@ use pinhole::Result;
 use pinhole::extract::{PlaneTable, SphereTable};
 use pinhole::film::{Curve, FilmTile};
 use pinhole::intersect::Surfaces;
-use pinhole::plan::{Census, Stage, Table};
+use pinhole::plan::{Census, Stage, Table, VectorRows};
 use pinhole::render::inspect;
 use pinhole::shade::ShadowRays;
 use pinhole::shapes::{plane_t, sphere_t};
@@ -39,14 +39,14 @@ pub fn with_start(
         let row = rays.row[ray] as usize;
         let surface = surfaces.get(row);
         let ShadowStart { origin, t_min } = start(surface.position, surface.normal);
-        let direction = Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]);
+        let direction = rays.direction(ray);
         let (o, d) = (origin.as_dvec3(), direction.as_dvec3());
         let counts = |t: f64| t > f64::from(t_min) && t < f64::from(rays.t_max[ray]);
         let of_sphere = |row: usize| counts(sphere_t(o, d, spheres.row[row].centre, spheres.row[row].radius));
         let of_plane = |row: usize| counts(plane_t(o, d, planes.row[row].normal, planes.row[row].offset));
         let blocked = (0..spheres.row.len()).any(of_sphere) || (0..planes.row.len()).any(of_plane);
         if !blocked {
-            for (part, brings) in naive[row].iter_mut().zip([rays.r[ray], rays.g[ray], rays.b[ray]]) {
+            for (part, brings) in naive[row].iter_mut().zip(rays.irradiance.at(ray)) {
                 *part += brings;
             }
         }

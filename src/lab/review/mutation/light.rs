@@ -1,7 +1,7 @@
 //! Mistakes between surfaces and the picture.
 
 use bevy_ecs::prelude::*;
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use pinhole::extract::{
     BackgroundTable, DirectionalLightTable, EmissiveTable, MaterialTable, PlaneTable, SpotLightTable,
 };
@@ -9,25 +9,21 @@ use pinhole::film::{Curve, FilmTile, byte_from_linear, srgb_from_linear};
 use pinhole::intersect::{EmissiveRows, Surfaces};
 use pinhole::lights::irradiance_from_point;
 use pinhole::material::lambertian;
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRowsMut};
 use pinhole::shade::{Radiance, ShadowHits, ShadowRays};
-use std::mem::swap;
 
 /// Radiance that does not start at 0.
 pub fn not_dark(mut tiles: Query<&mut Radiance>) {
     for mut radiance in &mut tiles {
         let radiance = &mut *radiance;
-        radiance.r.iter_mut().chain(&mut radiance.g).chain(&mut radiance.b).for_each(|part| *part = 0.05);
+        radiance.rgb.iter_mut().flatten().for_each(|part| *part = 0.05);
     }
 }
 
 /// The background behind everything, and before it too.
 pub fn background_everywhere(background: Res<Shared<BackgroundTable>>, mut tiles: Query<&mut Radiance>) {
-    let [red, green, blue] = background.radiance;
     for mut radiance in &mut tiles {
-        radiance.r.iter_mut().for_each(|part| *part += red);
-        radiance.g.iter_mut().for_each(|part| *part += green);
-        radiance.b.iter_mut().for_each(|part| *part += blue);
+        (0..radiance.rows()).for_each(|row| radiance.rgb.add(row, background.radiance));
     }
 }
 
@@ -35,8 +31,8 @@ pub fn background_everywhere(background: Res<Shared<BackgroundTable>>, mut tiles
 pub fn light_left_over(mut tiles: Query<&mut ShadowRays>) {
     for mut rays in &mut tiles {
         rays.clear();
-        let (_, _, _, _, _, dy, ..) = rays.slices_mut(1);
-        dy.fill(1.0);
+        let (_, _, mut direction, ..) = rays.slices_mut(1);
+        direction.put(0, Vec3::Y);
     }
 }
 
@@ -46,7 +42,7 @@ pub fn sun_without_cosine(suns: Res<Shared<DirectionalLightTable>>, mut tiles: Q
         let rays = &mut *rays;
         for ray in 0..rays.rows() {
             if rays.t_max[ray] == f32::INFINITY {
-                [rays.r[ray], rays.g[ray], rays.b[ray]] = suns.row[0].irradiance.map(|part| part as f32);
+                rays.irradiance.put(ray, suns.row[0].irradiance.map(|part| part as f32));
             }
         }
     }
@@ -58,9 +54,7 @@ pub fn no_distance(mut tiles: Query<&mut ShadowRays>) {
         let rays = &mut *rays;
         for ray in 0..rays.rows() {
             let squared = rays.t_max[ray] * rays.t_max[ray];
-            for part in [&mut rays.r[ray], &mut rays.g[ray], &mut rays.b[ray]] {
-                *part *= squared;
-            }
+            rays.irradiance.scale(ray, [squared; 3]);
         }
     }
 }
@@ -69,7 +63,7 @@ pub fn no_distance(mut tiles: Query<&mut ShadowRays>) {
 pub fn spot_without_fading(spots: Res<Shared<SpotLightTable>>, mut tiles: Query<(&Surfaces, &mut ShadowRays)>) {
     for (surfaces, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
-            let origin = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));
+            let origin = rays.origin_of(ray);
             let offset = spots.row[0].position - origin;
             let direction = rays.direction_of(ray);
             if offset.normalize().dot(direction) < 1.0 - 1e-9 || rays.t_max[ray] == f32::INFINITY {
@@ -77,7 +71,7 @@ pub fn spot_without_fading(spots: Res<Shared<SpotLightTable>>, mut tiles: Query<
             }
             let cosine = surfaces.get(rays.row[ray] as usize).normal.as_dvec3().dot(direction);
             let whole = irradiance_from_point(spots.row[0].intensity, cosine, offset.length_squared());
-            [rays.r[ray], rays.g[ray], rays.b[ray]] = whole.map(|part| part as f32);
+            rays.irradiance.put(ray, whole.map(|part| part as f32));
         }
     }
 }
@@ -92,10 +86,7 @@ pub fn blinn_phong_forgotten() {}
 pub fn emitted_twice(emissive: Res<Shared<EmissiveTable>>, mut tiles: Query<(&EmissiveRows, &mut Radiance)>) {
     for (list, mut radiance) in &mut tiles {
         for (&row, &of) in list.row.iter().zip(&list.emissive) {
-            let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
-            radiance.r[row] += 2.0 * r;
-            radiance.g[row] += 2.0 * g;
-            radiance.b[row] += 2.0 * b;
+            radiance.rgb.add(row as usize, emissive.radiance[of as usize].map(|part| 2.0 * part));
         }
     }
 }
@@ -105,10 +96,9 @@ pub fn no_cosine(mut tiles: Query<(&Surfaces, &mut ShadowRays)>) {
     for (surfaces, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
             let normal = surfaces.get(rays.row[ray] as usize).normal;
-            let cosine = normal.dot(Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]));
-            rays.r[ray] /= cosine;
-            rays.g[ray] /= cosine;
-            rays.b[ray] /= cosine;
+            let cosine = normal.dot(rays.direction(ray));
+            let carried = rays.irradiance(ray);
+            rays.irradiance.put(ray, carried.map(|part| part / cosine));
         }
     }
 }
@@ -139,8 +129,8 @@ pub fn cuboids_ignored() {}
 pub fn behind_counts(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&ShadowRays, &mut ShadowHits)>) {
     for (rays, mut hits) in &mut tiles {
         for ray in 0..rays.rows() {
-            let origin = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
-            let direction = DVec3::from(Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]));
+            let origin = rays.origin_of(ray);
+            let direction = rays.direction_of(ray);
             for (plane, row) in planes.row.iter().enumerate() {
                 let t = ((row.offset - row.normal.dot(origin)) / row.normal.dot(direction)).abs();
                 if t < hits.t[ray] {
@@ -161,10 +151,8 @@ pub fn shadow_forgotten(
             let path = rays.row[ray] as usize;
             let colour = materials.parameters[surfaces.material[path] as usize].colour;
             let (brdf, irradiance) = (lambertian(colour), rays.irradiance(ray));
-            let [r, g, b] = [0, 1, 2].map(|part| brdf[part] * irradiance[part]);
-            radiance.r[path] += r as f32;
-            radiance.g[path] += g as f32;
-            radiance.b[path] += b as f32;
+            let found = [0, 1, 2].map(|part| brdf[part] * f64::from(irradiance[part]));
+            radiance.rgb.add(path, found.map(|part| part as f32));
         }
     }
 }
@@ -172,16 +160,14 @@ pub fn shadow_forgotten(
 /// Blue, green, red for red, green, blue.
 pub fn blue_first(mut tiles: Query<&mut Radiance>) {
     for mut radiance in &mut tiles {
-        let Radiance { r, b, .. } = &mut *radiance;
-        swap(r, b);
+        radiance.rgb.swap(0, 2);
     }
 }
 
 /// A view's x painted green and its y red.
 pub fn green_first(mut tiles: Query<&mut Radiance>) {
     for mut radiance in &mut tiles {
-        let Radiance { r, g, .. } = &mut *radiance;
-        swap(r, g);
+        radiance.rgb.swap(0, 1);
     }
 }
 
@@ -189,7 +175,7 @@ pub fn green_first(mut tiles: Query<&mut Radiance>) {
 pub fn added_twice(mut tiles: Query<&mut FilmTile>) {
     for mut film in &mut tiles {
         let film = &mut *film;
-        film.r.iter_mut().chain(&mut film.g).chain(&mut film.b).for_each(|sum| *sum *= 2.0);
+        film.sum.iter_mut().flatten().for_each(|sum| *sum *= 2.0);
     }
 }
 

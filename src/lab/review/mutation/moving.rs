@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use pinhole::extract::GradientTable;
 use pinhole::intersect::{Hits, NO_SHAPE, Surfaces};
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRowsMut};
 use pinhole::rays::{CameraRays, LensPoints, RayTimes, WorldRays};
 use pinhole::shade::{Radiance, gradient_radiance};
 
@@ -11,14 +11,14 @@ use pinhole::shade::{Radiance, gradient_radiance};
 pub fn half_open(mut tiles: Query<&mut LensPoints>) {
     for mut points in &mut tiles {
         let points = &mut *points;
-        points.x.iter_mut().chain(&mut points.y).for_each(|part| *part *= 0.5);
+        points.point.iter_mut().flatten().for_each(|part| *part *= 0.5);
     }
 }
 
 /// Rays through the lens that go left for right.
 pub fn left_for_right(mut tiles: Query<&mut CameraRays>) {
     for mut rays in &mut tiles {
-        rays.dx.iter_mut().for_each(|x| *x = -*x);
+        rays.direction[0].iter_mut().for_each(|x| *x = -*x);
     }
 }
 
@@ -34,7 +34,7 @@ pub fn nothing_moves() {}
 pub fn turned_inward(mut tiles: Query<&mut Surfaces>) {
     for mut surfaces in &mut tiles {
         let surfaces = &mut *surfaces;
-        surfaces.nx.iter_mut().chain(&mut surfaces.ny).chain(&mut surfaces.nz).for_each(|part| *part = -*part);
+        surfaces.normal.iter_mut().flatten().for_each(|part| *part = -*part);
     }
 }
 
@@ -42,10 +42,8 @@ pub fn turned_inward(mut tiles: Query<&mut Surfaces>) {
 pub fn upside_down(gradient: Res<Shared<GradientTable>>, mut tiles: Query<(&WorldRays, Option<&Hits>, &mut Radiance)>) {
     for (rays, hits, mut radiance) in &mut tiles {
         for row in (0..rays.rows()).filter(|&row| hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE)) {
-            let [r, g, b] = gradient_radiance(gradient.bottom, gradient.top, -rays.direction_of(row).y);
-            radiance.r[row] += r as f32;
-            radiance.g[row] += g as f32;
-            radiance.b[row] += b as f32;
+            let found = gradient_radiance(gradient.bottom, gradient.top, -rays.direction_of(row).y);
+            radiance.rgb.add(row, found.map(|part| part as f32));
         }
     }
 }

@@ -1,9 +1,8 @@
 //! Mistakes from raster to world rays.
 
 use bevy_ecs::prelude::*;
-use glam::{DVec2, DVec3};
 use pinhole::extract::{CameraAxes, ImageFrame, PerspectiveProjection};
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRowsMut};
 use pinhole::rays::{
     CameraRays, NdcPoints, PixelSamples, RasterPoints, ScreenPoints, Tile, WorldRays, camera_ray_perspective,
     raster_from_pixel,
@@ -13,7 +12,7 @@ use pinhole::rays::{
 pub fn half_pixel(mut tiles: Query<&mut RasterPoints>) {
     for mut raster in &mut tiles {
         let raster = &mut *raster;
-        raster.x.iter_mut().chain(&mut raster.y).for_each(|along| *along -= 0.5);
+        raster.point.iter_mut().flatten().for_each(|along| *along -= 0.5);
     }
 }
 
@@ -21,7 +20,7 @@ pub fn half_pixel(mut tiles: Query<&mut RasterPoints>) {
 pub fn one_pattern(mut tiles: Query<&mut RasterPoints>) {
     for mut raster in &mut tiles {
         let raster = &mut *raster;
-        for component in [&mut raster.x, &mut raster.y] {
+        for component in &mut raster.point {
             let first = component.first().map_or(0.0, |first| first - first.floor());
             component.iter_mut().for_each(|along| *along = along.floor() + first);
         }
@@ -34,8 +33,8 @@ pub fn radius_doubled(mut tiles: Query<(&Tile, &PixelSamples, &mut RasterPoints)
         for (row, &pixel) in samples.pixel.iter().enumerate() {
             let [x, y] = tile.pixel_of(pixel as usize);
             let centre = raster_from_pixel(x, y);
-            raster.x[row] = 2.0 * raster.x[row] - centre.x;
-            raster.y[row] = 2.0 * raster.y[row] - centre.y;
+            raster.point[0][row] = 2.0 * raster.point[0][row] - centre.x;
+            raster.point[1][row] = 2.0 * raster.point[1][row] - centre.y;
         }
     }
 }
@@ -44,22 +43,22 @@ pub fn radius_doubled(mut tiles: Query<(&Tile, &PixelSamples, &mut RasterPoints)
 pub fn size_less_one(image: Res<Shared<ImageFrame>>, mut tiles: Query<&mut NdcPoints>) {
     let too_much = image.size() / (image.size() - 1.0);
     for mut ndc in &mut tiles {
-        ndc.x.iter_mut().for_each(|x| *x *= too_much.x);
-        ndc.y.iter_mut().for_each(|y| *y *= too_much.y);
+        ndc.point[0].iter_mut().for_each(|x| *x *= too_much.x);
+        ndc.point[1].iter_mut().for_each(|y| *y *= too_much.y);
     }
 }
 
 /// y left as raster space has it, downward.
 pub fn y_down(mut tiles: Query<&mut ScreenPoints>) {
     for mut screen in &mut tiles {
-        screen.y.iter_mut().for_each(|y| *y = -*y);
+        screen.point[1].iter_mut().for_each(|y| *y = -*y);
     }
 }
 
 /// x from −1 to 1, whatever the image's shape.
 pub fn no_aspect(image: Res<Shared<ImageFrame>>, mut tiles: Query<&mut ScreenPoints>) {
     for mut screen in &mut tiles {
-        screen.x.iter_mut().for_each(|x| *x /= image.aspect());
+        screen.point[0].iter_mut().for_each(|x| *x /= image.aspect());
     }
 }
 
@@ -69,8 +68,8 @@ pub fn whole_angle(lens: Res<Shared<PerspectiveProjection>>, mut tiles: Query<(&
     let whole = 2.0 * half / (1.0 - half * half);
     for (screen, mut rays) in &mut tiles {
         for row in 0..screen.rows() {
-            let direction = camera_ray_perspective(DVec2::new(screen.x[row], screen.y[row]), whole);
-            (rays.dx[row], rays.dy[row], rays.dz[row]) = direction.into();
+            let direction = camera_ray_perspective(screen.point(row), whole);
+            rays.direction.put(row, direction);
         }
     }
 }
@@ -78,7 +77,7 @@ pub fn whole_angle(lens: Res<Shared<PerspectiveProjection>>, mut tiles: Query<(&
 /// A camera that looks along +z.
 pub fn plus_z(mut tiles: Query<&mut CameraRays>) {
     for mut rays in &mut tiles {
-        rays.dz.iter_mut().for_each(|z| *z = -*z);
+        rays.direction[2].iter_mut().for_each(|z| *z = -*z);
     }
 }
 
@@ -86,7 +85,7 @@ pub fn plus_z(mut tiles: Query<&mut CameraRays>) {
 pub fn whole_height(mut tiles: Query<&mut CameraRays>) {
     for mut rays in &mut tiles {
         let rays = &mut *rays;
-        rays.ox.iter_mut().chain(&mut rays.oy).for_each(|along| *along *= 2.0);
+        rays.origin.iter_mut().flatten().for_each(|along| *along *= 2.0);
     }
 }
 
@@ -95,8 +94,8 @@ pub fn transposed(axes: Res<Shared<CameraAxes>>, mut tiles: Query<(&CameraRays, 
     let wrong = axes.world_from_camera.transpose();
     for (camera, mut world) in &mut tiles {
         for row in 0..camera.rows() {
-            let direction = wrong * DVec3::new(camera.dx[row], camera.dy[row], camera.dz[row]);
-            (world.dx[row], world.dy[row], world.dz[row]) = direction.as_vec3().into();
+            let direction = wrong * camera.direction(row);
+            world.direction.put(row, direction.as_vec3());
         }
     }
 }

@@ -137,7 +137,7 @@ pub fn next_corner(
 pub fn shorter(mut tiles: Query<&mut ShadingNormals>) {
     for mut normals in &mut tiles {
         let normals = &mut *normals;
-        let parts = normals.nx.iter_mut().chain(&mut normals.ny).chain(&mut normals.nz);
+        let parts = normals.normal.iter_mut().flatten();
         parts.for_each(|part| *part *= 0.9);
     }
 }

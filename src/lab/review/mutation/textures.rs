@@ -6,7 +6,7 @@ use pinhole::extract::{
 };
 use pinhole::film::srgb_from_linear;
 use pinhole::intersect::{Hits, MaterialRows, NO_SHAPE, Surfaces};
-use pinhole::plan::{Column, Shared};
+use pinhole::plan::{Column, Shared, VectorRowsMut};
 use pinhole::rays::WorldRays;
 use pinhole::scene::Checker;
 use pinhole::shade::{Footprints, Radiance, SurfaceColours, TexturePoints, environment_radiance};
@@ -15,24 +15,21 @@ use pinhole::shade::{Footprints, Radiance, SurfaceColours, TexturePoints, enviro
 pub fn two_pixels(mut tiles: Query<&mut Footprints>) {
     for mut footprints in &mut tiles {
         let footprints = &mut *footprints;
-        [&mut footprints.rx, &mut footprints.ry, &mut footprints.rz]
-            .into_iter()
-            .flatten()
-            .for_each(|part| *part *= 2.0);
+        footprints.right.iter_mut().flatten().for_each(|part| *part *= 2.0);
     }
 }
 
 /// A fraction of the light lost.
 pub fn half_colour(mut tiles: Query<&mut SurfaceColours>) {
     for mut colours in &mut tiles {
-        colours.r.iter_mut().for_each(|part| *part *= 0.5);
+        colours.rgb[0].iter_mut().for_each(|part| *part *= 0.5);
     }
 }
 
 /// Cells that begin where their middle should be.
 pub fn half_cell(mut tiles: Query<&mut TexturePoints>) {
     for mut points in &mut tiles {
-        points.x.iter_mut().for_each(|x| *x -= 0.5);
+        points.point[0].iter_mut().for_each(|x| *x -= 0.5);
     }
 }
 
@@ -72,7 +69,7 @@ fn recolour<T: Pattern>(
         if texture == NO_TEXTURE {
             continue;
         }
-        [colours.r[row], colours.g[row], colours.b[row]] = colour(&table.pattern[texture as usize], points.get(row));
+        colours.rgb.put(row, colour(&table.pattern[texture as usize], points.get(row)));
     }
 }
 
@@ -86,7 +83,7 @@ pub fn bytes_for_light(
             let row = row as usize;
             if images.of_material[surfaces.material[row] as usize] != NO_TEXTURE {
                 let colours = &mut *colours;
-                for component in [&mut colours.r, &mut colours.g, &mut colours.b] {
+                for component in &mut colours.rgb {
                     component[row] = srgb_from_linear(component[row]);
                 }
             }
@@ -104,10 +101,8 @@ pub fn mirrored(
             if hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE) {
                 let mut direction = rays.direction_of(row);
                 direction.x = -direction.x;
-                let [r, g, b] = environment_radiance(&environment, direction);
-                radiance.r[row] += r as f32;
-                radiance.g[row] += g as f32;
-                radiance.b[row] += b as f32;
+                let found = environment_radiance(&environment, direction);
+                radiance.rgb.add(row, found.map(|part| part as f32));
             }
         }
     }
