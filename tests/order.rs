@@ -68,13 +68,14 @@ const ORDER: &[(&str, &[&str])] = &[
 const ROOT: [&str; 2] = ["Error", "Result"];
 
 /// What stands at the root and belongs to a folder further down.
-const REEXPORTED: [(&str, &str); 10] = [
+const REEXPORTED: [(&str, &str); 11] = [
     ("Chapter", "chapter"),
     ("Overrides", "chapter"),
     ("SamplingOverrides", "chapter"),
     ("Size", "chapter"),
     ("column", "plan"),
     ("column_component", "plan"),
+    ("part_names", "plan"),
     ("with_filter", "filters"),
     ("with_sampler", "sample"),
     ("render_scene", "chapter"),

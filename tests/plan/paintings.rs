@@ -61,7 +61,7 @@ fn each_column_is_painted_as_its_page_says() {
         shown(SampleSigns { sign: vec![1.0, -1.0] }, &[WHITE, [1.0, 0.0, 0.0]]),
         shown(Paths { throughput: rgb.clone(), first: vec![0], pdf: vec![1.0] }, &[COLOUR]),
         shown(PathLight { rgb: rgb.clone() }, &[COLOUR]),
-        shown(Surfaces { normal: normal.clone(), ..Default::default() }, &[LEANING, BLACK]),
+        shown(Surfaces { position: normal.clone(), normal: normal.clone(), ..Default::default() }, &[LEANING, BLACK]),
         shown(ShadingNormals { normal }, &[LEANING, BLACK]),
         shown(SurfaceUvs { uv: [vec![1.25], vec![-0.25]] }, &[[0.25, 0.75, 0.0]]),
         shown(SurfaceSides { outside: vec![1, 0] }, &[WHITE, BLACK]),
