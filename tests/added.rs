@@ -15,7 +15,7 @@ use pinhole::extend::*;
 use pinhole::plan::{Census, Stage, plan};
 use pinhole::render::{Execution, Worlds};
 use pinhole::scene::*;
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use std::f64::consts::PI;
 
 fn film(scene: &World) -> pinhole::film::Film {

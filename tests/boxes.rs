@@ -3,8 +3,8 @@
 use glam::{DVec3, Vec3};
 use pinhole::bvh::{BoundingBox, BoxPacket, BoxRay, Child, PACKET, ROW, ROWS, WIDTH, WideNode};
 use pinhole::shapes::Slabs;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::oracle_cuboid::cuboid_hit;
-use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::naive::boxes::{enters, enters_by_min_and_max};
 
 /// A node whose last child is this box; a ray that enters nothing else may enter only that one.

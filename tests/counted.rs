@@ -11,7 +11,7 @@ use pinhole::scene::*;
 use pinhole::shapes::{
     ClosestHit, ClosestHits, PlacedMesh, PlacedSphere, RaySlices, Shape, hierarchy_of, keep_closest_counted,
 };
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::specimen::Specimen;
 use pinhole_lab::measure::torus_knot::torus_knot;
 

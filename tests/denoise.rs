@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use pinhole::film::{Film, GUIDES, Guides, denoise, denoise_radiance};
 use pinhole::render::render;
 use pinhole::scene::*;
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 /// Guides and radiance of an image whose surfaces change at random, some pixels without any.
 fn random(width: usize, height: usize, seed: u64) -> (Guides, [Vec<f32>; 3]) {

@@ -16,7 +16,7 @@ mod sides;
 use glam::DVec3;
 use pinhole::shapes::emitter::{EmittingCuboid, EmittingDisk, EmittingTriangle, LightPoint, Parallelogram};
 use pinhole::shapes::{Emitter, pdf_towards, point_on};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 /// The mean and the standard deviation of what a surface at a point receives of a light of radiance 1, told by one
 /// direction at a time, and by how much at most the pdf given there differs from the one computed afterwards.

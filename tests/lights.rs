@@ -12,7 +12,7 @@ use pinhole::lights::{
 use pinhole::plan::Census;
 use pinhole::render::{Execution, render};
 use pinhole::scene::*;
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use std::f64::consts::{PI, TAU};
 
 /// The least likely of a thousand numbers lies within so many standard errors, 99 times in 100 (Šidák).

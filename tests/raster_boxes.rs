@@ -10,8 +10,8 @@ use pinhole::rays::{WorldRays, camera_ray_orthographic, camera_ray_perspective};
 use pinhole::render::{first_bounce_only, inspect, render};
 use pinhole::scene::*;
 use pinhole::shapes::{Bounds, Listed, Shape, ShapeVisitor, visit_shapes};
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::raster_boxes::{WHEREABOUTS, box_picture};
-use pinhole_lab::measure::ray_aim::Draws;
 
 /// What `cargo run --release -- extremes rasterisation --case boxes` tries in full.
 #[test]

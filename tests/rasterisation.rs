@@ -6,8 +6,8 @@ use glam::DVec3;
 use pinhole::plan::{Census, plan};
 use pinhole::render::render;
 use pinhole::scene::*;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::extremes::{Group, seen_by, try_group};
-use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::measure::torus_knot::torus_knot;
 use pinhole_lab::measure::visibility::compare_visibility;
 

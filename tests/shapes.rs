@@ -13,8 +13,8 @@ use pinhole::shapes::{
     PlacedCone, PlacedCylinder, Planar, RayHit, SceneShape, UvSlope, double_double_disk_t, double_double_rectangle_t,
     with_shapes,
 };
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::oracle::Oracle;
-use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::measure::specimen::Specimen;
 
 /// Calls a generic function for every registered shape.

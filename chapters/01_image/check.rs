@@ -6,7 +6,7 @@ use pinhole::rays;
 use pinhole::rays::{RasterPoints, raster_from_pixel};
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Part, Question, RowPlaces, Setting, StandIn, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 type Input = (u64, u32);
 

@@ -14,7 +14,8 @@ use pinhole_lab::exercise::{
 };
 use pinhole_lab::measure::oracle_sphere::{Sphere, line_ts, sphere_hit};
 use pinhole_lab::measure::ray_aim;
-use pinhole_lab::measure::ray_aim::{AimedRay, Draws};
+use pinhole_lab::measure::draws::Draws;
+use pinhole_lab::measure::ray_aim::AimedRay;
 use pinhole_lab::naive::sphere::hit_f64_plain;
 
 /// Origin, direction, centre, radius; origin and direction have few digits, as f32 numbers.

@@ -8,7 +8,7 @@ use pinhole::rays::{CameraRays, ScreenPoints, camera_ray_perspective};
 use pinhole::scene::Degrees;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Part, Question, RowPlaces, Setting, Shown, StandIn, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 type Input = ([f64; 2], f64);
 

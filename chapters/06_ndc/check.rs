@@ -9,7 +9,7 @@ use pinhole::rays::{NdcPoints, ndc_from_raster, raster_from_pixel};
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes};
 use pinhole_lab::measure::exact::Dyadic;
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 type Input = ([f64; 2], u32, u32);
 

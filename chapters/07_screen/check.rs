@@ -10,7 +10,7 @@ use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes,
 };
 use pinhole_lab::measure::exact::Dyadic;
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 type Input = ([f64; 2], u32, u32);
 

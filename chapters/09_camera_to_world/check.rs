@@ -14,7 +14,7 @@ use pinhole_lab::exercise::{
 };
 use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::exact_vector::ExactVector;
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 type Vector = [f64; 3];
 

@@ -14,7 +14,7 @@ use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes,
 };
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use std::f64::consts::PI;
 
 type Vector = [f64; 3];

@@ -6,7 +6,7 @@ use pinhole::rays;
 use pinhole::rays::CameraRays;
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Part, Question, RowPlaces, Setting, Shown, StandIn, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 type Vector = [f64; 3];
 

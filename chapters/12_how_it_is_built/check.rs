@@ -7,7 +7,7 @@ use pinhole::scene::View;
 use pinhole::stages;
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, Setting, StandIn, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 type Input = (Vec<StageWords>, String);
 

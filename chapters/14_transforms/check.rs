@@ -13,7 +13,7 @@ use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes,
 };
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 type Vector = [f64; 3];
 

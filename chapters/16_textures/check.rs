@@ -8,7 +8,7 @@ use pinhole::shade;
 use pinhole::shade::{SurfaceColours, TexturePoints, box_width, wave, wave_mean};
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 /// The middle of a range, its width.
 type Input = (f64, f64);

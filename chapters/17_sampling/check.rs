@@ -8,7 +8,7 @@ use pinhole::rays::{Depth, PixelSamples, RasterPoints, SampleNumber, Tile, draws
 use pinhole::sample::{Purpose, tent_offset, unit};
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Part, Probe, Question, Setting, Shown, StandIn, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 type Input = (f64, f64);
 

@@ -2,7 +2,7 @@
 
 use pinhole_lab::exercise::apart::option;
 use pinhole_lab::exercise::{Exercise, Mistakes, Part, Probe, Question, Shown, extremes, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 /// Runs, truth.
 type Input = (Vec<f64>, f64);

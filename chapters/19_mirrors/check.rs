@@ -9,7 +9,7 @@ use pinhole::plan::{Column, VectorRowsMut};
 use pinhole::rays::WorldRays;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 type Vector = [f64; 3];
 

@@ -10,7 +10,7 @@ use pinhole::plan::{Column, Shared, VectorRowsMut};
 use pinhole::rays::WorldRays;
 use pinhole_lab::exercise::apart::{absolute, option};
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 type Vector = [f64; 3];
 

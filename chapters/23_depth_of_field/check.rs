@@ -10,7 +10,7 @@ use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes,
 };
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::naive::lens::focus_along_the_ray;
 
 type Input = ([f64; 2], f64, [f64; 2], f64);

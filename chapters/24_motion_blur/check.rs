@@ -10,7 +10,7 @@ use pinhole::rays::{RayTimes, WorldRays};
 use pinhole::shapes::{AnyShape, PlacedSphere, sphere_intersection, sphere_t};
 use pinhole_lab::exercise::apart::{option, relative};
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 /// Origin, direction, centre, radius, velocity, time.
 type Input = ([f64; 3], [f64; 3], [f64; 3], f64, [f64; 3], f64);

@@ -12,7 +12,7 @@ use pinhole::rays::{Paths, PixelSamples, Tile, WorldRays};
 use pinhole::shade::{Radiance, area_light_pdf};
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, Setting, Shown, StandIn, extremes, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 type Input = (f64, f64);
 

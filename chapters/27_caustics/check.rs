@@ -9,7 +9,7 @@ use pinhole::shade;
 use pinhole::shade::ShadowRays;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Part, Probe, Question, Setting, Shown, StandIn, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 type Input = ([f64; 3], f64, f64);
 

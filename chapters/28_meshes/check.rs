@@ -12,7 +12,7 @@ use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes,
 };
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 /// Origin, direction, position, axes, scale.
 type Input = ([f64; 3], [f64; 3], [f64; 3], [[f64; 3]; 3], [f64; 3]);

@@ -11,7 +11,7 @@ use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, extremes, probes,
 };
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::naive::boxes::box_of_mesh;
 use pinhole_lab::naive::mesh::keep_closer;
 

@@ -8,7 +8,7 @@ use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole::shapes::Shape;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, StandIn, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::naive::tree::{Search, Tree, by_cost, to_visit};
 use std::sync::{Arc, OnceLock};
 

@@ -11,7 +11,7 @@ use pinhole::shapes::{Shape, hierarchy_of};
 use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, extremes, probes,
 };
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::naive::wide::{closest, entered, first_planes};
 use std::sync::{Arc, OnceLock};
 

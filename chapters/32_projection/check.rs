@@ -11,7 +11,7 @@ use pinhole::rasterise::{
 use pinhole::rays::{RasterPoints, Tile, WorldRays};
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Part, Probe, Question, Setting, Shown, StandIn, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::naive::rasterise::{fill_hits, raster_triangles};
 use std::sync::{Arc, OnceLock};
 

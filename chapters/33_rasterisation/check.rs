@@ -8,7 +8,7 @@ use pinhole::rasterise::{Edge, Projection, RasterTriangle, rasterise_stage};
 use pinhole::rays::{RasterPoints, WorldRays};
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, StandIn, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::naive::rasterise::{fill_hits, raster_triangles};
 use std::sync::{Arc, OnceLock};
 

@@ -10,7 +10,7 @@ use pinhole::rays::WorldRays;
 use pinhole::shapes::{PlacedSphere, Shape};
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, Setting, StandIn, extremes, probes};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::naive::both::{interval_at_its_depth, sphere_interval};
 use std::sync::{Arc, OnceLock};
 

@@ -13,7 +13,7 @@ use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Part, Probe, Question, Setting, Shown, StandIn, extremes, probes,
 };
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::naive::denoise::{LEVELS, denoised, edge_weight, image_of};
 
 /// The normal, the neighbour's, the offset to it.

@@ -10,19 +10,19 @@ use std::{env, fs, io};
 
 fn main() -> io::Result<()> {
     let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
-    let lock = package.join("../../Cargo.lock");
+    let (scene, lock) = (package.join("../scene"), package.join("../../Cargo.lock"));
     let mut out = io::stdout();
-    for watched in [&package, &lock] {
+    for watched in [&package, &scene, &lock] {
         io::Write::write_all(&mut out, format!("cargo::rerun-if-changed={}\n", watched.display()).as_bytes())?;
     }
-    let hash = hash_of(&package, &lock)?;
+    let hash = hash_of(&[&package, &scene], &lock)?;
     io::Write::write_all(&mut out, format!("cargo::rustc-env=PINHOLE_SOURCES={hash}\n").as_bytes())
 }
 
-/// A hash of the code of all sources below a folder, and of the versions that the lock file names, if there is one.
+/// A hash of the code of all sources below some folders, and of the versions that the lock file names, if there is one.
 ///
 /// The same sources make the same program wherever they are checked out, so the folder does not count.
-pub fn hash_of(package: &Path, lock: &Path) -> io::Result<String> {
+pub fn hash_of(packages: &[&Path], lock: &Path) -> io::Result<String> {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     let mut add = |text: &str| {
         text.bytes().for_each(|byte| hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3));
@@ -31,8 +31,12 @@ pub fn hash_of(package: &Path, lock: &Path) -> io::Result<String> {
         add(&fs::read_to_string(lock)?.replace("\r\n", "\n"));
     }
     let mut files = Vec::new();
-    list(package, &mut files)?;
-    for file in files {
+    for package in packages {
+        let mut own = Vec::new();
+        list(package, &mut own)?;
+        files.extend(own.into_iter().map(|file| (*package, file)));
+    }
+    for (package, file) in files {
         add(&file.strip_prefix(package).unwrap_or(&file).to_string_lossy().replace('\\', "/"));
         let text = fs::read_to_string(&file)?;
         match text.parse::<TokenStream>() {

@@ -71,7 +71,8 @@
 #[doc(hidden)]
 pub use pinhole_models as models;
 
-pub mod scene;
+#[doc(no_inline)]
+pub use pinhole_scene as scene;
 
 pub mod plan;
 

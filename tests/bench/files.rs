@@ -14,21 +14,21 @@ use std::path::{Path, PathBuf};
 
 /// What plans a scene and loops over its tiles.
 const LOOP: [&str; 8] = [
-    "plan/census.rs",
-    "plan/column.rs",
-    "plan/decide.rs",
-    "plan/stage.rs",
-    "render/execution.rs",
-    "render/in_progress.rs",
-    "render/render_world.rs",
-    "stages.rs",
+    "pinhole/plan/census.rs",
+    "pinhole/plan/column.rs",
+    "pinhole/plan/decide.rs",
+    "pinhole/plan/stage.rs",
+    "pinhole/render/execution.rs",
+    "pinhole/render/in_progress.rs",
+    "pinhole/render/render_world.rs",
+    "pinhole/stages.rs",
 ];
 
 fn main() {
     let named: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
     let wanted = if named.is_empty() { vec!["05".into(), "25".into()] } else { named };
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/pinhole");
-    let sources = sources(&folder);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let sources = ["pinhole", "scene"].iter().flat_map(|package| sources(&folder, package)).collect::<Vec<_>>();
     for chapter in chapters::all().into_iter().filter(|chapter| wanted.iter().any(|own| chapter.name.starts_with(own)))
     {
         let scene = chapter.world(&Overrides::default());
@@ -59,9 +59,9 @@ fn main() {
 }
 
 /// The files of the renderer, with what is in them.
-fn sources(folder: &Path) -> Vec<(PathBuf, String)> {
+fn sources(folder: &Path, package: &str) -> Vec<(PathBuf, String)> {
     let mut found = Vec::new();
-    let mut left = vec![folder.to_path_buf()];
+    let mut left = vec![folder.join(package)];
     while let Some(next) = left.pop() {
         for entry in fs::read_dir(next).expect("a folder").map(|entry| entry.expect("an entry").path()) {
             if entry.is_dir() {
@@ -89,13 +89,14 @@ fn systems(schedule: &mut Schedule, world: &mut World) -> Vec<String> {
     schedule.systems().expect("initialised").map(|(_, system)| system.name().to_string()).collect()
 }
 
-/// The files of the paths `pinhole::…` in a name.
+/// The files of the paths `pinhole::…` and `pinhole_scene::…` in a name.
 fn files_in(name: &str, folder: &Path) -> Vec<PathBuf> {
     let paths = name.split(|letter: char| !(letter.is_alphanumeric() || matches!(letter, ':' | '_')));
     let file = |path: &str| {
-        let modules: Vec<&str> = path.strip_prefix("pinhole::")?.split("::").collect();
+        let path = path.replace("pinhole_scene::", "scene::");
+        let modules: Vec<&str> = path.split("::").collect();
         let file = |count: usize| PathBuf::from(modules[..count].join("/")).with_extension("rs");
-        (1..=modules.len()).rev().map(file).find(|file| folder.join(file).is_file())
+        (2..=modules.len()).rev().map(file).find(|file| folder.join(file).is_file())
     };
     paths.filter_map(file).collect()
 }

@@ -20,7 +20,7 @@ use pinhole::render::{RenderWorld, prepare};
 use pinhole::scene::*;
 use pinhole::shade::Radiance;
 use pinhole::stages;
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::torus_knot::torus_knot;
 use std::time::{Duration, Instant};
 

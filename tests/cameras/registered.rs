@@ -8,7 +8,7 @@ use pinhole::plan::Census;
 use pinhole::rays::{ndc_from_raster, screen_from_ndc};
 use pinhole::render_scene;
 use pinhole::scene::{Background, Resolution, Rgb};
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 /// Odd and even, wide and high; the components of `EXTREMES` are accepted for all of them.
 const SIZES: [[u32; 2]; 5] = [[64, 64], [33, 15], [15, 33], [2, 1], [1, 1]];

@@ -188,7 +188,7 @@ const CALLS: [&str; 9] = [
 const CALLERS: [(&str, &str); 6] = [
     ("src/pinhole/film/whole_file.rs", "the one place that writes"),
     ("src/pinhole/film/replaces.rs", "looks whether a file may be written to"),
-    ("src/pinhole/scene/open_file.rs", "opens for reading"),
+    ("src/scene/open_file.rs", "opens for reading"),
     ("src/lab/report/run.rs", "removes the folder of runs once it is empty"),
     ("src/lab/review/pending.rs", "removes snapshots that a reader accepts or rejects"),
     ("src/lab/naive/one_page.rs", "a program for the book's first page"),

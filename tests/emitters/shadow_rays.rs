@@ -19,7 +19,7 @@ use pinhole::shapes::{
     Emitter, PlacedDisk, PlacedMesh, PlacedPlane, PlacedRectangle, PlacedSphere, Slabs, TriangleRow, offset_bound,
     point_on,
 };
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 
 /// Surfaces at once.
 const ROWS: u32 = 1024;

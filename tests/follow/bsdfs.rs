@@ -12,8 +12,8 @@ use pinhole::material::{
 use pinhole::plan::Census;
 use pinhole::scene::{Metal, MetallicRoughnessMap, Principled, Rgb, RoughGlass};
 use pinhole_lab::measure::chi_squared::{Bins, p_value};
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::hemisphere::Quadrature;
-use pinhole_lab::measure::ray_aim::Draws;
 use std::f64::consts::{PI, TAU};
 
 /// Angles of the direction to the eye, in degrees.

@@ -4,7 +4,7 @@
 use super::*;
 use glam::{DQuat, DVec3};
 use pinhole::scene::*;
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use std::f64::consts::PI;
 
 /// A body of glass, and how to tell without the renderer whether a point is in it.

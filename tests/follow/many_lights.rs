@@ -7,7 +7,7 @@ use crate::scenes::Setup;
 use crate::scenes::many::many_lights;
 use glam::DVec3;
 use pinhole::scene::*;
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::torus_knot::torus_knot;
 
 /// A ground and a ball under an emitting knot of 200 triangles, one side of which is dark.

@@ -11,7 +11,7 @@ use pinhole::scene::{
     Cuboid, Emissive, Environment, Integrator, LightStrategy, LookAt, OrthographicCamera, Placement, Rectangle,
     Resolution, Rgb, Sampling, Sphere,
 };
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use std::fs;
 use std::path::Path;
 

@@ -8,7 +8,7 @@ use pinhole::models::TriangleMesh;
 use pinhole::plan::{Census, Table};
 use pinhole::scene::*;
 use pinhole::shapes::point_on;
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::torus_knot::torus_knot;
 
 /// Fractions that are tried for every surface, evenly spread.

@@ -10,14 +10,14 @@ use pinhole::plan::{Census, plan};
 use pinhole::render::film_key;
 use pinhole::scene::{FNV_BASIS, Sampling, fingerprint, fnv};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 fn hash_of_one(text: &str) -> String {
     let folder = tempfile::tempdir().expect("a temporary folder");
     fs::create_dir_all(folder.path().join("src/pinhole/rays")).expect("made");
     fs::write(folder.path().join("Cargo.lock"), "[[package]]\n").expect("written");
     fs::write(folder.path().join("src/pinhole/rays/ndc.rs"), text).expect("written");
-    hash_of(&folder.path().join("src"), &folder.path().join("Cargo.lock")).expect("read")
+    hash_of(&[&folder.path().join("src")], &folder.path().join("Cargo.lock")).expect("read")
 }
 
 #[test]
@@ -55,7 +55,9 @@ fn what_is_not_code_makes_no_other_program() {
 #[test]
 fn the_key_of_a_film_knows_the_sources_that_the_program_was_built_from() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let sources = hash_of(&root.join("src/pinhole"), &root.join("Cargo.lock")).expect("the sources are here");
+    let packages = ["src/pinhole", "src/scene"].map(|package| root.join(package));
+    let sources =
+        hash_of(&packages.each_ref().map(PathBuf::as_path), &root.join("Cargo.lock")).expect("the sources are here");
     let scene = sampled([16, 9], Sampling::default(), ());
     let plan = plan(&Census::of(&scene), &offer()).expect("a plan");
     let key_of = |sources: &str| {

@@ -11,8 +11,8 @@ use pinhole::rays::{RayTimes, WorldRays};
 use pinhole::render::{inspect, prepare, render};
 use pinhole::scene::*;
 use pinhole::shapes::{SceneShape, with_shapes};
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::oracle::Oracle;
-use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::measure::specimen::Specimen;
 
 /// Calls a generic function for every registered shape.

@@ -1,7 +1,7 @@
 //! Renderers whose variance and bias are known: a ramp, a field of bias, and noise of a chosen kind.
 
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::image_error::Numbers;
-use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::report::curve::{Curve, Level};
 use pinhole_lab::report::ensemble::{Ensemble, Reference};
 

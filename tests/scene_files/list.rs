@@ -15,7 +15,7 @@ const OTHERWISE: [(&str, &str); 5] = [
 
 #[test]
 fn every_component_of_a_scene_has_a_word() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/pinhole/scene");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/scene");
     let mut components = Vec::new();
     let folders = [folder.clone(), folder.join("model")];
     let entries = folders.map(|folder| fs::read_dir(folder).expect("a readable folder"));

@@ -1,8 +1,8 @@
 //! Ten thousand lights: the memory does not grow with them, and they are as bright as all of them together.
 
 use super::hostile::run_within;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::image_file::read_numbers;
-use pinhole_lab::measure::ray_aim::Draws;
 use std::f64::consts::PI;
 use std::fmt::Write;
 use std::fs;

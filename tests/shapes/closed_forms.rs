@@ -3,8 +3,8 @@
 use glam::{DMat3, DVec3};
 use pinhole::scene::*;
 use pinhole::shapes::{PlacedCone, PlacedCylinder, PlacedTorus, SceneShape};
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::oracle::Oracle;
-use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::measure::specimen::Specimen;
 use std::f64::consts::TAU;
 

@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 use pinhole::shapes::{HITS, HitBlock, RayHit, Shape, ShapeKind, TriangleFace, TriangleRow, triangle_t, with_shapes};
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::oracle::Oracle;
-use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::measure::specimen::Specimen;
 
 /// Fills a block with hits, compares each surface to the last bit, and starts another.

@@ -6,7 +6,7 @@ use super::label::Label;
 use super::pen::{IMAGE, INK, Pen, RAY, WIDTH};
 use super::picture::Picture;
 use super::svg::{Drawing, Svg};
-use crate::measure::ray_aim::Draws;
+use crate::measure::draws::Draws;
 use crate::naive::stages::{Find, first_found, through_tree};
 use crate::naive::tree::{Below, Divide, Search, Tree, at_median, build, by_cost, to_visit};
 use glam::{DVec2, DVec3};

@@ -142,9 +142,9 @@ fn rounded<N: Number>(point: &Point<N>) -> Option<DVec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::draws::Draws;
     use crate::measure::exact::Dyadic;
     use crate::measure::exact::relative_error;
-    use crate::measure::ray_aim::Draws;
 
     #[test]
     fn enclosed_cameras_tell_what_exact_ones_tell() {

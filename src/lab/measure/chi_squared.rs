@@ -109,7 +109,7 @@ pub fn upper_gamma(a: f64, x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
 
     /// For an even number of degrees of freedom 2k, Q is e^(−x) Σ xⁱ/i! over i < k.
     #[test]

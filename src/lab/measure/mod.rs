@@ -7,6 +7,7 @@ pub mod camera_check;
 pub mod chi_squared;
 pub mod closed_form;
 pub mod cost;
+pub mod draws;
 pub mod enclosure;
 pub mod exact;
 pub mod exact_angle;

@@ -1,12 +1,13 @@
 //! The exact oracle of every registered shape: the distance with more precision than any method has, and the side on
 //! which a point lies.
 
+use super::draws::Draws;
 use super::enclosure::Enclosure;
 use super::exact::Dyadic;
 use super::exact_vector::{ExactVector, angles};
 use super::naive_hits::{self, NaiveHit, NaiveNormal};
 use super::number::Number;
-use super::ray_aim::{AimedRay, Draws};
+use super::ray_aim::AimedRay;
 use super::{
     oracle_cuboid, oracle_disk, oracle_ellipsoid, oracle_frustum, oracle_plane, oracle_rectangle, oracle_sphere,
     oracle_torus, oracle_triangle,

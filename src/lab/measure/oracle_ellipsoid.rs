@@ -132,9 +132,10 @@ pub fn enclosed_outward(origin: Vec3, direction: Vec3, ellipsoid: &Ellipsoid) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::draws::Draws;
     use crate::measure::exact::relative_error;
     use crate::measure::oracle_sphere::{Sphere, sphere_hit};
-    use crate::measure::ray_aim::{Draws, rounded_ray};
+    use crate::measure::ray_aim::rounded_ray;
     use glam::DMat3;
 
     /// Half axes 1, 2, 4 along x, y, z.

@@ -140,8 +140,9 @@ pub fn side_of_torus(point: DVec3, torus: &PlacedTorus) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::draws::Draws;
     use crate::measure::oracle::Oracle;
-    use crate::measure::ray_aim::{Draws, rounded_ray};
+    use crate::measure::ray_aim::rounded_ray;
     use crate::measure::specimen::Specimen;
 
     #[test]

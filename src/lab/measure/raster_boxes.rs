@@ -1,7 +1,7 @@
 //! Pictures of shapes whose boxes are rasterised, beside those by rays: cameras anywhere, also inside of a shape.
 
+use super::draws::Draws;
 use super::film_bits::FilmBits;
-use super::ray_aim::Draws;
 use super::specimen::Specimen;
 use bevy_ecs::prelude::*;
 use glam::DVec3;

@@ -1,8 +1,9 @@
 //! Shapes of every registered kind that are tried: the examples of their components, of any size, anywhere, turned and
 //! scaled at random.
 
+use super::draws::Draws;
 use super::oracle::Oracle;
-use super::ray_aim::{AimedRay, Draws};
+use super::ray_aim::AimedRay;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use pinhole::intersect::NO_SHAPE;
 use pinhole::scene::Placement;

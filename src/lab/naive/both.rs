@@ -107,7 +107,7 @@ pub fn globe(radius: f64, around: u32) -> TriangleMesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
     use pinhole::shapes::sphere_t;
 
     #[test]

@@ -120,7 +120,7 @@ pub fn denoised(mut image: Image, levels: u32, weight: impl Fn(&Seen, &Seen) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
     use crate::naive::projection::raster_from_world;
     use bevy_ecs::prelude::*;
     use pinhole::extract::eye;

@@ -66,8 +66,8 @@ pub fn t_max_to_light(distance: f64) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::draws::Draws;
     use crate::measure::oracle_sphere::{Sphere, strictly_outside};
-    use crate::measure::ray_aim::Draws;
     use glam::DVec3;
 
     /// How many points of a unit sphere at `offset` start inside it, with the specks that follow.

@@ -254,7 +254,7 @@ impl Tree {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
     use pinhole::shapes::PlacedSphere;
 
     /// Spheres of all sizes, many of which overlap.

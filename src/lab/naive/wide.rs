@@ -77,7 +77,7 @@ pub fn closest(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
     use pinhole::shapes::{PlacedSphere, Shape, hierarchy_of};
 
     #[test]

@@ -97,7 +97,7 @@ fn block_mean(image: &Numbers, [x, y]: [u32; 2], side: u32, part: usize) -> f64 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
 
     fn noise(count: usize, mean: f64, seed: u64) -> Vec<Numbers> {
         let mut draws = Draws::new(seed, 0);

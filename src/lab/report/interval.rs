@@ -1,7 +1,7 @@
 //! Estimates and the intervals about them.
 
 use super::distribution::{normal_cdf, normal_point, student_point};
-use crate::measure::ray_aim::Draws;
+use crate::measure::draws::Draws;
 
 /// The level of an interval that stands alone.
 pub const LEVEL: f64 = 0.95;

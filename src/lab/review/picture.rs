@@ -143,7 +143,7 @@ impl fmt::Display for PictureDifference {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
     use image::{Rgb, RgbImage};
     use std::io::Cursor;
 

@@ -69,7 +69,7 @@ pub fn traverse_counted(
 mod tests {
     use super::*;
     use crate::bvh::{BoundingBox, Child};
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
     use glam::DVec3;
 
     /// The levels of all nodes, from the top down.

@@ -521,7 +521,7 @@ mod glass_overlap_tests {
 #[cfg(test)]
 mod closed_mesh_tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
     use crate::shapes::TriangleFace;
     use glam::{DQuat, DVec2};
 

@@ -63,7 +63,7 @@ fn owners(scene: &Census<'_>) -> [Arc<[Entity]>; 3] {
 /// Checks that every opacity is a number that it may be, on a material that takes it.
 fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
     for &owner in owners(scene).iter().flat_map(|list| list.iter()) {
-        let word = if scene.get::<SingleSided>(owner).is_some() { "single sided" } else { Opacity::WORD };
+        let word = if scene.get::<SingleSided>(owner).is_some() { "single sided" } else { "opacity" };
         let who = kind_and_name(scene, word, owner);
         let of_opaque =
             || format!("it belongs on a {}", components_in_words(scene, "", |material| !material.transmits));
@@ -83,11 +83,6 @@ fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
         }
     }
     Ok(())
-}
-
-impl Opacity {
-    /// Its name in messages.
-    const WORD: &'static str = "opacity";
 }
 
 impl Table for NonOpaqueTable {

@@ -104,7 +104,7 @@ impl SplatFilter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
 
     const FILTERS: [Filter; 5] = [
         Filter::Box { radius: 0.5 },

@@ -355,7 +355,7 @@ pub fn shading_adjoint_stage() -> Stage {
 #[cfg(test)]
 mod shading_adjoint_tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
 
     /// With one normal nothing changes, and the reversed path has the inverse factor.
     #[test]

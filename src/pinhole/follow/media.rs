@@ -415,7 +415,7 @@ impl MediumStack {
 #[cfg(test)]
 mod deeper_media_tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
 
     /// Random walks in and out of nine glass shapes; the medium at each point must be the one of the highest priority,
     /// and among equals the first.

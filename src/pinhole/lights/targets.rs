@@ -167,7 +167,7 @@ pub const MAX_TARGETS_SOLID_ANGLE: f64 = PI;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
     use crate::shapes::emitter::sphere_direction;
 
     /// Directions to targets, each weighted by 1 over its pdf, cover the union of the cones as uniform directions do.

@@ -38,7 +38,7 @@ pub fn cosine_pdf(cosine: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::measure::chi_squared::{Bins, p_value};
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
 
     /// The rounding unit of f64.
     const U: f64 = 0.5 * f64::EPSILON;

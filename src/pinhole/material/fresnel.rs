@@ -66,8 +66,8 @@ pub fn fresnel(cosine: f64, eta: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::draws::Draws;
     use crate::measure::exact::Dyadic;
-    use crate::measure::ray_aim::Draws;
 
     const ONE: f64 = 1.0;
 

@@ -110,9 +110,9 @@ pub fn ggx_sample(to_eye: DVec3, alpha: f64, numbers: [f64; 2]) -> Option<Microf
 mod tests {
     use super::*;
     use crate::measure::chi_squared::{Bins, p_value};
+    use crate::measure::draws::Draws;
     use crate::measure::exact::{Dyadic, relative_error};
     use crate::measure::hemisphere::Quadrature;
-    use crate::measure::ray_aim::Draws;
     use std::f64::consts::{FRAC_PI_2, LN_2};
 
     const ALPHAS: [f64; 4] = [0.005, 0.05, 0.3, 1.0];

@@ -137,7 +137,7 @@ impl Bsdf for SmoothGlass {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws as Numbers;
+    use crate::measure::draws::Draws as Numbers;
 
     /// The mean of the sampled weights is that of the two rays, and no light is lost or gained.
     #[test]

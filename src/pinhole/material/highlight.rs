@@ -234,7 +234,7 @@ impl<'a, L: Lobe> Highlight<'a, L> {
 mod highlight_tests {
     use super::*;
     use crate::material::{blinn_phong_peak, half_vector_cosine, mirror_cosine, phong_peak};
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
     use glam::DVec3;
 
     /// The BRDF stays the same when light and eye are exchanged.
@@ -277,7 +277,7 @@ mod lobe_tests {
     use super::*;
     use crate::material::{BlinnPhongTable, PhongTable};
     use crate::measure::chi_squared::{Bins, p_value};
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
     use std::f64::consts::PI;
 
     const EXPONENTS: [f64; 4] = [1.0, 3.0, 12.0, 60.0];

@@ -160,8 +160,8 @@ mod tests {
     use super::*;
     use crate::material::{Bsdf, BsdfSample, MetalTable, Parameters, ShadingContext, ggx_brdf, ggx_g1};
     use crate::measure::chi_squared::{Bins, p_value};
+    use crate::measure::draws::Draws;
     use crate::measure::hemisphere::Quadrature;
-    use crate::measure::ray_aim::Draws;
     use std::f64::consts::{LN_2, PI};
 
     const ALPHAS: [f64; 7] = [0.01, 0.03, 0.05, 0.1, 0.3, 0.6, 1.0];

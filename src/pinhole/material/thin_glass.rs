@@ -102,7 +102,7 @@ impl Bsdf for ThinGlassTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
 
     /// Light goes to and fro between the two faces until next to nothing is left of it.
     #[test]

@@ -3,6 +3,8 @@
 
 #[path = "../../lab/measure/chi_squared.rs"]
 pub mod chi_squared;
+#[path = "../../lab/measure/draws.rs"]
+pub mod draws;
 #[path = "../../lab/measure/enclosure.rs"]
 pub mod enclosure;
 #[path = "../../lab/measure/exact.rs"]

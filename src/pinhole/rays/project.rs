@@ -64,7 +64,7 @@ pub fn join_camera(join: &CameraJoinTable, lens: DVec2, point: DVec3) -> Option<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
     use crate::rays::{
         camera_ray_lens, camera_ray_orthographic, camera_ray_perspective, ndc_from_raster, screen_from_ndc,
     };

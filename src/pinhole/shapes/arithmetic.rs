@@ -438,7 +438,7 @@ pub fn exact_dot(a: &ExactVector, b: &ExactVector) -> ExactSum {
 #[cfg(test)]
 mod arithmetic_tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
 
     /// A computation that cancels, in f64 with its bound and in double-double, which is exact beside it.
     #[test]

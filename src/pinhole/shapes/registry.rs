@@ -389,7 +389,7 @@ impl UvSlope {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::measure::draws::Draws;
     use crate::shapes::PlacedSphere;
     use crate::shapes::emitter::{EmittingCuboid, EmittingDisk, EmittingTriangle, Parallelogram};
 

@@ -132,7 +132,7 @@ mod uv_tests {
     fn a_plane_has_the_axes_of_the_face_that_is_nearest() {
         let mut faces = [0; 3];
         for index in 0..3000 {
-            let normal = crate::measure::ray_aim::Draws::new(2802, index).unit_vector();
+            let normal = crate::measure::draws::Draws::new(2802, index).unit_vector();
             let axis = normal.abs().max_position();
             let face = face_axes(axis, normal[axis] < 0.0)[0];
             let [u, v] = plane_axes(3.0 * normal);

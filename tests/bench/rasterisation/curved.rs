@@ -12,7 +12,7 @@ use pinhole::plan::{Census, Table};
 use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::*;
 use pinhole::shapes::PlacedSphere;
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::tessellated_sphere::tessellated_sphere;
 
 const COUNTS: [u32; 5] = [1, 10, 100, 1000, 10_000];

@@ -8,7 +8,7 @@ use super::{KNOTS, SIZES, after, rendered, scene};
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
 use pinhole::shapes::MeshHierarchy;
-use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::torus_knot::torus_knot;
 use pinhole_lab::report::provenance::Provenance;
 use std::fmt::Write;

@@ -5,7 +5,7 @@ use super::camera_chain::{
 };
 use super::{Group, Method, Tally, Trial};
 use crate::measure::camera_check::CameraOracle;
-use crate::measure::ray_aim::Draws;
+use crate::measure::draws::Draws;
 use glam::{DMat3, DQuat, DVec3};
 use pinhole::extract::SMALLEST_PIXEL;
 use pinhole::scene::{FovAxis, LookAt};

@@ -4,7 +4,7 @@ use super::camera_chain::{CameraCase, CameraChain, Pose, axes_error};
 use super::camera_table::{one_by_one, turned};
 use super::{Method, Trial};
 use crate::measure::camera_check::CameraOracle;
-use crate::measure::ray_aim::Draws;
+use crate::measure::draws::Draws;
 use crate::naive::camera::{look_at_f32, raster_f32, stepped_f32, tan_half_f32};
 use glam::{DMat3, DQuat, DVec3};
 use pinhole::extract::tan_half;

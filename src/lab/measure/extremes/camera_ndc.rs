@@ -3,7 +3,7 @@
 use super::camera::STAGE_BOUND;
 use super::camera_chain::{CameraCase, CameraChain, Pose};
 use super::{Group, Method, Tally, Trial};
-use crate::measure::ray_aim::Draws;
+use crate::measure::draws::Draws;
 use crate::naive::ndc::{by_steps, raster_of_sample, to_last_pixel};
 use glam::{DQuat, DVec2, DVec3};
 use pinhole::rays::ndc_from_raster;

@@ -4,7 +4,7 @@ use super::camera::{METHODS, WORLD_BOUND, any_pixel, any_pose, any_pose_at, any_
 use super::camera_chain::{CameraCase, CameraChain, Pose, viewport_error};
 use super::camera_limits::FEW;
 use super::{Group, Method, Tally, Trial};
-use crate::measure::ray_aim::Draws;
+use crate::measure::draws::Draws;
 use crate::naive::camera::ndc_over_last;
 use glam::{DMat3, DQuat, DVec3};
 use pinhole::scene::{FovAxis, LookAt};

@@ -4,7 +4,7 @@
 //! sphere by πL(r/d)² cos θ; none of these needs a random direction.
 
 use super::{Group, Method, Tally, Trial};
-use crate::measure::ray_aim::Draws;
+use crate::measure::draws::Draws;
 use crate::naive::emitter::{
     irradiance_by_whole_sphere, pdf_without_cosine, pdf_without_jacobian, versine_by_difference,
     versine_by_difference_f32,

@@ -2,7 +2,7 @@
 
 use super::bench::Bench;
 use super::{Group, Method, Tally, Trial, film_bytes};
-use crate::measure::ray_aim::Draws;
+use crate::measure::draws::Draws;
 use crate::naive::film::{
     byte_by_curve_f32, mean_by_sum_f32, mean_of_all, mean_with_black_for_bad, running_mean_f32, sum_by_threads,
 };

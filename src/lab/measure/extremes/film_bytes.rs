@@ -1,8 +1,8 @@
 //! Bytes: is every one the one that the sRGB curve rounds to?
 
 use super::{Group, Method, Tally, Trial};
+use crate::measure::draws::Draws;
 use crate::measure::exact::Dyadic;
-use crate::measure::ray_aim::Draws;
 use crate::naive::film::{byte_by_curve_f32, byte_by_gamma, byte_cut_off};
 use num_bigint::BigInt;
 use pinhole::film::{Curve, byte_from_linear, linear_from_srgb};

@@ -1,8 +1,9 @@
 //! Hierarchies: each finds what testing everything finds, to the last bit; and no ray leaks out of a closed mesh.
 
 use super::{Group, Method, Tally, Trial};
+use crate::measure::draws::Draws;
 use crate::measure::oracle::Oracle;
-use crate::measure::ray_aim::{AimedRay, Draws, rounded_ray};
+use crate::measure::ray_aim::{AimedRay, rounded_ray};
 use crate::measure::specimen::Specimen;
 use crate::measure::torus_knot::{MIN_RADIUS, curve, torus_knot};
 use glam::{DQuat, DVec3, Vec3};

@@ -1,8 +1,8 @@
 //! Lenses: do rays converge where the camera is focused, is the opening filled evenly, how wide is what is out of focus?
 
 use super::{Group, Method, Tally, Trial};
+use crate::measure::draws::Draws;
 use crate::measure::exact::Dyadic;
-use crate::measure::ray_aim::Draws;
 use crate::naive::lens::{focus_along_the_ray, radius_at_random, square_onto_disk};
 use glam::{DVec2, DVec3};
 use pinhole::extract::{LensTable, tan_half};

@@ -2,8 +2,9 @@
 
 use super::bench::Bench;
 use super::{Group, Method, Tally, Trial, light_albedo};
+use crate::measure::draws::Draws;
 use crate::measure::exact::UNIT_ROUNDOFF_F32 as U;
-use crate::measure::ray_aim::{Draws, rounded_ray};
+use crate::measure::ray_aim::rounded_ray;
 use crate::naive::light::{
     highlight_f32, lit_f32, spot_falloff_by_cosine, spot_falloff_by_cosine_f32, sun_as_a_far_light,
 };

@@ -1,8 +1,8 @@
 //! What highlights send on of the light that falls on them, summed over all directions by quadrature.
 
 use super::{Group, Method, Tally, Trial};
+use crate::measure::draws::Draws;
 use crate::measure::hemisphere::Quadrature;
-use crate::measure::ray_aim::Draws;
 use crate::naive::light::{phong_without_factor, short_blinn_phong_peak};
 use glam::DVec3;
 use pinhole::material::{blinn_phong_peak, half_vector_cosine, highlight, mirror_cosine, phong_peak};

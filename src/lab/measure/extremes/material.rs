@@ -1,9 +1,9 @@
 //! Mirrors, glass and rough metal: media that are nearly one, angles at which all is reflected, highlights of any width.
 
 use super::{Group, Method, Tally, Trial};
+use crate::measure::draws::Draws;
 use crate::measure::exact::{Dyadic, UNIT_ROUNDOFF_F32 as U};
 use crate::measure::hemisphere::Quadrature;
-use crate::measure::ray_aim::Draws;
 use crate::naive::material::{
     frame_by_division_f32, fresnel_by_sines_f32, ggx_brdf_unmasked, ggx_d_f32, refract_unchecked, schlick,
 };

@@ -2,8 +2,8 @@
 //! boxes.
 
 use super::{Group, Method, Tally, Trial};
+use crate::measure::draws::Draws;
 use crate::measure::raster_boxes::box_picture;
-use crate::measure::ray_aim::Draws;
 use crate::measure::torus_knot::torus_knot;
 use crate::measure::visibility::compare_visibility;
 use bevy_ecs::prelude::*;

@@ -1,7 +1,7 @@
 //! Sampling: do numbers stay below 1, points in their pixels, and means with what they are means of?
 
 use super::{Group, Method, Tally, Trial};
-use crate::measure::ray_aim::Draws;
+use crate::measure::draws::Draws;
 use crate::naive::sampling::{grid_place, mean_by_count, raster_plus_jitter_f32, unit_of_32_bits};
 use pinhole::extract::cells_of;
 use pinhole::film::FilmTile;

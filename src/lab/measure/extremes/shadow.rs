@@ -24,9 +24,10 @@
 
 use super::shadow_stages::{Shadow, ShadowStages, leaving};
 use super::{Group, Method, Score, Tally, Trial, shapes};
+use crate::measure::draws::Draws;
 use crate::measure::oracle_plane::{Plane, plane_t, side_of_plane};
 use crate::measure::oracle_sphere::{Sphere, line_ts};
-use crate::measure::ray_aim::{Draws, rounded_ray, seen_sphere_of_any_size};
+use crate::measure::ray_aim::{rounded_ray, seen_sphere_of_any_size};
 use crate::naive::shadow::{ShadowStart, start_after_constant, start_off_surface, t_max_to_light, t_max_without_end};
 use glam::{DVec3, Vec3};
 use pinhole::intersect::Surface;

@@ -1,9 +1,10 @@
 //! From a ray to the shadow ray that leaves its hit, through pinhole's stages.
 
 use super::bench::{Bench, plane_table, sphere_table};
+use crate::measure::draws::Draws;
 use crate::measure::oracle_plane::Plane;
 use crate::measure::oracle_sphere::Sphere;
-use crate::measure::ray_aim::{AimedRay, Draws};
+use crate::measure::ray_aim::AimedRay;
 use glam::{DVec3, Vec3};
 use pinhole::extract::{MaterialKind, MaterialTable, NO_ROW, PointLightTable, ShapeTable};
 use pinhole::intersect::{self, Hits, MaterialRows, NO_SHAPE, Surface, Surfaces};

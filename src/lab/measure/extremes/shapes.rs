@@ -7,10 +7,11 @@
 
 use super::shadow_stages::leaving;
 use super::{Group, Method, Tally, Trial};
+use crate::measure::draws::Draws;
 use crate::measure::exact::UNIT_ROUNDOFF_F32 as U;
 use crate::measure::naive_hits::NaiveNormal;
 use crate::measure::oracle::Oracle;
-use crate::measure::ray_aim::{AimedRay, Draws, rounded_ray};
+use crate::measure::ray_aim::{AimedRay, rounded_ray};
 use crate::measure::specimen::{Specimen, kernel_ts};
 use crate::naive::shadow::{start_after_constant, start_at_hit, start_off_surface};
 use glam::{DVec3, Vec3};

@@ -1,8 +1,8 @@
 //! Textures: what a pixel covers, its mean, the edges of images.
 
 use super::{Group, Method, Tally, Trial};
+use crate::measure::draws::Draws;
 use crate::measure::exact::{Dyadic, UNIT_ROUNDOFF_F32 as U};
-use crate::measure::ray_aim::Draws;
 use crate::naive::texture::{
     bilinear_to_the_edge, from_top_by_cosine, halved_by_fours, naive_checker, step_to_neighbour, wave_mean_f32,
 };

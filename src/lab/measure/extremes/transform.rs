@@ -1,12 +1,12 @@
 //! Placements: planes and spheres through parents, checked by the author's own numbers; what has no volume; look-at.
 
 use super::{Group, Method, Tally, Trial};
+use crate::measure::draws::Draws;
 use crate::measure::enclosure::Enclosure;
 use crate::measure::exact::{Dyadic, UNIT_ROUNDOFF_F32 as U};
 use crate::measure::exact_vector::{ExactVector, Vector, angles};
 use crate::measure::number::Number;
 use crate::measure::oracle_ellipsoid::excess;
-use crate::measure::ray_aim::Draws;
 use crate::measure::specimen::{scales, turn};
 use crate::naive::ellipsoid::{look_at_unchecked, normal_as_direction};
 use bevy_ecs::prelude::*;

@@ -1,7 +1,7 @@
 //! Transport: do light paths carry what theory says, and do two strategies to find a light count as one?
 
 use super::{Group, Method, Tally, Trial};
-use crate::measure::ray_aim::Draws;
+use crate::measure::draws::Draws;
 use crate::naive::path::{
     light_of_capped_path, power_heuristic_f32, uniform_direction, weight_without_cosine, weight_without_pi,
 };

@@ -3,9 +3,10 @@
 
 use super::bench::Bench;
 use super::{Group, Method, Tally, Trial};
+use crate::measure::draws::Draws;
 use crate::measure::exact::UNIT_ROUNDOFF_F32 as U;
 use crate::measure::oracle_triangle::{exact_weights, triangle_t as exact_t};
-use crate::measure::ray_aim::{AimedRay, Draws, rounded_ray};
+use crate::measure::ray_aim::{AimedRay, rounded_ray};
 use crate::measure::specimen::{scales, turn};
 use crate::naive::triangle::{hit_f32, hit_inside_strictly, normal_by_winding};
 use bevy_ecs::prelude::*;

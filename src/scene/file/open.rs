@@ -1,5 +1,5 @@
 use super::{FileProblem, SceneFile};
-use crate::scene::{FileError, FileKind, Unopened, read_file};
+use crate::{FileError, FileKind, Unopened, read_file};
 use std::io::Read;
 use std::path::Path;
 

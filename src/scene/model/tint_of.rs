@@ -1,5 +1,5 @@
 use super::open_model::OpenModel;
-use crate::scene::{Rgb, Tint};
+use crate::{Rgb, Tint};
 
 impl OpenModel {
     /// The tint of a material: its base colour where that has a texture that is read, and the colours of the vertices of its meshes;

@@ -1,6 +1,6 @@
 use super::word::Word;
 use super::write::spawned;
-use crate::scene::{
+use crate::{
     ChildOf, Disabled, EmbeddedFiles, Environment, IMAGE_FILE, MeshGeometry, MeshInstance, ModelFiles, Name, Sampler,
     Sampling, SceneFolder, Statistics, UsesMaterial, read_file, texture_files,
 };

@@ -1,5 +1,5 @@
-use crate::scene::material::MATERIALS;
-use crate::scene::{
+use crate::material::MATERIALS;
+use crate::{
     Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, EmissionMap, Emissive, Environment,
     EquirectangularCamera, FisheyeCamera, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing, LookAt, Mesh,
     MetallicRoughnessMap, Motion, NormalMap, Opacity, OpacityMap, OrthographicCamera, PerspectiveCamera, Placement,

@@ -5,7 +5,7 @@ use super::mistake::{Mistake, byte_at};
 use super::nearest::nearest;
 use super::scan::{EntityText, Part, check_fields, fields};
 use super::word::{Put, RELATIONS, Word, words};
-use crate::scene::printable;
+use crate::printable;
 use ron::error::{Error, SpannedError};
 use std::ops::Range;
 

@@ -1,6 +1,6 @@
 //! The image files that a model names: where they are, and whether they can be read.
 
-use crate::scene::{FileStore, IMAGE_FILE, TELLING_BYTES, Undecoded, check_memory, image_kind};
+use crate::{FileStore, IMAGE_FILE, TELLING_BYTES, Undecoded, check_memory, image_kind};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use std::fs;
 use std::io::Cursor;

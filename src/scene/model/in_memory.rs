@@ -1,6 +1,6 @@
 use super::mesh::{Mesh, MeshPart};
-use crate::scene::file::spawned;
-use crate::scene::{MeshGeometry, MeshInstance};
+use crate::file::spawned;
+use crate::{MeshGeometry, MeshInstance};
 use bevy_ecs::prelude::*;
 use pinhole_models::TriangleMesh;
 use std::collections::BTreeMap;
@@ -12,7 +12,7 @@ pub struct MeshInMemory {
     pub geometry: MeshGeometry,
     /// The instances, in spawn order.
     pub instances: Vec<Entity>,
-    /// The file that [`scene_text`](crate::scene::scene_text) names for it; it is not there unless someone writes it.
+    /// The file that [`scene_text`](crate::scene_text) names for it; it is not there unless someone writes it.
     pub file: String,
 }
 

@@ -3,7 +3,7 @@ use super::lighting::{LitBy, bounds_of, exposure, lit_by, vertices};
 use super::load::load_meshes;
 use super::mesh::{Mesh, ModelNotes};
 use super::open_model::open_model;
-use crate::scene::{
+use crate::{
     Degrees, DirectionalLight, Emissive, FileProblem, FovAxis, Gradient, Integrator, LookAt, Name, PerspectiveCamera,
     Resolution, Rgb, Sampling, SceneFolder, printable_path,
 };

@@ -1,4 +1,4 @@
-use crate::scene::Placement;
+use crate::Placement;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 

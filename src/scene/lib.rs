@@ -47,7 +47,8 @@ pub use bevy_ecs::name::Name;
 pub use cameras::{
     Aperture, EquirectangularCamera, FisheyeCamera, FovAxis, Lens, OrthographicCamera, PerspectiveCamera,
 };
-pub(crate) use check::{colour_within, finite_point, light_colour, number, positive_length, triple};
+#[doc(hidden)]
+pub use check::{colour_within, finite_point, light_colour, number, positive_length, triple};
 pub use colour::Rgb;
 #[doc(hidden)]
 pub use file::FileProblem;
@@ -95,7 +96,6 @@ pub use shapes::{Cone, Cuboid, Cylinder, Disk, MeshInstance, Plane, Sphere, Toru
 #[doc(hidden)]
 pub use shapes::{MeshGeometry, Rectangle};
 pub use sky::{Background, Environment, Gradient};
-pub(crate) use textures::for_each_texture;
 pub use textures::{
     Checker, EmissionMap, ImageTexture, NormalMap, Opacity, OpacityChannel, OpacityMap, SingleSided, Stripes,
 };
@@ -104,3 +104,9 @@ pub use textures::{
     Feeds, IMAGE_FILE, MetallicRoughnessMap, Texture, TextureBy, Tint, UvTransform, Wrap, WrapMode,
     for_each_texture_file, texture_files,
 };
+
+// The random numbers of unit tests are the laboratory's.
+#[cfg(test)]
+#[allow(dead_code, reason = "the laboratory uses the rest")]
+#[path = "../lab/measure/draws.rs"]
+mod draws;

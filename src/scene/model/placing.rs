@@ -1,4 +1,4 @@
-use crate::scene::Placement;
+use crate::Placement;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 /// A matrix that is no product of a rotation and scales along the axes differs from the nearest by more than this
@@ -71,7 +71,7 @@ fn sheared(matrix: &DAffine3) -> [Placement; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::draws::Draws;
 
     /// Matrices of every kind, sheared, mirrored, rounded to f32 and nearly flat ones among them.
     #[test]

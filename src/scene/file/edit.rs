@@ -5,7 +5,7 @@ use super::nearest::nearest;
 use super::read::{FileEntity, quoted};
 use super::scan::{after_bracket, elements, fields, is_one_value, variant};
 use super::word::Word;
-use crate::scene::LookAt;
+use crate::LookAt;
 use glam::DVec3;
 use std::ops::Range;
 

@@ -5,7 +5,7 @@ use super::read::{FileEntity, read_entity};
 use super::refer::resolve;
 use super::scan::{entities, fields};
 use super::{FileProblem, PlaceInFile};
-use crate::scene::{ChildOf, Disabled, LookAt, Name, SceneError, SceneFolder, UsesMaterial, load_meshes};
+use crate::{ChildOf, Disabled, LookAt, Name, SceneError, SceneFolder, UsesMaterial, load_meshes};
 use bevy_ecs::prelude::*;
 use std::path::{Path, PathBuf};
 

@@ -219,7 +219,7 @@ pub fn some_of(world: &World, entities: &[Entity], between: &str) -> String {
 #[cfg(test)]
 mod orientation_tests {
     use super::*;
-    use crate::measure::ray_aim::Draws;
+    use crate::draws::Draws;
     use glam::DMat3;
 
     /// The textbook's matrices, one after another, against the quaternions.

@@ -1,7 +1,7 @@
 //! The components that are materials; a new one has a word here.
 
 use super::file::Word;
-use crate::scene::Rgb;
+use crate::Rgb;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 

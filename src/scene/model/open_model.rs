@@ -1,6 +1,6 @@
 use super::closed::is_closed;
 use super::image_found::{check_bytes, check_file, ending_of, found_beside};
-use crate::scene::{
+use crate::{
     EmbeddedFiles, FileKind, FileStore, MeshGeometry, SceneFolder, Undecoded, check_memory, printable, printable_path,
     read_file,
 };

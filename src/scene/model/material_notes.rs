@@ -1,4 +1,4 @@
-use crate::scene::printable;
+use crate::printable;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -1,6 +1,6 @@
 use super::read::LONGEST_NAME;
 use super::word::{Word, text_of};
-use crate::scene::{
+use crate::{
     ChildOf, Disabled, Mesh, MeshInstance, MeshPart, Name, SceneError, UnreadMesh, UsedByShapes, UsesMaterial, called,
     meshes_in_memory, printable,
 };

@@ -1,6 +1,6 @@
 //! What a model file holds, as components: its cameras and lights.
 
-use crate::scene::{
+use crate::{
     Degrees, DirectionalLight, FovAxis, Name, OrthographicCamera, PerspectiveCamera, Placement, PointLight, Rgb,
     SpotLight,
 };

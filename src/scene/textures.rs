@@ -8,13 +8,14 @@ use serde::{Deserialize, Serialize};
 
 /// All textures; a further one is a line here.
 // ANCHOR: texture_list
+#[doc(hidden)]
+#[macro_export]
 macro_rules! for_each_texture {
     ($then:ident) => {
         $then! { Checker, Stripes, ImageTexture, NormalMap, MetallicRoughnessMap, EmissionMap, OpacityMap }
     };
 }
 // ANCHOR_END: texture_list
-pub(crate) use for_each_texture;
 
 macro_rules! texture_files {
     ($($texture:ident),+) => {

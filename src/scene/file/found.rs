@@ -1,6 +1,6 @@
 //! How messages quote a file: shortened, on one line, with control characters escaped.
 
-use crate::scene::printable;
+use crate::printable;
 
 /// The longest quotation, in characters.
 const MAX_LETTERS: usize = 40;

@@ -171,7 +171,7 @@ impl From<FileError> for Undecoded {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::IMAGE_FILE;
+    use crate::IMAGE_FILE;
     use std::cell::Cell;
 
     #[test]

@@ -3,7 +3,7 @@
 use super::components_of::name;
 use super::material_notes::MaterialNotes;
 use super::open_model::OpenModel;
-use crate::scene::{
+use crate::{
     Degrees, EmissionMap, Emissive, Glass, ImageTexture, MetallicRoughnessMap, Name, NormalMap, Opacity,
     OpacityChannel, OpacityMap, Principled, Rgb, RoughGlass, Sides, SingleSided, TextureBy, ThinGlass, UvTransform,
     Wrap, WrapMode,

@@ -1,4 +1,4 @@
-use crate::scene::printable_path;
+use crate::printable_path;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
