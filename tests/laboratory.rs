@@ -15,3 +15,4 @@ mod figures;
 mod naive;
 mod report;
 mod reports;
+mod yours;

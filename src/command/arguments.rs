@@ -81,6 +81,8 @@ pub enum Command {
     Measure(MeasureAnew),
     /// Check the function that a chapter asks you to write; without a chapter, list them and how far you are
     Check(CheckExercise),
+    /// Compare the picture that your own program wrote with pinhole's of the same scene; without it, print the program
+    Yours(CompareYours),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures
     Figure(DrawFigure),
     /// Draw an image that a chapter reads from a file; without a name, list them
@@ -158,6 +160,17 @@ pub struct CompareImages {
     /// The same as --format json
     #[arg(long, hide = true)]
     pub json: bool,
+}
+
+#[derive(Args)]
+pub struct CompareYours {
+    /// The chapter after whose step your program is; without it, the chapters that have one
+    pub chapter: Option<String>,
+    /// The picture.ppm that your program wrote
+    pub picture: Option<PathBuf>,
+    /// Draw pinhole's picture of the scene instead, as a PNG
+    #[arg(short, long, value_name = "FILE", conflicts_with = "picture")]
+    pub output: Option<PathBuf>,
 }
 
 #[derive(Args)]

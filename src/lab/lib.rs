@@ -8,6 +8,7 @@
 //! 4. [`review`]: what a picture was made of, as text to compare with.
 //! 5. [`report`]: error against run time.
 //! 6. [`exercise`]: what a reader writes, beside pinhole's own.
+//! 7. [`yours`]: the program that a reader writes from the first page on.
 
 pub mod naive;
 
@@ -20,6 +21,8 @@ pub mod review;
 pub mod report;
 
 pub mod exercise;
+
+pub mod yours;
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;

@@ -69,7 +69,7 @@ pub fn read(page: &Page, path: &str, anchor: Option<&str>) -> Result<String, Str
 pub fn shown(page: &Page, path: &str, anchor: Option<&str>) -> Result<String, String> {
     let listing = read(page, path, anchor)?;
     Ok(match path.rsplit('.').next() {
-        Some("rs") => fit::source(&listing),
+        Some("rs" | "step") => fit::source(&listing),
         Some("txt") => fit::printed(&listing),
         _ => listing,
     })

@@ -1,0 +1,104 @@
+use super::arguments::CompareYours;
+use super::error::{Error, Result};
+use super::format::{Format, print_json, print_written};
+use super::own_file::{check_file, write_file};
+use pinhole::film::{Curve, png_bytes};
+use pinhole::scene::{FileKind, printable_path, read_file};
+use pinhole_lab::yours::{Verdict, picture_of, program_after, scene_after, steps, verdict};
+use serde_json::{Value, json};
+use std::io::Write;
+use std::path::Path;
+
+/// What is read of a reader's picture.
+const PICTURE: FileKind = FileKind { name: "a picture", max: 16 << 20 };
+
+/// Lists the steps of the reader's program; prints it after one; draws pinhole's picture of its scene; or compares the
+/// picture that the reader's program wrote with that.
+///
+/// Errors: a chapter without a step; a picture that is no text in the format PPM, or of another size.
+pub fn yours(asked: &CompareYours, format: Format, out: &mut dyn Write) -> Result {
+    let Some(chapter) = &asked.chapter else { return list(format, out) };
+    let all = steps();
+    let found = all.iter().find(|step| step.chapter == chapter || Ok(step.number) == chapter.parse());
+    let Some(step) = found else {
+        let numbers: Vec<String> = all.iter().map(|step| step.number.to_string()).collect();
+        let told = format!("chapter {chapter} adds nothing to your program; {} do", numbers.join(", "));
+        return Err(Error::usage(told));
+    };
+    if let Some(file) = &asked.output {
+        check_file(true, file)?;
+        write_file(true, file, &png_bytes(&picture_of(&scene_after(step.number))?, Curve::Srgb)?)?;
+        return print_written(file, format, out);
+    }
+    let Some(picture) = &asked.picture else {
+        let program = program_after(step.number).map_err(Error::usage)?;
+        return Ok(out.write_all(program.as_bytes())?);
+    };
+    let (size, bytes) = read_ppm(picture)?;
+    tell(&verdict(step.number, size, &bytes)?, format, out)
+}
+
+fn list(format: Format, out: &mut dyn Write) -> Result {
+    let mut all: Vec<Value> = Vec::new();
+    for step in steps() {
+        let lines = program_after(step.number).map_err(Error::usage)?.lines().count();
+        if format.is_json() {
+            all.push(json!({ "chapter": step.chapter, "lines": lines }));
+        } else {
+            writeln!(out, "{:<22} {lines} lines", step.chapter)?;
+        }
+    }
+    if format.is_json() { print_json(&json!({ "steps": all }), out) } else { Ok(()) }
+}
+
+fn tell(found: &Verdict, format: Format, out: &mut dyn Write) -> Result {
+    if format.is_json() {
+        let told = match *found {
+            Verdict::Same { resolved } => json!({ "same": true, "resolved": resolved }),
+            Verdict::Differs { blocks, of, brightness, most, looks_like } => json!({
+                "same": false, "blocks": blocks, "of": of, "brightness": brightness, "most": most, "looks_like": looks_like,
+            }),
+        };
+        return print_json(&told, out);
+    }
+    match *found {
+        Verdict::Same { resolved } => {
+            let percent = 100.0 * resolved;
+            writeln!(out, "The same picture: no block of 16 × 10 pixels differs by more than noise and rounding.")?;
+            writeln!(out, "In half of the blocks, {percent:.1} % more or less light would have been told.")?;
+        }
+        Verdict::Differs { blocks, of, brightness, most: [x, y], looks_like } => {
+            let (percent, than) = (100.0 * brightness.abs(), if brightness < 0.0 { "less" } else { "more" });
+            writeln!(
+                out,
+                "Another picture: {blocks} of {of} blocks of 16 × 10 pixels differ, with {percent:.1} % {than} light in all."
+            )?;
+            writeln!(out, "Most of all about pixel {x},{y}.")?;
+            if let Some(what) = looks_like {
+                writeln!(out, "It looks like this: {what}")?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The size and the bytes of a picture in the text format PPM.
+fn read_ppm(file: &Path) -> Result<([usize; 2], Vec<[u8; 3]>)> {
+    let text = read_file(file, PICTURE).map_err(|told| Error::usage(told.to_string()))?;
+    let refused = |what: &str| Error::usage(format!("cannot read {}: {what}", printable_path(file)));
+    let text = String::from_utf8_lossy(&text);
+    let mut words = text.split_whitespace();
+    if words.next() != Some("P3") {
+        return Err(refused("it does not begin with P3, as the text of a picture in the format PPM does"));
+    }
+    let numbers: Option<Vec<usize>> = words.map(|word| word.parse().ok()).collect();
+    match numbers.as_deref() {
+        Some([width, height, 255, parts @ ..]) if parts.len() == 3 * width * height => {
+            let byte = |part: usize| u8::try_from(part).map_err(|_| refused("a number is above 255"));
+            let pixel = |own: &[usize]| Ok([byte(own[0])?, byte(own[1])?, byte(own[2])?]);
+            Ok(([*width, *height], parts.chunks_exact(3).map(pixel).collect::<Result<_>>()?))
+        }
+        Some(_) => Err(refused("after P3 come width, height, 255 and three numbers for each pixel")),
+        None => Err(refused("all that follows P3 must be whole numbers")),
+    }
+}

@@ -1,0 +1,148 @@
+//! Steps that change a program, in words for a reader, and the program that they make.
+
+use std::ops::Range;
+
+/// What a chapter adds to the reader's program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Step {
+    /// The chapter's stem.
+    pub chapter: &'static str,
+    /// Its number.
+    pub number: u32,
+    /// The edits: each a comment that says where, and the lines that go there.
+    pub text: &'static str,
+}
+
+macro_rules! steps {
+    ($($number:literal $chapter:literal,)+) => {
+        /// All steps, in the order of the chapters.
+        pub fn steps() -> Vec<Step> {
+            vec![$(Step {
+                chapter: $chapter,
+                number: $number,
+                text: include_str!(concat!("../../../chapters/", $chapter, "/yours.step")),
+            }),+]
+        }
+    };
+}
+steps! {
+    5 "05_pinhole",
+    9 "09_camera_to_world",
+    10 "10_light_and_shadow",
+    13 "13_shapes",
+    17 "17_sampling",
+    19 "19_mirrors",
+    20 "20_glass",
+    21 "21_soft_shadows",
+    25 "25_path_tracing",
+}
+
+/// The program of the first page.
+const FIRST: &str = include_str!("../naive/one_page.rs");
+
+/// The program after the step of a chapter; that of the first page for 1.
+///
+/// Errors: an edit that says nothing of this program, by its own words.
+pub fn program_after(chapter: u32) -> Result<String, String> {
+    let listing = FIRST.split("ANCHOR: one_page\n").nth(1).and_then(|rest| rest.split("// ANCHOR_END").next());
+    let mut lines: Vec<String> = listing.unwrap_or_default().lines().map(String::from).collect();
+    for step in steps().into_iter().filter(|step| step.number <= chapter) {
+        for (place, body) in edits(step.text) {
+            apply(&mut lines, place, &body)
+                .ok_or_else(|| format!("{}: \"{place}\" is not there once", step.chapter))?;
+        }
+    }
+    Ok(lines.join("\n").trim_end().to_owned() + "\n")
+}
+
+/// The edits of a step: where, and what.
+fn edits(text: &str) -> Vec<(&str, Vec<&str>)> {
+    let mut found: Vec<(&str, Vec<&str>)> = Vec::new();
+    for line in text.lines() {
+        let place = line.strip_prefix("// ").filter(|place| {
+            let begins = ["In ", "In place of ", "After ", "Before ", "`"].iter().any(|word| place.starts_with(word));
+            begins && (place.ends_with("`:") || place.ends_with("` goes."))
+        });
+        match (place, found.last_mut()) {
+            (Some(place), _) => found.push((place, Vec::new())),
+            (None, Some((_, body))) => body.push(line),
+            (None, None) => {}
+        }
+    }
+    for (_, body) in &mut found {
+        while body.last() == Some(&"") {
+            body.pop();
+        }
+    }
+    found
+}
+
+/// Makes one edit; none where its place is missing, or there more than once.
+fn apply(lines: &mut Vec<String>, place: &str, body: &[&str]) -> Option<()> {
+    let quoted: Vec<&str> = place.split('`').skip(1).step_by(2).collect();
+    let is_within = place.starts_with("In `");
+    let item = item(lines, quoted.first()?)?;
+    let target = match quoted.get(1) {
+        Some(line) if is_within => {
+            let mut at = item.filter(|&at| lines[at].trim() == *line);
+            at.next().filter(|_| at.next().is_none()).map(|at| at..at + 1)?
+        }
+        _ if is_within => return None,
+        _ => item,
+    };
+    let blank = String::new();
+    let body = body.iter().map(|line| (*line).to_owned());
+    // Between items stands an empty line.
+    let apart = |is_within: bool| (!is_within).then_some(blank);
+    if place.ends_with(" goes.") || place.contains("in place of `") || place.starts_with("In place of `") {
+        lines.splice(target, body);
+    } else if place.contains("fter `") {
+        lines.splice(target.end..target.end, apart(is_within).into_iter().chain(body));
+    } else {
+        lines.splice(target.start..target.start, body.chain(apart(is_within)).collect::<Vec<_>>());
+    }
+    Some(())
+}
+
+/// The lines of an item with its documentation: of a function, a type or a constant by its name, of `impl V` by both
+/// words; the last one where there are several.
+fn item(lines: &[String], name: &str) -> Option<Range<usize>> {
+    let is_named = |line: &str| {
+        let mut words = line.split(|letter: char| !(letter.is_alphanumeric() || letter == '_'));
+        let (kind, own) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
+        match name.strip_prefix("impl ") {
+            Some(of) => kind == "impl" && own == of,
+            None => ["fn", "struct", "enum", "const"].contains(&kind) && own == name,
+        }
+    };
+    let first = lines.iter().rposition(|line| is_named(line))?;
+    let is_whole = |line: &str| line.ends_with([';', '}']) || line.contains("; //");
+    let more = if is_whole(&lines[first]) {
+        0
+    } else {
+        lines[first + 1..].iter().position(|line| line.starts_with(['}', ']', ')']))? + 1
+    };
+    let above = lines[..first].iter().rev().take_while(|line| line.starts_with("//") || line.starts_with("#[")).count();
+    Some(first - above..first + more + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_step_finds_its_places_and_a_wrong_one_is_told() {
+        for step in steps() {
+            let program = program_after(step.number).expect("applies");
+            assert!(program.contains("fn main()") && !program.contains("goes."), "{}", step.chapter);
+        }
+        let mut lines: Vec<String> =
+            ["const A: u8 = 1;", "fn b() {", "    c();", "    c();", "}"].map(String::from).into();
+        assert!(apply(&mut lines, "In `b`, after `c();`:", &["d();"]).is_none(), "it is there twice");
+        assert!(apply(&mut lines, "After `e`:", &["d();"]).is_none());
+        apply(&mut lines, "In place of `A`:", &["const A: u8 = 2;"]).expect("there");
+        apply(&mut lines, "After `A`:", &["const F: u8 = 3;"]).expect("there");
+        apply(&mut lines, "`b` goes.", &[]).expect("there");
+        assert_eq!(lines, ["const A: u8 = 2;", "", "const F: u8 = 3;"]);
+    }
+}
