@@ -81,7 +81,7 @@ pub enum Command {
     Measure(MeasureAnew),
     /// Check the function that a chapter asks you to write; without a chapter, list them and how far you are
     Check(CheckExercise),
-    /// Compare the picture that your own program wrote with pinhole's of the same scene; without it, print the program
+    /// Compare the picture that your own program wrote with pinhole's of the same scene; without it, draw that
     Yours(CompareYours),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures
     Figure(DrawFigure),
@@ -168,9 +168,12 @@ pub struct CompareYours {
     pub chapter: Option<String>,
     /// The picture.ppm that your program wrote
     pub picture: Option<PathBuf>,
-    /// Draw pinhole's picture of the scene instead, as a PNG
+    /// Where to write pinhole's picture of the scene, as a PNG
     #[arg(short, long, value_name = "FILE", conflicts_with = "picture")]
     pub output: Option<PathBuf>,
+    /// Print the whole program as it is after the chapter's step
+    #[arg(long, conflicts_with_all = ["picture", "output"])]
+    pub program: bool,
 }
 
 #[derive(Args)]

@@ -25,14 +25,16 @@ pub fn yours(asked: &CompareYours, format: Format, out: &mut dyn Write) -> Resul
         let told = format!("chapter {chapter} adds nothing to your program; {} do", numbers.join(", "));
         return Err(Error::usage(told));
     };
-    if let Some(file) = &asked.output {
-        check_file(true, file)?;
-        write_file(true, file, &png_bytes(&picture_of(&scene_after(step.number))?, Curve::Srgb)?)?;
-        return print_written(file, format, out);
-    }
-    let Some(picture) = &asked.picture else {
+    if asked.program {
         let program = program_after(step.number).map_err(Error::usage)?;
         return Ok(out.write_all(program.as_bytes())?);
+    }
+    let Some(picture) = &asked.picture else {
+        let named = asked.output.is_some();
+        let file = asked.output.clone().unwrap_or_else(|| format!("out/yours_{:02}.png", step.number).into());
+        check_file(named, &file)?;
+        write_file(named, &file, &png_bytes(&picture_of(&scene_after(step.number))?, Curve::Srgb)?)?;
+        return print_written(&file, format, out);
     };
     let (size, bytes) = read_ppm(picture)?;
     tell(&verdict(step.number, size, &bytes)?, format, out)

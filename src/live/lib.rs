@@ -8,6 +8,7 @@
 mod answer;
 mod guard;
 mod http;
+#[cfg_attr(not(feature = "view"), allow(dead_code, reason = "only the view asks whose a connection is"))]
 mod peer;
 #[cfg(feature = "view")]
 mod view;

@@ -138,8 +138,8 @@ pub fn variants() -> Vec<Variant> {
         }),
         within(10, 21, "only the first lamp shines.", |world| remove_light(world, 1)),
         within(10, 21, "only the last lamp shines.", |world| remove_light(world, 0)),
-        within(13, 100, "the block is missing.", |world| remove_all::<Cuboid>(world)),
-        within(13, 100, "the ground is missing.", |world| remove_all::<Plane>(world)),
+        within(13, 100, "the block is missing.", remove_all::<Cuboid>),
+        within(13, 100, "the ground is missing.", remove_all::<Plane>),
         within(19, 100, "mirrors reflect all light, whatever their colour.", |world| {
             world.query::<&mut Mirror>().iter_mut(world).for_each(|mut mirror| mirror.colour = Rgb::grey(1.0));
         }),

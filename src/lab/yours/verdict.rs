@@ -175,7 +175,7 @@ fn compared(own: &Pixels, right: &Pixels, [width, height]: [usize; 2]) -> Vec<Bl
             for channel in 0..3 {
                 let apart = |at: &usize| own[*at][channel] - right[*at][channel];
                 let mean = places.iter().map(apart).sum::<f64>() / count;
-                let squares = places.iter().map(|at| (apart(at) - mean).powi(2)).sum::<f64>();
+                let squares = places.iter().map(|at| (apart(at) - mean) * (apart(at) - mean)).sum::<f64>();
                 let light = places.iter().map(|at| right[*at][channel]).sum::<f64>() / count;
                 // By how much a byte's step changes light of this strength.
                 let step = linear_from_srgb(srgb_from_linear(light) + 1.0 / 255.0) - light;
