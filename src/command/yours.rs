@@ -27,7 +27,11 @@ pub fn yours(asked: &CompareYours, format: Format, out: &mut dyn Write) -> Resul
     };
     if asked.program {
         let program = program_after(step.number).map_err(Error::usage)?;
-        return Ok(out.write_all(program.as_bytes())?);
+        return if format.is_json() {
+            print_json(&json!({ "program": program }), out)
+        } else {
+            Ok(out.write_all(program.as_bytes())?)
+        };
     }
     let Some(picture) = &asked.picture else {
         let named = asked.output.is_some();

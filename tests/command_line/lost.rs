@@ -9,7 +9,7 @@ use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 
 /// A command, and the files that it writes without having been told their names.
-const PLACES: [(&str, &[&str]); 16] = [
+const PLACES: [(&str, &[&str]); 17] = [
     ("render 5 --size 8x5", &["out/05_pinhole.png", "out/05_pinhole.exr"]),
     ("render 5 --size 8x5 -n 2", &["out/05_pinhole.png", "out/05_pinhole.exr", "out/05_pinhole.checkpoint"]),
     ("render 5 --size 8x5 -n 2 -o named.png", &["named.checkpoint"]),
@@ -18,6 +18,7 @@ const PLACES: [(&str, &[&str]); 16] = [
     ("render 5 --size 8x5 --mine", &["out/05_mine.png", "out/05_pinhole.png", "out/05_difference.png"]),
     ("figure 05_pinhole", &["out/05_pinhole.svg"]),
     ("draw card.png", &["out/card.png"]),
+    ("yours 5", &["out/yours_05.png"]),
     ("draw evening.hdr", &["out/evening.hdr"]),
     ("conventions 5 --size 8x5 --mistake mirrored", &["out/05_pinhole_mirrored.png"]),
     ("export 16 -o scene.ron", &["scene.ron", "card.png", "evening.hdr"]),
@@ -32,7 +33,7 @@ const PLACES: [(&str, &[&str]); 16] = [
 ];
 
 /// The sources that write by the rule, each with the number of calls; those without a remark make what `PLACES` lists.
-const WRITERS: [(&str, usize); 21] = [
+const WRITERS: [(&str, usize); 22] = [
     ("src/command/compare.rs", 1), // where the reader says
     ("src/command/conventions.rs", 1),
     ("src/command/cost.rs", 1), // the repository's costs.txt, by --write
@@ -50,6 +51,7 @@ const WRITERS: [(&str, usize); 21] = [
     ("src/command/report.rs", 2),
     ("src/command/review.rs", 1),
     ("src/command/view/home.rs", 2), // Save: tests/view/kept.rs
+    ("src/command/yours.rs", 1),
     ("src/lab/exercise/progress.rs", 2),
     ("src/lab/report/kept.rs", 1),    // the repository's report.json, by --write
     ("src/lab/report/run.rs", 2),     // runs of a report: its own test

@@ -46,6 +46,9 @@ const LINES: &[(&[&str], Says)] = &[
     (&["review", "accept", "all", "--chapters", "@"], |_| vec!["no snapshot waits".into()]),
     (&["review", "--mutate", "half-pixel", "-o", "@/page.html"], mutation),
     (&["compare", CARD, CARD, "-o", "@/difference.png"], compare),
+    (&["yours"], |it| each(it, "steps", |it| format!("{} {} lines", word(it, "chapter"), it["lines"]))),
+    (&["yours", "5", "-o", "@/yours.png"], wrote),
+    (&["yours", "5", "--program"], |it| vec![word(it, "program").into()]),
 ];
 const CARD: &str = "chapters/16_textures/card.png";
 /// Help and scripts for shells are no data; what `render` says is tried beside the pictures that it writes, and what
