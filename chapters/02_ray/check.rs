@@ -7,9 +7,9 @@ use pinhole::rays;
 use pinhole::rays::{CameraRays, ScreenPoints};
 use pinhole_lab::exercise::apart::{absolute, option};
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Question, RowPlaces, Setting, Shown, StandIn, extremes, probes};
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::exact_vector::ExactVector;
-use pinhole_lab::measure::draws::Draws;
 
 type Vector = [f64; 3];
 

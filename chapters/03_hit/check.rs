@@ -12,9 +12,9 @@ use pinhole_lab::exercise::apart::{option, relative};
 use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, extremes, probes,
 };
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::oracle_sphere::{Sphere, line_ts, sphere_hit};
 use pinhole_lab::measure::ray_aim;
-use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::ray_aim::AimedRay;
 use pinhole_lab::naive::sphere::hit_f64_plain;
 

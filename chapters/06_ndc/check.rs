@@ -8,8 +8,8 @@ use pinhole::rays;
 use pinhole::rays::{NdcPoints, ndc_from_raster, raster_from_pixel};
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes};
-use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::draws::Draws;
+use pinhole_lab::measure::exact::Dyadic;
 
 type Input = ([f64; 2], u32, u32);
 

@@ -9,8 +9,8 @@ use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes,
 };
-use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::draws::Draws;
+use pinhole_lab::measure::exact::Dyadic;
 
 type Input = ([f64; 2], u32, u32);
 

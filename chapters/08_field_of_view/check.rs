@@ -9,8 +9,8 @@ use pinhole::rays::{CameraRays, ScreenPoints, camera_ray_perspective};
 use pinhole::scene::{Degrees, FovAxis, PerspectiveCamera};
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, StandIn, probes};
-use pinhole_lab::measure::oracle_camera::ExactCamera;
 use pinhole_lab::measure::draws::Draws;
+use pinhole_lab::measure::oracle_camera::ExactCamera;
 use std::f64::consts::{PI, SQRT_2};
 
 type Input = (f64, FovAxis, u32, u32);

@@ -12,9 +12,9 @@ use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes,
 };
+use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::exact_vector::ExactVector;
-use pinhole_lab::measure::draws::Draws;
 
 type Vector = [f64; 3];
 

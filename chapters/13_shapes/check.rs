@@ -12,8 +12,8 @@ use pinhole_lab::exercise::apart::{option, relative};
 use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, extremes, probes,
 };
-use pinhole_lab::measure::oracle_cuboid::cuboid_hit;
 use pinhole_lab::measure::draws::Draws;
+use pinhole_lab::measure::oracle_cuboid::cuboid_hit;
 
 /// Origin, direction, least and most; all with few digits, so that quotients that are equal come out equal.
 type Input = ([f64; 3], [f64; 3], [f64; 3], [f64; 3]);
