@@ -3,7 +3,7 @@
 #[path = "yours/programs.rs"]
 pub mod programs;
 
-use pinhole_lab::yours::{Verdict, program_after, steps};
+use pinhole_lab::yours::{Comparison, program_after, steps};
 use programs::{MISTAKES, RIGHT, found};
 
 /// Chapters whose pictures have no noise, so that a mistake is told in a second; the bench `yours` tries all.
@@ -14,7 +14,7 @@ fn every_state_shows_what_pinhole_shows() {
     for step in steps() {
         let lines = program_after(step.number).expect("applies").lines().count();
         let found = found((step.number, "fn main", "fn main"));
-        let Verdict::Same { resolved } = found else { panic!("{}: {found:?}", step.chapter) };
+        let Comparison::Same { resolved } = found else { panic!("{}: {found:?}", step.chapter) };
         assert!(resolved < 0.2, "{}: {resolved}", step.chapter);
         eprintln!("{}: {lines} lines, the same; {:.1} % would be told", step.chapter, 100.0 * resolved);
     }
@@ -24,13 +24,36 @@ fn every_state_shows_what_pinhole_shows() {
 fn mistakes_are_told_and_right_programs_accepted() {
     let (mut tried, mut named) = (0, 0);
     for edit in MISTAKES.into_iter().filter(|edit| edit.0 <= QUICK) {
-        let Verdict::Differs { looks_like, .. } = found(edit) else { panic!("{edit:?} is not told") };
+        let Comparison::Differs { looks_like, .. } = found(edit) else { panic!("{edit:?} is not told") };
         tried += 1;
         named += usize::from(looks_like.is_some());
     }
     for edit in RIGHT.into_iter().filter(|edit| edit.0 <= QUICK) {
-        assert!(matches!(found(edit), Verdict::Same { .. }), "{edit:?} is right");
+        assert!(matches!(found(edit), Comparison::Same { .. }), "{edit:?} is right");
     }
     eprintln!("mistakes in the reader's program: {tried} told, {named} of them named");
     assert!(tried >= 20 && 10 * named >= 5 * tried);
+}
+
+#[test]
+fn what_is_no_picture_of_the_program_is_refused_in_one_sentence() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("picture.ppm");
+    let odd = [
+        ("", "does not begin with P3"),
+        ("P6 1 1 255 abc", "does not begin with P3"),
+        ("P3 2 2 255 1 2 3", "three numbers for each pixel"),
+        ("P3 1 1 65535 1 2 3", "width, height, 255"),
+        ("P3 18446744073709551615 3 255 1 2 3", "three numbers for each pixel"),
+        ("P3 1 1 255 1 2 -3", "must be whole numbers"),
+        ("P3 1 1 255 1 2 300", "above 255"),
+        ("P3 1 1 255 1 2 3", "1 × 1 pixels, and pinhole's has 480 × 270"),
+    ];
+    for (text, told) in odd {
+        std::fs::write(&file, text).expect("written");
+        let words = ["yours", "5", file.to_str().expect("UTF-8")].map(String::from);
+        let ended = pinhole_cli::command::run(&chapters::all(), &words, &mut Vec::new()).expect_err(text).to_string();
+        assert!(ended.contains(told) && ended.lines().count() == 1, "{text}: {ended}");
+    }
+    eprintln!("pictures that are none: {} refused", odd.len());
 }

@@ -4,7 +4,7 @@ use super::format::{Format, print_json, print_written};
 use super::own_file::{check_file, write_file};
 use pinhole::film::{Curve, png_bytes};
 use pinhole::scene::{FileKind, printable_path, read_file};
-use pinhole_lab::yours::{Verdict, picture_of, program_after, scene_after, steps, verdict};
+use pinhole_lab::yours::{Comparison, compare_picture, picture_of, program_after, scene_after, steps};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
@@ -41,7 +41,7 @@ pub fn yours(asked: &CompareYours, format: Format, out: &mut dyn Write) -> Resul
         return print_written(&file, format, out);
     };
     let (size, bytes) = read_ppm(picture)?;
-    tell(&verdict(step.number, size, &bytes)?, format, out)
+    tell(&compare_picture(step.number, size, &bytes)?, format, out)
 }
 
 fn list(format: Format, out: &mut dyn Write) -> Result {
@@ -57,23 +57,23 @@ fn list(format: Format, out: &mut dyn Write) -> Result {
     if format.is_json() { print_json(&json!({ "steps": all }), out) } else { Ok(()) }
 }
 
-fn tell(found: &Verdict, format: Format, out: &mut dyn Write) -> Result {
+fn tell(found: &Comparison, format: Format, out: &mut dyn Write) -> Result {
     if format.is_json() {
         let told = match *found {
-            Verdict::Same { resolved } => json!({ "same": true, "resolved": resolved }),
-            Verdict::Differs { blocks, of, brightness, most, looks_like } => json!({
+            Comparison::Same { resolved } => json!({ "same": true, "resolved": resolved }),
+            Comparison::Differs { blocks, of, brightness, most, looks_like } => json!({
                 "same": false, "blocks": blocks, "of": of, "brightness": brightness, "most": most, "looks_like": looks_like,
             }),
         };
         return print_json(&told, out);
     }
     match *found {
-        Verdict::Same { resolved } => {
+        Comparison::Same { resolved } => {
             let percent = 100.0 * resolved;
             writeln!(out, "The same picture: no block of 16 × 10 pixels differs by more than noise and rounding.")?;
             writeln!(out, "In half of the blocks, {percent:.1} % more or less light would have been told.")?;
         }
-        Verdict::Differs { blocks, of, brightness, most: [x, y], looks_like } => {
+        Comparison::Differs { blocks, of, brightness, most: [x, y], looks_like } => {
             let (percent, than) = (100.0 * brightness.abs(), if brightness < 0.0 { "less" } else { "more" });
             writeln!(
                 out,
@@ -99,7 +99,9 @@ fn read_ppm(file: &Path) -> Result<([usize; 2], Vec<[u8; 3]>)> {
     }
     let numbers: Option<Vec<usize>> = words.map(|word| word.parse().ok()).collect();
     match numbers.as_deref() {
-        Some([width, height, 255, parts @ ..]) if parts.len() == 3 * width * height => {
+        Some([width, height, 255, parts @ ..])
+            if width.checked_mul(*height).and_then(|pixels| pixels.checked_mul(3)) == Some(parts.len()) =>
+        {
             let byte = |part: usize| u8::try_from(part).map_err(|_| refused("a number is above 255"));
             let pixel = |own: &[usize]| Ok([byte(own[0])?, byte(own[1])?, byte(own[2])?]);
             Ok(([*width, *height], parts.chunks_exact(3).map(pixel).collect::<Result<_>>()?))

@@ -1,6 +1,6 @@
 //! The reader's program after each step, compiled and run, and with mistakes put into it.
 
-use pinhole_lab::yours::{Verdict, program_after, verdict};
+use pinhole_lab::yours::{Comparison, compare_picture, program_after};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -81,11 +81,11 @@ pub const RIGHT: [Edit; 10] = [
 ];
 
 /// What is found of the picture of a chapter's program, edited.
-pub fn found((chapter, old, new): Edit) -> Verdict {
+pub fn found((chapter, old, new): Edit) -> Comparison {
     let program = program_after(chapter).expect("applies");
     assert_eq!(program.matches(old).count().min(1), 1, "{chapter} has no {old}");
     let (size, bytes) = picture(&program.replace(old, new));
-    verdict(chapter, size, &bytes).expect("renders")
+    compare_picture(chapter, size, &bytes).expect("renders")
 }
 
 /// Compiles a program as a reader does, runs it, and reads the picture that it wrote.

@@ -16,7 +16,7 @@ const DARK: f64 = 1e-3;
 
 /// What is found of a picture.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
+pub enum Comparison {
     /// It is the same.
     Same {
         /// The part of its light by which a block would have to differ to be told, for the block in the middle of all.
@@ -72,7 +72,7 @@ fn each(own: &Pixels, change: fn(f64) -> f64) -> Pixels {
 /// Compares the picture of a reader's program after a chapter with pinhole's of the same scene.
 ///
 /// Errors: those of a render; a picture of another size, or for a chapter before the fifth.
-pub fn verdict(chapter: u32, [width, height]: [usize; 2], bytes: &[[u8; 3]]) -> Result<Verdict, Error> {
+pub fn compare_picture(chapter: u32, [width, height]: [usize; 2], bytes: &[[u8; 3]]) -> Result<Comparison, Error> {
     let right = picture_of(&scene_after(chapter))?;
     if [right.width as usize, right.height as usize] != [width, height] {
         let told =
@@ -93,10 +93,10 @@ pub fn verdict(chapter: u32, [width, height]: [usize; 2], bytes: &[[u8; 3]]) -> 
     let Some(most) = apart.iter().max_by(|a, b| a.off.total_cmp(&b.off)) else {
         let mut resolved: Vec<f64> = found.iter().map(|block| block.resolved).collect();
         resolved.sort_by(f64::total_cmp);
-        return Ok(Verdict::Same { resolved: resolved[all / 2] });
+        return Ok(Comparison::Same { resolved: resolved[all / 2] });
     };
     let light = |pixels: &Pixels| pixels.iter().flatten().sum::<f64>();
-    Ok(Verdict::Differs {
+    Ok(Comparison::Differs {
         blocks: apart.len(),
         of: all,
         brightness: light(&own) / light(&right) - 1.0,
