@@ -8,7 +8,8 @@
 //! Units: lengths in scene units, angles in [`Degrees`], colours in linear Rec. 709.
 //!
 //! ```
-//! use pinhole::prelude::*;
+//! use bevy_ecs::prelude::*;
+//! use pinhole_scene::*;
 //!
 //! let mut scene = World::new();
 //! let room = scene.spawn((Name::new("room"), Placement::at(0.0, 0.0, -10.0))).id();
