@@ -61,6 +61,7 @@ fn tell(found: &Comparison, format: Format, out: &mut dyn Write) -> Result {
     if format.is_json() {
         let told = match *found {
             Comparison::Same { resolved } => json!({ "same": true, "resolved": resolved }),
+            Comparison::Shifted { by } => json!({ "same": false, "shifted": by }),
             Comparison::Differs { blocks, of, brightness, most, looks_like } => json!({
                 "same": false, "blocks": blocks, "of": of, "brightness": brightness, "most": most, "looks_like": looks_like,
             }),
@@ -72,6 +73,10 @@ fn tell(found: &Comparison, format: Format, out: &mut dyn Write) -> Result {
             let percent = 100.0 * resolved;
             writeln!(out, "The same picture: no block of 16 × 10 pixels differs by more than noise and rounding.")?;
             writeln!(out, "In half of the blocks, {percent:.1} % more or less light would have been told.")?;
+        }
+        Comparison::Shifted { by: [right, down] } => {
+            writeln!(out, "The same picture, but shifted by {right:+.2} pixels to the right and {down:+.2} downward.")?;
+            writeln!(out, "Does a ray go through the middle of its pixel?")?;
         }
         Comparison::Differs { blocks, of, brightness, most: [x, y], looks_like } => {
             let (percent, than) = (100.0 * brightness.abs(), if brightness < 0.0 { "less" } else { "more" });

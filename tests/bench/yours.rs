@@ -6,23 +6,17 @@
 #[path = "../yours/programs.rs"]
 mod programs;
 
-use pinhole_lab::yours::Comparison;
-use programs::{MISTAKES, RIGHT, found};
+use programs::{MISTAKES, NOT_NAMED, RIGHT, found, said};
 
 fn main() {
     let (mut told, mut named) = (0, 0);
     for edit @ (chapter, old, new) in MISTAKES {
-        let said = match found(edit) {
-            Comparison::Same { .. } => "not told",
-            Comparison::Differs { looks_like, .. } => {
-                told += 1;
-                named += usize::from(looks_like.is_some());
-                looks_like.unwrap_or("told, not named")
-            }
-        };
-        println!("{chapter:>2}  {:<50}  {:<40}  {said}", old.trim(), new.trim());
+        let said = said(&found(edit));
+        told += usize::from(said.is_some());
+        named += usize::from(said.is_some_and(|said| said != NOT_NAMED));
+        println!("{chapter:>2}  {:<50}  {:<40}  {}", old.trim(), new.trim(), said.unwrap_or("not told"));
     }
-    let refused: Vec<_> = RIGHT.into_iter().filter(|edit| !matches!(found(*edit), Comparison::Same { .. })).collect();
     println!("mistakes: {} tried, {told} told, {named} named", MISTAKES.len());
+    let refused: Vec<_> = RIGHT.into_iter().filter(|edit| said(&found(*edit)).is_some()).collect();
     println!("right programs: {} tried, {} called wrong {refused:?}", RIGHT.len(), refused.len());
 }

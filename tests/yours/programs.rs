@@ -9,7 +9,9 @@ use std::process::Command;
 pub type Edit = (u32, &'static str, &'static str);
 
 /// Mistakes, each of which shows in the picture.
-pub const MISTAKES: [Edit; 42] = [
+pub const MISTAKES: [Edit; 44] = [
+    (5, "camera_direction(x as f64 + 0.5, y as f64 + 0.5)", "camera_direction(x as f64, y as f64)"),
+    (17, "x as f64 + right, y as f64 + down", "x as f64 + right - 0.5, y as f64 + down - 0.5"),
     (5, "times(irradiance / std::f64::consts::PI)", "times(irradiance)"),
     (5, "/ to_light.dot(to_light);", "/ to_light.dot(to_light).sqrt();"),
     (5, "(ANGLE / 2.0)", "ANGLE"),
@@ -79,6 +81,18 @@ pub const RIGHT: [Edit; 10] = [
     (21, "outward.times(radius)", "outward.times(radius * 1.0)"),
     (9, "let upward = back.cross(to_the_right);", "let upward = V(0.0, 1.0, 0.0).sub(back.times(back.1)).unit();"),
 ];
+
+/// What is said of a picture that is not pinhole's; none of one that is.
+pub fn said(found: &Comparison) -> Option<&'static str> {
+    match *found {
+        Comparison::Same { .. } => None,
+        Comparison::Shifted { .. } => Some("it is shifted"),
+        Comparison::Differs { looks_like, .. } => Some(looks_like.unwrap_or(NOT_NAMED)),
+    }
+}
+
+/// What is said of a picture that differs for a reason that is not known.
+pub const NOT_NAMED: &str = "told, not named";
 
 /// What is found of the picture of a chapter's program, edited.
 pub fn found((chapter, old, new): Edit) -> Comparison {

@@ -9,7 +9,7 @@ use pinhole::{Chapter, Error, stages};
 use std::f64::consts::PI;
 
 /// The size of the program's picture.
-const SIZE: [u32; 2] = [480, 270];
+pub const SIZE: [usize; 2] = [480, 270];
 
 /// The scene that the program shows after a chapter, from the fifth on.
 pub fn scene_after(chapter: u32) -> World {
@@ -21,7 +21,7 @@ pub fn scene_after(chapter: u32) -> World {
         25.. => Integrator::PATH,
     };
     let camera = PerspectiveCamera { fov: Degrees(60.0), axis: FovAxis::Vertical };
-    let camera = world.spawn((camera, Resolution { width: SIZE[0], height: SIZE[1] }, integrator)).id();
+    let camera = world.spawn((camera, Resolution { width: SIZE[0] as u32, height: SIZE[1] as u32 }, integrator)).id();
     if chapter >= 9 {
         let (eye, target) = (DVec3::new(2.5, 1.4, 1.4), DVec3::new(0.0, -0.3, -3.0));
         world.entity_mut(camera).insert(LookAt { eye, target, ..LookAt::default() });

@@ -293,7 +293,10 @@ pub fn splat_light(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<SplatVie
             let lens = points.map_or(DVec2::ZERO, |points| points.point(row));
             let Some(joined) = join_camera(&join, lens, origin) else { continue };
             let (power, throughput) = (power.rgb(paths.first[row] as usize), paths.throughput(row));
-            splats.push((joined.raster, [0, 1, 2].map(|part| power[part] * throughput[part] * f64::from(sent[part]))));
+            let at = splats.rows();
+            let (mut raster, mut rgb) = splats.slices_mut(at + 1);
+            raster.put(at, joined.raster);
+            rgb.put(at, [0, 1, 2].map(|part| power[part] * throughput[part] * f64::from(sent[part])));
         }
     }
 }

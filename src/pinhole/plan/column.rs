@@ -178,8 +178,6 @@ pub trait ColumnValue: Copy {
     type Arrays: ColumnArrays;
     /// The value of a row.
     fn read(arrays: &Self::Arrays, row: usize) -> Self;
-    /// Appends a row.
-    fn append(self, arrays: &mut Self::Arrays);
 }
 
 /// One array, or one a part, of the same length.
@@ -353,18 +351,13 @@ macro_rules! numbers {
             fn read(arrays: &Vec<$number>, row: usize) -> Self {
                 arrays[row]
             }
-
-            #[inline(always)]
-            fn append(self, arrays: &mut Vec<$number>) {
-                arrays.push(self);
-            }
         }
     )+};
 }
 numbers!(f32 f64 u32);
 
 macro_rules! vectors {
-    ($($vector:ty: [$number:ty; $count:literal] $($place:literal)+,)+) => {$(
+    ($($vector:ty: [$number:ty; $count:literal],)+) => {$(
         impl ColumnValue for $vector {
             type Arrays = [Vec<$number>; $count];
 
@@ -372,23 +365,17 @@ macro_rules! vectors {
             fn read(arrays: &[Vec<$number>; $count], row: usize) -> Self {
                 Self::from(arrays.at(row))
             }
-
-            #[inline(always)]
-            fn append(self, arrays: &mut [Vec<$number>; $count]) {
-                let value: [$number; $count] = self.into();
-                $(arrays[$place].push(value[$place]);)+
-            }
         }
     )+};
 }
 vectors! {
-    DVec2: [f64; 2] 0 1,
-    [f64; 2]: [f64; 2] 0 1,
-    Vec3: [f32; 3] 0 1 2,
-    DVec3: [f64; 3] 0 1 2,
-    [f32; 3]: [f32; 3] 0 1 2,
-    [f64; 3]: [f64; 3] 0 1 2,
-    [u32; 4]: [u32; 4] 0 1 2 3,
+    DVec2: [f64; 2],
+    [f64; 2]: [f64; 2],
+    Vec3: [f32; 3],
+    DVec3: [f64; 3],
+    [f32; 3]: [f32; 3],
+    [f64; 3]: [f64; 3],
+    [u32; 4]: [u32; 4],
 }
 
 /// The names of a field's parts: its own name for a number.
@@ -456,12 +443,6 @@ macro_rules! column {
             /// Removes all rows but keeps the memory.
             pub fn clear(&mut self) {
                 $($crate::plan::ColumnArrays::clear(&mut self.$component);)+
-            }
-
-            /// Appends a row.
-            #[inline(always)]
-            pub fn push(&mut self, ($($component),+): ($($value),+)) {
-                $($crate::plan::ColumnValue::append($component, &mut self.$component);)+
             }
         }
 
