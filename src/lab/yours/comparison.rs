@@ -15,6 +15,9 @@ const SIGNIFICANT: f64 = 6.5;
 const ROUNDING: f64 = 1.0;
 /// The shift of a picture that is told, in pixels.
 const SHIFT: f64 = 0.1;
+/// The part of the difference that a shift must explain where blocks differ: of an edge that is shifted by half a pixel, it
+/// explains a quarter, for half of the pixels along it have changed altogether.
+const EXPLAINED: f64 = 0.15;
 /// Light that counts as none, where parts of it are told.
 const DARK: f64 = 1e-3;
 
@@ -112,16 +115,15 @@ pub fn compare_picture(chapter: u32, [width, height]: [usize; 2], bytes: &[[u8; 
         let mut resolved: Vec<f64> = found.iter().map(|block| block.resolved).collect();
         resolved.sort_by(f64::total_cmp);
         let same = Comparison::Same { resolved: resolved[all / 2] };
-        return Ok(shift(&readers, &right).map_or(same, |by| Comparison::Shifted { by }));
+        return Ok(shift(&readers, &right, 0.0).map_or(same, |by| Comparison::Shifted { by }));
     };
+    let looks_like = looks_like(chapter, &readers, &right, apart.len())?;
+    if let Some(by) = shift(&readers, &right, EXPLAINED).filter(|_| looks_like.is_none()) {
+        return Ok(Comparison::Shifted { by });
+    }
     let light = |pixels: &Pixels| pixels.iter().flatten().sum::<f64>();
-    Ok(Comparison::Differs {
-        blocks: apart.len(),
-        of: all,
-        brightness: light(&readers) / light(&right) - 1.0,
-        most: most.middle,
-        looks_like: looks_like(chapter, &readers, &right, apart.len())?,
-    })
+    let brightness = light(&readers) / light(&right) - 1.0;
+    Ok(Comparison::Differs { blocks: apart.len(), of: all, brightness, most: most.middle, looks_like })
 }
 
 /// The mistake whose picture this is: the one that leaves the fewest blocks apart, if those are few.
@@ -147,32 +149,29 @@ fn looks_like(chapter: u32, readers: &Pixels, right: &Pixels, apart: usize) -> R
     Ok(best.1)
 }
 
-/// By how many pixels a picture is shifted to the right and downward, where that is told; none where it is not.
+/// By how many pixels a picture is shifted to the right and downward, where that is told and explains this part of the
+/// squared difference.
 ///
 /// A small shift takes from each pixel its gradient times the shift: what is shifted is a least-squares fit of the
 /// difference by the gradient, and its standard error the one that holds where noise is not the same everywhere (White
 /// 1980).
-fn shift(readers: &Pixels, right: &Pixels) -> Option<[f64; 2]> {
+fn shift(readers: &Pixels, right: &Pixels, explains: f64) -> Option<[f64; 2]> {
     let [width, height] = SIZE;
+    let inside = || (1..height - 1).flat_map(|y| (1..width - 1).map(move |x| y * width + x));
+    let numbers = || inside().flat_map(|at| [0, 1, 2].map(|channel| (at, channel)));
+    let apart = |(at, channel): (usize, usize)| readers[at][channel] - right[at][channel];
+    let mut explained = 0.0;
     let by = [1, width].map(|step| {
-        let (mut along, mut squares, mut noise) = (0.0, 0.0, 0.0);
-        let inside = || (1..height - 1).flat_map(|y| (1..width - 1).map(move |x| y * width + x));
-        let parts = || inside().flat_map(|at| [0, 1, 2].map(|channel| (at, channel)));
         let gradient = |(at, channel): (usize, usize)| 0.5 * (right[at - step][channel] - right[at + step][channel]);
-        let apart = |(at, channel): (usize, usize)| readers[at][channel] - right[at][channel];
-        for part in parts() {
-            along += gradient(part) * apart(part);
-            squares += gradient(part) * gradient(part);
-        }
-        let fit = if squares > 0.0 { along / squares } else { 0.0 };
-        for part in parts() {
-            let left = gradient(part) * (apart(part) - fit * gradient(part));
-            noise += left * left;
-        }
-        let is_told = fit.abs() > SHIFT && fit.abs() * squares > SIGNIFICANT * noise.sqrt();
-        if is_told { fit } else { 0.0 }
+        let squares: f64 = numbers().map(|at| gradient(at) * gradient(at)).sum();
+        let fit = numbers().map(|at| gradient(at) * apart(at)).sum::<f64>() / squares.max(f64::MIN_POSITIVE);
+        let left = |at| gradient(at) * (apart(at) - fit * gradient(at));
+        let noise = numbers().map(|at| left(at) * left(at)).sum::<f64>().sqrt();
+        explained += fit * fit * squares;
+        if fit.abs() > SHIFT && fit.abs() * squares > SIGNIFICANT * noise { fit } else { 0.0 }
     });
-    (by != [0.0; 2]).then_some(by)
+    let all: f64 = numbers().map(|at| apart(at) * apart(at)).sum();
+    (by != [0.0; 2] && explained >= explains * all).then_some(by)
 }
 
 /// The light of a film.

@@ -123,18 +123,8 @@ pub fn variants() -> Vec<Variant> {
         within(9, 100, "the camera looks away from its target: is `back` turned round?", |world| {
             look_at(world, |look| look.target = 2.0 * look.eye - look.target);
         }),
-        within(9, 100, "the angle of view is too narrow: is `back` a unit vector?", |world| {
-            let mut distance = 1.0;
-            world.query::<&LookAt>().iter(world).for_each(|look| distance = (look.eye - look.target).length());
-            let half = libm::atan(libm::tan(30.0_f64.to_radians()) / distance).to_degrees();
-            world
-                .query::<&mut PerspectiveCamera>()
-                .iter_mut(world)
-                .for_each(|mut camera| camera.fov = Degrees(2.0 * half));
-        }),
-        within(13, 100, "the ground is above the eye: which sign has its height?", |world| {
-            let mut grounds = world.query_filtered::<&mut Placement, With<Plane>>();
-            grounds.iter_mut(world).for_each(|mut ground| ground.position.y = 1.0);
+        always("surfaces have lost their colours.", |world| {
+            world.query::<&mut Matte>().iter_mut(world).for_each(|mut matte| matte.colour = Rgb::grey(1.0));
         }),
         within(10, 21, "only the first lamp shines.", |world| remove_light(world, 1)),
         within(10, 21, "only the last lamp shines.", |world| remove_light(world, 0)),
