@@ -90,17 +90,18 @@ fn apply(lines: &mut Vec<String>, place: &str, body: &[&str]) -> Option<()> {
         _ if is_within => return None,
         _ => item,
     };
-    let blank = String::new();
-    let body = body.iter().map(|line| (*line).to_owned());
+    let mut body: Vec<String> = body.iter().map(|line| (*line).to_owned()).collect();
+    let (replaces, is_after) = (place.ends_with(" goes.") || place.contains("n place of `"), place.contains("fter `"));
     // Between items stands an empty line.
-    let apart = |is_within: bool| (!is_within).then_some(blank);
-    if place.ends_with(" goes.") || place.contains("in place of `") || place.starts_with("In place of `") {
-        lines.splice(target, body);
-    } else if place.contains("fter `") {
-        lines.splice(target.end..target.end, apart(is_within).into_iter().chain(body));
-    } else {
-        lines.splice(target.start..target.start, body.chain(apart(is_within)).collect::<Vec<_>>());
+    if !replaces && !is_within {
+        body.insert(if is_after { 0 } else { body.len() }, String::new());
     }
+    let at = match (replaces, is_after) {
+        (true, _) => target,
+        (false, true) => target.end..target.end,
+        (false, false) => target.start..target.start,
+    };
+    lines.splice(at, body);
     Some(())
 }
 
