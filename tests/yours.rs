@@ -3,36 +3,51 @@
 #[path = "yours/programs.rs"]
 pub mod programs;
 
-use pinhole_lab::yours::{Comparison, program_after, steps};
-use programs::{MISTAKES, NOT_NAMED, RIGHT, found, said};
+use pinhole_lab::yours::{Comparison, picture_of_program, program_after, program_of, steps};
+use programs::{Edit, MISTAKES, NOT_NAMED, RIGHT, found, said};
 
 /// Chapters whose pictures have no noise, so that a mistake is told in a second; the bench `yours` tries all.
 const QUICK: u32 = 13;
 
 #[test]
 fn every_state_shows_what_pinhole_shows() {
-    for step in steps() {
-        let lines = program_after(step.number).expect("applies").lines().count();
-        let found = found((step.number, "fn main", "fn main"));
-        let Comparison::Same { resolved } = found else { panic!("{}: {found:?}", step.chapter) };
-        assert!(resolved < 0.2, "{}: {resolved}", step.chapter);
-        eprintln!("{}: {lines} lines, the same; {:.1} % would be told", step.chapter, 100.0 * resolved);
+    let untouched: Vec<Edit> =
+        steps().iter().map(|step| (step.number, "fn main", "fn main")).collect();
+    for ((chapter, ..), found) in found(&untouched) {
+        let lines = program_after(chapter).expect("applies").lines().count();
+        let Comparison::Same { resolved } = found else { panic!("{chapter}: {found:?}") };
+        assert!(resolved < 0.2, "{chapter}: {resolved}");
+        eprintln!("{chapter}: {lines} lines, the same; {:.1} % would be told", 100.0 * resolved);
+    }
+}
+
+/// Depth of field and the weights of two strategies change pictures and not what comes later.
+#[test]
+fn two_steps_may_be_left_out() {
+    for left_out in [&[23][..], &[26], &[23, 26]] {
+        for chapter in [25, 28, 30, 33] {
+            let program = program_of(|number| number <= chapter && !left_out.contains(&number)).expect("applies");
+            let few = program.replace("const WIDTH: usize = 480;", "const WIDTH: usize = 48;");
+            let ([width, height], _) = picture_of_program(&few).expect("compiles, and writes a picture");
+            assert_eq!([width, height], [48, 270]);
+        }
     }
 }
 
 #[test]
 fn mistakes_are_told_and_right_programs_accepted() {
+    let quick = |edits: &[Edit]| edits.iter().copied().filter(|edit| edit.0 <= QUICK).collect::<Vec<_>>();
     let (mut tried, mut named) = (0, 0);
-    for edit in MISTAKES.into_iter().filter(|edit| edit.0 <= QUICK) {
-        let Some(said) = said(&found(edit)) else { panic!("{edit:?} is not told") };
+    for (edit, found) in found(&quick(&MISTAKES)) {
+        let Some(said) = said(&found) else { panic!("{edit:?} is not told") };
         tried += 1;
         named += usize::from(said != NOT_NAMED);
     }
-    for edit in RIGHT.into_iter().filter(|edit| edit.0 <= QUICK) {
-        assert_eq!(said(&found(edit)), None, "{edit:?} is right");
+    for (edit, found) in found(&quick(&RIGHT)) {
+        assert_eq!(said(&found), None, "{edit:?} is right");
     }
     eprintln!("mistakes in the reader's program: {tried} told, {named} of them named");
-    assert!(tried >= 20 && 10 * named >= 5 * tried);
+    assert!(tried >= 20 && 10 * named >= 7 * tried);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::format::{Format, print_json, print_written};
 use super::own_file::{check_file, write_file};
 use pinhole::film::{Curve, png_bytes};
 use pinhole::scene::{FileKind, printable_path, read_file};
-use pinhole_lab::yours::{Comparison, compare_picture, picture_of, program_after, scene_after, steps};
+use pinhole_lab::yours::{Comparison, Expected, Picture, picture_in, picture_of, program_after, scene_after, steps};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
@@ -40,8 +40,8 @@ pub fn yours(asked: &CompareYours, format: Format, out: &mut dyn Write) -> Resul
         write_file(named, &file, &png_bytes(&picture_of(&scene_after(step.number))?, Curve::Srgb)?)?;
         return print_written(&file, format, out);
     };
-    let (size, bytes) = read_ppm(picture)?;
-    tell(&compare_picture(step.number, size, &bytes)?, format, out)
+    let picture = read_ppm(picture)?;
+    tell(&Expected::after(step.number)?.compare(&picture)?, format, out)
 }
 
 fn list(format: Format, out: &mut dyn Write) -> Result {
@@ -94,24 +94,8 @@ fn tell(found: &Comparison, format: Format, out: &mut dyn Write) -> Result {
 }
 
 /// The size and the bytes of a picture in the text format PPM.
-fn read_ppm(file: &Path) -> Result<([usize; 2], Vec<[u8; 3]>)> {
+fn read_ppm(file: &Path) -> Result<Picture> {
     let text = read_file(file, PICTURE).map_err(|told| Error::usage(told.to_string()))?;
-    let refused = |what: &str| Error::usage(format!("cannot read {}: {what}", printable_path(file)));
-    let text = String::from_utf8_lossy(&text);
-    let mut words = text.split_whitespace();
-    if words.next() != Some("P3") {
-        return Err(refused("it does not begin with P3, as the text of a picture in the format PPM does"));
-    }
-    let numbers: Option<Vec<usize>> = words.map(|word| word.parse().ok()).collect();
-    match numbers.as_deref() {
-        Some([width, height, 255, parts @ ..])
-            if width.checked_mul(*height).and_then(|pixels| pixels.checked_mul(3)) == Some(parts.len()) =>
-        {
-            let byte = |part: usize| u8::try_from(part).map_err(|_| refused("a number is above 255"));
-            let pixel = |own: &[usize]| Ok([byte(own[0])?, byte(own[1])?, byte(own[2])?]);
-            Ok(([*width, *height], parts.chunks_exact(3).map(pixel).collect::<Result<_>>()?))
-        }
-        Some(_) => Err(refused("after P3 come width, height, 255 and three numbers for each pixel")),
-        None => Err(refused("all that follows P3 must be whole numbers")),
-    }
+    let refused = |what: String| Error::usage(format!("cannot read {}: {what}", printable_path(file)));
+    picture_in(&String::from_utf8_lossy(&text)).map_err(refused)
 }

@@ -1,22 +1,102 @@
 //! What `yours` says of the reader's program with mistakes, and of right ones that look unlike the book's.
 //!
-//! `cargo bench --bench yours`; a few minutes.
+//! `cargo bench --bench yours`; a few minutes. `-- --times` measures the program beside pinhole instead, both on one
+//! thread with the same number of samples, and `-- --write` keeps that beside chapter 25.
 #![allow(clippy::print_stdout, reason = "a bench prints what it found")]
 
 #[path = "../yours/programs.rs"]
 mod programs;
 
+use bevy_ecs::prelude::World;
+use pinhole::extract::linear_from_srgb;
+use pinhole::film::srgb_from_linear;
+use pinhole::scene::Sampling;
+use pinhole_lab::report::provenance::Provenance;
+use pinhole_lab::yours::{Compiled, Picture, picture_of, program_after, scene_after, steps};
 use programs::{MISTAKES, NOT_NAMED, RIGHT, found, said};
+use std::time::Instant;
+
+/// Pictures of each, of which the fastest counts.
+const RUNS: usize = 5;
 
 fn main() {
+    let words: Vec<String> = std::env::args().collect();
+    let asks = |word: &str| words.iter().any(|own| own == word);
+    if asks("--times") || asks("--write") {
+        let table = times();
+        println!("{table}");
+        if asks("--write") {
+            let file = format!("{}/chapters/25_path_tracing/yours.txt", env!("CARGO_MANIFEST_DIR"));
+            let text = format!("{table}\n{}\n", Provenance::now(String::new()).measured());
+            std::fs::write(file, text).expect("it can be written");
+        }
+        return;
+    }
     let (mut told, mut named) = (0, 0);
-    for edit @ (chapter, old, new) in MISTAKES {
-        let said = said(&found(edit));
+    for ((chapter, old, new), found) in found(&MISTAKES) {
+        let said = said(&found);
         told += usize::from(said.is_some());
         named += usize::from(said.is_some_and(|said| said != NOT_NAMED));
         println!("{chapter:>2}  {:<50}  {:<40}  {}", old.trim(), new.trim(), said.unwrap_or("not told"));
     }
     println!("mistakes: {} tried, {told} told, {named} named", MISTAKES.len());
-    let refused: Vec<_> = RIGHT.into_iter().filter(|edit| said(&found(*edit)).is_some()).collect();
+    let refused: Vec<_> = found(&RIGHT).into_iter().filter(|(_, found)| said(found).is_some()).collect();
     println!("right programs: {} tried, {} called wrong {refused:?}", RIGHT.len(), refused.len());
+}
+
+/// Seconds and errors of the reader's program and of pinhole, for each step from the first with samples.
+fn times() -> String {
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let mut table = "seconds on one thread, the least of five, and relMSE after as many samples a pixel\n".to_owned();
+    table += "after chapter  samples   yours s  pinhole s     yours relMSE  pinhole relMSE\n";
+    for step in steps().iter().filter(|step| (17..33).contains(&step.number)) {
+        let program = program_after(step.number).expect("applies");
+        let samples = program.split("SAMPLES: usize = ").nth(1).and_then(|rest| rest.split(';').next());
+        let samples: u32 = samples.and_then(|samples| samples.parse().ok()).expect("samples");
+        let compiled = Compiled::of(&program).expect("compiles");
+        let scene = |samples: u32| {
+            let mut scene = scene_after(step.number);
+            scene.query::<&mut Sampling>().iter_mut(&mut scene).for_each(|mut own| own.samples = samples);
+            scene
+        };
+        let (right, few) = (light_of(&scene(2048)), scene(samples));
+        let (mut seconds, mut pictures) = ([f64::INFINITY; 2], [Vec::new(), Vec::new()]);
+        for _ in 0..RUNS {
+            let (yours, pinhole) =
+                (|| light_in(&compiled.picture().expect("a picture")), || one.install(|| light_of(&few)));
+            let runs: [&dyn Fn() -> Vec<[f64; 3]>; 2] = [&yours, &pinhole];
+            for (which, run) in runs.into_iter().enumerate() {
+                let began = Instant::now();
+                pictures[which] = run();
+                seconds[which] = seconds[which].min(began.elapsed().as_secs_f64());
+            }
+        }
+        let [yours, pinhole] = pictures.map(|picture| rel_mse(&picture, &right));
+        let number = step.number;
+        table += &format!(
+            "{number:>13}  {samples:>7}  {:>8.2}  {:>9.2}  {yours:>15.5}  {pinhole:>14.5}\n",
+            seconds[0], seconds[1]
+        );
+    }
+    table
+}
+
+/// A picture's light as bytes hold it, so that rounding is the same in both.
+fn light_of(scene: &World) -> Vec<[f64; 3]> {
+    let film = picture_of(scene).expect("renders");
+    let place = |at: u32| film.mean(at % film.width, at / film.width);
+    let shown =
+        |light: f32| linear_from_srgb((255.0 * srgb_from_linear(f64::from(light).clamp(0.0, 1.0))).round() / 255.0);
+    (0..film.width * film.height).map(|at| place(at).map(shown)).collect()
+}
+
+fn light_in((_, bytes): &Picture) -> Vec<[f64; 3]> {
+    bytes.iter().map(|pixel| pixel.map(|byte| linear_from_srgb(f64::from(byte) / 255.0))).collect()
+}
+
+/// The mean of the squared error over the squared light, to which a hundredth of white is added.
+fn rel_mse(picture: &[[f64; 3]], right: &[[f64; 3]]) -> f64 {
+    let pairs = picture.iter().flatten().zip(right.iter().flatten());
+    pairs.map(|(own, right)| (own - right) * (own - right) / (right * right + 1e-4)).sum::<f64>()
+        / (3 * right.len()) as f64
 }

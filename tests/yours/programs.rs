@@ -1,15 +1,12 @@
 //! The reader's program after each step, compiled and run, and with mistakes put into it.
 
-use pinhole_lab::yours::{Comparison, compare_picture, program_after};
-use std::fs;
-use std::path::Path;
-use std::process::Command;
+use pinhole_lab::yours::{Comparison, Expected, Picture, picture_of_program, program_after};
 
 /// A chapter, what its program says there, and what is put in its place.
 pub type Edit = (u32, &'static str, &'static str);
 
 /// Mistakes, each of which shows in the picture.
-pub const MISTAKES: [Edit; 44] = [
+pub const MISTAKES: [Edit; 58] = [
     (5, "camera_direction(x as f64 + 0.5, y as f64 + 0.5)", "camera_direction(x as f64, y as f64)"),
     (17, "x as f64 + right, y as f64 + down", "x as f64 + right - 0.5, y as f64 + down - 0.5"),
     (5, "times(irradiance / PI)", "times(irradiance)"),
@@ -54,10 +51,24 @@ pub const MISTAKES: [Edit; 44] = [
     (25, "        weight = weight.times(1.0 / survives);\n", ""),
     (25, "normal.add(random.direction())", "random.direction()"),
     (25, "return sum.add(weight.by(V(0.5, 0.7, 1.0)));", "return sum;"),
+    (23, "LENS * random.next().sqrt()", "LENS * random.next().powi(2)"),
+    (23, "direction.times(FOCUS)", "direction.unit().times(FOCUS)"),
+    (23, "in_focus.sub(start), &mut random)", "direction, &mut random)"),
+    (23, "radiance(start, in_focus", "radiance(EYE, in_focus"),
+    (26, "weight.by(emitted).times(part)", "weight.by(emitted)"),
+    (26, "times(part * cosine * cosine_there", "times(cosine * cosine_there"),
+    (26, "pdf = normal.dot(direction) / PI;", "pdf = 1.0 / (2.0 * PI);"),
+    (26, "weight_of(lamp_pdf(to_lamp, outward), cosine / PI)", "weight_of(cosine / PI, lamp_pdf(to_lamp, outward))"),
+    (28, " && u + v <= 1.0", ""),
+    (28, "-normal.dot(direction);", "normal.dot(direction);"),
+    (30, "halves.iter() {", "halves.iter().skip(1) {"),
+    (30, "leaves = one.max(other).min(leaves);", "leaves = one.min(other).min(leaves);"),
+    (33, "|| depth >= pixel.0", "|| depth <= pixel.0"),
+    (33, "(1.0 - up) * height / 2.0", "(1.0 + up) * height / 2.0"),
 ];
 
 /// Programs that are right, and look unlike the book's.
-pub const RIGHT: [Edit; 10] = [
+pub const RIGHT: [Edit; 15] = [
     (17, "Random((y * WIDTH + x) as u64)", "Random(977 * (y * WIDTH + x) as u64 + 5)"),
     (17, "const SAMPLES: usize = 64;", "const SAMPLES: usize = 100;"),
     (10, "LAMPS {", "LAMPS.into_iter().rev() {"),
@@ -72,6 +83,11 @@ pub const RIGHT: [Edit; 10] = [
     (20, "random.next() < reflected", "random.next() > 1.0 - reflected"),
     (21, "let outward = random.direction();", "let outward = random.direction().times(-1.0);"),
     (9, "let upward = back.cross(to_the_right);", "let upward = V(0.0, 1.0, 0.0).sub(back.times(back.1)).unit();"),
+    (23, "LENS * random.next().sqrt()", "LENS * random.next().max(random.next())"),
+    (26, "1.0 / (1.0 + (other / pdf) * (other / pdf))", "1.0 / (1.0 + other / pdf)"),
+    (28, "triangle(b, d, c)", "triangle(b, c, d)"),
+    (30, "things.len() <= 4", "things.len() <= 1"),
+    (33, "chain(&ground)", "chain(&ground).collect::<Vec<_>>().into_iter().rev()"),
 ];
 
 /// What is said of a picture that is not pinhole's; none of one that is.
@@ -86,28 +102,21 @@ pub fn said(found: &Comparison) -> Option<&'static str> {
 /// What is said of a picture that differs for a reason that is not known.
 pub const NOT_NAMED: &str = "told, not named";
 
-/// What is found of the picture of a chapter's program, edited.
-pub fn found((chapter, old, new): Edit) -> Comparison {
+/// What a chapter's program, edited, makes.
+pub fn picture_of_edited((chapter, old, new): Edit) -> Picture {
     let program = program_after(chapter).expect("applies");
     assert_eq!(program.matches(old).count().min(1), 1, "{chapter} has no {old}");
-    let (size, bytes) = picture(&program.replace(old, new));
-    compare_picture(chapter, size, &bytes).expect("renders")
+    picture_of_program(&program.replace(old, new)).expect("a picture")
 }
 
-/// Compiles a program as a reader does, runs it, and reads the picture that it wrote.
-pub fn picture(program: &str) -> ([usize; 2], Vec<[u8; 3]>) {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let source = folder.path().join("main.rs");
-    fs::write(&source, program).expect("written");
-    let compiler = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let words = ["-O", "--edition", "2024", "-A", "warnings", "main.rs", "-o", "one_page"];
-    let told = Command::new(compiler).args(words).current_dir(folder.path()).output().expect("a compiler");
-    assert!(told.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
-    let program = folder.path().join(Path::new("one_page"));
-    assert!(Command::new(program).current_dir(folder.path()).status().expect("runs").success());
-    let text = fs::read_to_string(folder.path().join("picture.ppm")).expect("a picture");
-    let numbers: Vec<usize> = text.split_whitespace().skip(1).map(|word| word.parse().expect("a number")).collect();
-    let byte = |part: usize| u8::try_from(part).expect("a byte");
-    let pixels = numbers[3..].chunks_exact(3).map(|own| [byte(own[0]), byte(own[1]), byte(own[2])]).collect();
-    ([numbers[0], numbers[1]], pixels)
+/// Edits with what is found of their pictures, chapter by chapter.
+pub fn found(edits: &[Edit]) -> Vec<(Edit, Comparison)> {
+    let mut edits = edits.to_vec();
+    edits.sort_by_key(|edit| edit.0);
+    let of_chapter = |edits: &[Edit]| {
+        let expected = Expected::after(edits[0].0).expect("renders");
+        let found = |edit: &Edit| (*edit, expected.compare(&picture_of_edited(*edit)).expect("of its size"));
+        edits.iter().map(found).collect::<Vec<_>>()
+    };
+    edits.chunk_by(|one, other| one.0 == other.0).flat_map(of_chapter).collect()
 }

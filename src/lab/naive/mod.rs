@@ -24,6 +24,7 @@ pub mod material;
 pub mod mesh;
 pub mod methods;
 pub mod mistake;
+mod monte_carlo;
 pub mod ndc;
 mod one_page;
 pub mod path;

@@ -1,10 +1,12 @@
 //! Whether a picture of bytes shows what another one of light shows, block by block.
 
+use super::known::{Picture, known_mistakes};
 use super::scene::{SIZE, picture_of, scene_after, variants};
 use pinhole::Error;
 use pinhole::extract::linear_from_srgb;
 use pinhole::film::{Film, srgb_from_linear};
 use pinhole::scene::Sampling;
+use std::cell::OnceCell;
 
 /// The sides of a block, in pixels.
 const BLOCK: [usize; 2] = [16, 10];
@@ -18,6 +20,9 @@ const SHIFT: f64 = 0.1;
 /// The part of the difference that a shift must explain where blocks differ: of an edge that is shifted by half a pixel, it
 /// explains a quarter, for half of the pixels along it have changed altogether.
 const EXPLAINED: f64 = 0.15;
+/// The part of a block that noise makes white in one picture only, at most; there, light beyond white was lost, and nobody
+/// knows how much.
+const SPECKLED: f64 = 0.5;
 /// Light that counts as none, where parts of it are told.
 const DARK: f64 = 1e-3;
 
@@ -96,57 +101,105 @@ fn each(pixels: &Pixels, change: fn(f64) -> f64) -> Pixels {
     pixels.iter().map(|pixel| pixel.map(|light| change(light).min(1.0))).collect()
 }
 
-/// Compares the picture of a reader's program after a chapter with pinhole's of the same scene.
-///
-/// Errors: a picture of another size; those of a render.
-pub fn compare_picture(chapter: u32, [width, height]: [usize; 2], bytes: &[[u8; 3]]) -> Result<Comparison, Error> {
-    if [width, height] != SIZE {
-        let told = format!("the picture has {width} × {height} pixels, and pinhole's has {} × {}", SIZE[0], SIZE[1]);
-        return Err(Error::Usage(told));
-    }
-    let curve = Curve::after(chapter);
-    let light = |byte: u8| (curve.light_from_part)(f64::from(byte) / 255.0);
-    let readers: Pixels = bytes.iter().map(|pixel| pixel.map(light)).collect();
-    let right = light_of(&picture_of(&scene_after(chapter))?);
-    let found = blocks(&readers, &right, &curve);
-    let all = found.len();
-    let apart: Vec<&Block> = found.iter().filter(|block| block.differs()).collect();
-    let Some(most) = apart.iter().max_by(|a, b| a.off.total_cmp(&b.off)) else {
-        let mut resolved: Vec<f64> = found.iter().map(|block| block.resolved).collect();
-        resolved.sort_by(f64::total_cmp);
-        let same = Comparison::Same { resolved: resolved[all / 2] };
-        return Ok(shift(&readers, &right, 0.0).map_or(same, |by| Comparison::Shifted { by }));
-    };
-    let looks_like = looks_like(chapter, &readers, &right, apart.len())?;
-    if let Some(by) = shift(&readers, &right, EXPLAINED).filter(|_| looks_like.is_none()) {
-        return Ok(Comparison::Shifted { by });
-    }
-    let light = |pixels: &Pixels| pixels.iter().flatten().sum::<f64>();
-    let brightness = light(&readers) / light(&right) - 1.0;
-    Ok(Comparison::Differs { blocks: apart.len(), of: all, brightness, most: most.middle, looks_like })
+/// pinhole's picture of the scene that a reader's program shows after a chapter, and those of mistakes, each made when it
+/// is first asked for.
+pub struct Expected {
+    chapter: u32,
+    curve: Curve,
+    right: Pixels,
+    rewritten_or_changed: OnceCell<Vec<Mistaken>>,
+    known: OnceCell<Vec<Mistaken>>,
 }
 
-/// The mistake whose picture this is: the one that leaves the fewest blocks apart, if those are few.
-fn looks_like(chapter: u32, readers: &Pixels, right: &Pixels, apart: usize) -> Result<Option<&'static str>, Error> {
-    let curve = Curve::after(chapter);
-    let left = |wrong: &Pixels| blocks(readers, wrong, &curve).iter().filter(|block| block.differs()).count();
-    let mut best = (apart / 10 + 1, None);
-    let mut keep = |what, left| {
-        if left < best.0 {
-            best = (left, Some(what));
+/// What a picture looks like, and the picture.
+type Mistaken = (&'static str, Pixels);
+
+impl Expected {
+    /// The picture after a chapter.
+    ///
+    /// Errors: those of a render.
+    pub fn after(chapter: u32) -> Result<Self, Error> {
+        let right = light_of(&picture_of(&scene_after(chapter))?);
+        let (rewritten_or_changed, known) = <(OnceCell<_>, OnceCell<_>)>::default();
+        Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known })
+    }
+
+    /// Compares the picture that a reader's program wrote.
+    ///
+    /// Errors: a picture of another size; those of a render.
+    pub fn compare(&self, ([width, height], bytes): &Picture) -> Result<Comparison, Error> {
+        if [*width, *height] != SIZE {
+            let told =
+                format!("the picture has {width} × {height} pixels, and pinhole's has {} × {}", SIZE[0], SIZE[1]);
+            return Err(Error::Usage(told));
         }
-    };
-    for (what, rewrite) in REWRITTEN {
-        keep(what, left(&rewrite(right, &curve)));
+        let (readers, right) = (pixels_of(bytes, &self.curve), &self.right);
+        let found = blocks(&readers, right, &self.curve);
+        let apart: Vec<&Block> = found.iter().filter(|block| block.differs()).collect();
+        let Some(most) = apart.iter().max_by(|a, b| a.off.total_cmp(&b.off)) else {
+            let mut resolved: Vec<f64> = found.iter().map(|block| block.resolved).collect();
+            resolved.sort_by(f64::total_cmp);
+            let same = Comparison::Same { resolved: resolved[resolved.len() / 2] };
+            return Ok(shift(&readers, right, 0.0).map_or(same, |by| Comparison::Shifted { by }));
+        };
+        let mut looks_like = self.closest(&readers, apart.len(), self.rewritten_or_changed()?);
+        if looks_like.is_none() {
+            if let Some(by) = shift(&readers, right, EXPLAINED) {
+                return Ok(Comparison::Shifted { by });
+            }
+            looks_like = self.closest(&readers, apart.len(), self.known());
+        }
+        let light = |pixels: &Pixels| pixels.iter().flatten().sum::<f64>();
+        let brightness = light(&readers) / light(right) - 1.0;
+        Ok(Comparison::Differs { blocks: apart.len(), of: found.len(), brightness, most: most.middle, looks_like })
     }
-    for variant in variants().into_iter().filter(|variant| (variant.from..variant.until).contains(&chapter)) {
-        let mut world = scene_after(chapter);
-        (variant.change)(&mut world);
-        // Enough to be told from the others.
-        world.query::<&mut Sampling>().iter_mut(&mut world).for_each(|mut fewer| fewer.samples = fewer.samples.min(32));
-        keep(variant.looks_like, left(&light_of(&picture_of(&world)?)));
+
+    /// What the picture looks like that leaves the fewest blocks apart, if those are few; it must itself be apart from the
+    /// right one about as far as the reader's is.
+    fn closest(&self, readers: &Pixels, apart: usize, mistakes: &[Mistaken]) -> Option<&'static str> {
+        let differing = |one: &Pixels, other: &Pixels| {
+            blocks(one, other, &self.curve).iter().filter(|block| block.differs()).count()
+        };
+        let shown = mistakes.iter().filter(|(_, wrong)| {
+            let alone = differing(wrong, &self.right);
+            2 * alone >= apart && alone <= 3 * apart
+        });
+        let all = shown.map(|(what, wrong)| (differing(readers, wrong), *what));
+        all.min_by_key(|found| found.0).filter(|found| found.0 <= apart / 10).map(|found| found.1)
     }
-    Ok(best.1)
+
+    /// The picture written in other ways than it should be, and those of other scenes.
+    fn rewritten_or_changed(&self) -> Result<&[Mistaken], Error> {
+        if let Some(all) = self.rewritten_or_changed.get() {
+            return Ok(all);
+        }
+        let rewritten = REWRITTEN.iter().map(|(what, rewrite)| Ok((*what, rewrite(&self.right, &self.curve))));
+        let variants = variants().into_iter().filter(|variant| (variant.from..variant.until).contains(&self.chapter));
+        let changed = variants.map(|variant| {
+            let mut world = scene_after(self.chapter);
+            (variant.change)(&mut world);
+            // Enough to be told from the others.
+            let mut samplings = world.query::<&mut Sampling>();
+            samplings.iter_mut(&mut world).for_each(|mut fewer| fewer.samples = fewer.samples.min(32));
+            Ok((variant.looks_like, light_of(&picture_of(&world)?)))
+        });
+        let all = rewritten.chain(changed).collect::<Result<_, Error>>()?;
+        Ok(self.rewritten_or_changed.get_or_init(|| all))
+    }
+
+    /// The pictures of the program with each known mistake.
+    fn known(&self) -> &[Mistaken] {
+        self.known.get_or_init(|| {
+            let all = known_mistakes(self.chapter).into_iter().filter(|(_, (size, _))| *size == SIZE);
+            all.map(|(what, (_, bytes))| (what, pixels_of(&bytes, &self.curve))).collect()
+        })
+    }
+}
+
+/// The light of a picture of bytes.
+fn pixels_of(bytes: &[[u8; 3]], curve: &Curve) -> Pixels {
+    let light = |byte: u8| (curve.light_from_part)(f64::from(byte) / 255.0);
+    bytes.iter().map(|pixel| pixel.map(light)).collect()
 }
 
 /// By how many pixels a picture is shifted to the right and downward, where that is told and explains this part of the
@@ -211,7 +264,10 @@ fn blocks(readers: &Pixels, right: &Pixels, curve: &Curve) -> Vec<Block> {
                 let light = places.iter().map(|at| right[*at][channel]).sum::<f64>() / count;
                 // By how much a byte's step changes light of this strength.
                 let step = (curve.light_from_part)((curve.part_from_light)(light) + 1.0 / 255.0) - light;
-                let allowed = ROUNDING * step + SIGNIFICANT * (squares / (count - 1.0) / count).sqrt();
+                let white = |at: &&usize| (readers[**at][channel] >= 1.0) != (right[**at][channel] >= 1.0);
+                let speckled = places.iter().filter(white).count() as f64 / count;
+                let lost = if speckled < SPECKLED { speckled } else { 0.0 };
+                let allowed = ROUNDING * step + SIGNIFICANT * (squares / (count - 1.0) / count).sqrt() + lost;
                 block.off = block.off.max(mean.abs() / allowed);
                 block.resolved = block.resolved.max(allowed / light.max(DARK));
             }

@@ -4,9 +4,11 @@
 //! program after each step, pinhole's picture of the same scene, and whether the two are the same within noise.
 
 mod comparison;
+mod known;
 mod program;
 mod scene;
 
-pub use comparison::{Comparison, compare_picture};
-pub use program::{Step, program_after, steps};
+pub use comparison::{Comparison, Expected};
+pub use known::{Compiled, Picture, picture_in, picture_of_program};
+pub use program::{Step, program_after, program_of, steps};
 pub use scene::{Variant, picture_of, scene_after, variants};

@@ -34,7 +34,12 @@ steps! {
     19 "19_mirrors",
     20 "20_glass",
     21 "21_soft_shadows",
+    23 "23_depth_of_field",
     25 "25_path_tracing",
+    26 "26_choosing_samples",
+    28 "28_meshes",
+    30 "30_tree",
+    33 "33_rasterisation",
 }
 
 /// The program of the first page.
@@ -44,24 +49,40 @@ const FIRST: &str = include_str!("../naive/one_page.rs");
 ///
 /// Errors: an edit that says nothing of this program, by its own words.
 pub fn program_after(chapter: u32) -> Result<String, String> {
+    program_of(|number| number <= chapter)
+}
+
+/// The program after the steps of these chapters.
+///
+/// Errors: as for [`program_after`]; so does the step of a chapter that needs one which is left out.
+pub fn program_of(takes: impl Fn(u32) -> bool) -> Result<String, String> {
     let listing = FIRST.split("ANCHOR: one_page\n").nth(1).and_then(|rest| rest.split("// ANCHOR_END").next());
     let mut lines: Vec<String> = listing.unwrap_or_default().lines().map(String::from).collect();
-    for step in steps().into_iter().filter(|step| step.number <= chapter) {
+    for step in steps().into_iter().filter(|step| takes(step.number)) {
         for (place, body) in edits(step.text) {
-            apply(&mut lines, place, &body)
-                .ok_or_else(|| format!("{}: \"{place}\" is not there once", step.chapter))?;
+            let left_out = place.strip_prefix(IF_THERE);
+            let place = left_out.unwrap_or(place);
+            if apply(&mut lines, place, &body).is_none() && left_out.is_none() {
+                return Err(format!("{}: \"{place}\" is not there once", step.chapter));
+            }
         }
     }
     Ok(lines.join("\n").trim_end().to_owned() + "\n")
 }
+
+/// The end of a place that may be there more than once.
+const EVERYWHERE: &str = "`, wherever it stands:";
+/// How a place begins that only a step brings which may be left out.
+const IF_THERE: &str = "If you have it, ";
 
 /// The edits of a step: where, and what.
 fn edits(text: &str) -> Vec<(&str, Vec<&str>)> {
     let mut found: Vec<(&str, Vec<&str>)> = Vec::new();
     for line in text.lines() {
         let place = line.strip_prefix("// ").filter(|place| {
-            let begins = ["In ", "In place of ", "After ", "Before ", "`"].iter().any(|word| place.starts_with(word));
-            begins && (place.ends_with("`:") || place.ends_with("` goes."))
+            let begins = ["In ", "After ", "Before ", "If you have it, ", "`"];
+            let begins = begins.iter().any(|word| place.starts_with(word));
+            begins && ["`:", "` goes.", EVERYWHERE].iter().any(|word| place.ends_with(word))
         });
         match (place, found.last_mut()) {
             (Some(place), _) => found.push((place, Vec::new())),
@@ -82,26 +103,28 @@ fn apply(lines: &mut Vec<String>, place: &str, body: &[&str]) -> Option<()> {
     let quoted: Vec<&str> = place.split('`').skip(1).step_by(2).collect();
     let is_within = place.starts_with("In `");
     let item = item(lines, quoted.first()?)?;
-    let target = match quoted.get(1) {
-        Some(line) if is_within => {
-            let mut at = item.filter(|&at| lines[at].trim() == *line);
-            at.next().filter(|_| at.next().is_none()).map(|at| at..at + 1)?
-        }
+    let targets: Vec<Range<usize>> = match quoted.get(1) {
+        Some(line) if is_within => item.filter(|&at| lines[at].trim() == *line).map(|at| at..at + 1).collect(),
         _ if is_within => return None,
-        _ => item,
+        _ => vec![item],
     };
+    if targets.is_empty() || (targets.len() > 1 && !place.ends_with(EVERYWHERE)) {
+        return None;
+    }
     let mut body: Vec<String> = body.iter().map(|line| (*line).to_owned()).collect();
     let (replaces, is_after) = (place.ends_with(" goes.") || place.contains("n place of `"), place.contains("fter `"));
     // Between items stands an empty line.
     if !replaces && !is_within {
         body.insert(if is_after { 0 } else { body.len() }, String::new());
     }
-    let at = match (replaces, is_after) {
-        (true, _) => target,
-        (false, true) => target.end..target.end,
-        (false, false) => target.start..target.start,
-    };
-    lines.splice(at, body);
+    for target in targets.into_iter().rev() {
+        let at = match (replaces, is_after) {
+            (true, _) => target,
+            (false, true) => target.end..target.end,
+            (false, false) => target.start..target.start,
+        };
+        lines.splice(at, body.iter().cloned());
+    }
     Some(())
 }
 
@@ -113,7 +136,7 @@ fn item(lines: &[String], name: &str) -> Option<Range<usize>> {
         let (kind, own) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
         match name.strip_prefix("impl ") {
             Some(of) => kind == "impl" && own == of,
-            None => ["fn", "struct", "enum", "const"].contains(&kind) && own == name,
+            None => ["fn", "struct", "enum", "const", "static"].contains(&kind) && own == name,
         }
     };
     let first = lines.iter().rposition(|line| is_named(line))?;

@@ -1,8 +1,9 @@
 //! The scenes of the reader's program as entities, and what they would be with a mistake.
 
 use bevy_ecs::prelude::*;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use pinhole::film::Film;
+use pinhole::models::TriangleMesh;
 use pinhole::render::{Execution, render};
 use pinhole::scene::*;
 use pinhole::{Chapter, Error, stages};
@@ -18,7 +19,8 @@ pub fn scene_after(chapter: u32) -> World {
         ..19 => Integrator::RayCasting,
         19..21 => Integrator::WHITTED,
         21..25 => Integrator::DISTRIBUTION,
-        25.. => Integrator::PATH,
+        25..33 => Integrator::PATH,
+        33.. => Integrator::RayCasting,
     };
     let camera = PerspectiveCamera { fov: Degrees(60.0), axis: FovAxis::Vertical };
     let camera = world.spawn((camera, Resolution { width: SIZE[0] as u32, height: SIZE[1] as u32 }, integrator)).id();
@@ -26,14 +28,32 @@ pub fn scene_after(chapter: u32) -> World {
         let (eye, target) = (DVec3::new(2.5, 1.4, 1.4), DVec3::new(0.0, -0.3, -3.0));
         world.entity_mut(camera).insert(LookAt { eye, target, ..LookAt::default() });
     }
-    if chapter >= 17 {
-        let samples = if chapter < 21 { 64 } else { 256 };
-        world.entity_mut(camera).insert(Sampling { samples, filter: Filter::BOX, seed: 1, ..Sampling::default() });
+    if chapter == 23 {
+        let aperture = Aperture::Radius { radius: 0.12 };
+        world.entity_mut(camera).insert(Lens { aperture, focus_distance: 3.5, blades: 0, turn: Degrees(0.0) });
+    }
+    if (17..33).contains(&chapter) {
+        world.entity_mut(camera).insert(Sampling { samples: 64, filter: Filter::BOX, seed: 1, ..Sampling::default() });
     }
     world.spawn(Background { colour: Rgb::new(0.5, 0.7, 1.0) });
     let sphere = |radius, x, y, z| (Sphere { radius }, Placement::at(x, y, z));
     let matte = |r, g, b| Matte { colour: Rgb::new(r, g, b) };
     let (ground, red) = (matte(0.5, 0.6, 0.5), matte(0.9, 0.3, 0.2));
+    if chapter >= 28 {
+        let [rings, sides] = if chapter < 30 { [32, 6] } else { [400, 30] };
+        world.spawn((MeshInstance::new(shell(rings, sides)), matte(0.9, 0.5, 0.3)));
+    }
+    if chapter >= 33 {
+        world.spawn((Rectangle { width: 8.0, depth: 5.0 }, Placement::at(0.0, -1.0, -3.5), ground));
+        // The lamp, as if all of it were at its centre.
+        let intensity = Rgb::new(60.0, 54.0, 45.0);
+        world.spawn((
+            PointLight { intensity, casts_shadows: false, ..PointLight::default() },
+            Placement::at(1.0, 3.0, 0.0),
+        ));
+        brighten(&mut world, 0.25 * PI);
+        return world;
+    }
     if chapter < 13 {
         world.spawn((sphere(100.0, 0.0, -101.0, -3.0), ground));
         world.spawn((sphere(1.0, 0.0, 0.0, -3.0), red));
@@ -47,7 +67,9 @@ pub fn scene_after(chapter: u32) -> World {
             world.spawn((small, matte(0.8, 0.8, 0.3)));
         } else {
             world.spawn((large, Mirror { colour: Rgb::new(0.9, 0.8, 0.6) }));
-            world.spawn((small, red));
+            if chapter < 28 {
+                world.spawn((small, red));
+            }
         }
         if chapter >= 20 {
             world.spawn((sphere(0.6, 2.3, -0.4, -1.4), Glass { ior: 1.5, ..Glass::default() }));
@@ -60,12 +82,39 @@ pub fn scene_after(chapter: u32) -> World {
             world.spawn((lamp(60.0, 54.0, 45.0), Placement::at(3.0, 4.0, 0.0)));
             world.spawn((lamp(8.0, 14.0, 24.0), Placement::at(-4.0, 3.0, -1.0)));
         }
+        26 => {
+            let emission = Emissive { radiance: Rgb::new(6.0, 5.4, 4.5), sides: Sides::Front };
+            world.spawn((sphere(0.4, -0.5, -0.55, -1.3), emission));
+        }
         21.. => {
             let emission = Emissive { radiance: Rgb::new(60.0, 54.0, 45.0), sides: Sides::Front };
             world.spawn((sphere(0.5, 1.0, 3.0, 0.0), emission));
         }
     }
     world
+}
+
+/// The shell that the program makes of triangles.
+fn shell(rings: u32, sides: u32) -> TriangleMesh {
+    let mut mesh = TriangleMesh::default();
+    for ring in 0..=rings {
+        let along = f64::from(ring) / f64::from(rings);
+        let size = 1.2 * libm::exp(2.4 * (along - 1.0));
+        let turn = DVec2::from_angle(8.0 * PI * along);
+        for side in 0..sides {
+            let round = DVec2::from_angle(2.0 * PI * f64::from(side) / f64::from(sides));
+            let (out, down) = (size * (0.35 + 0.3 * round.x), size * (0.9 - 0.3 * round.y));
+            let place = DVec3::new(1.0 - out * turn.x, 0.44 - down, -1.6 - out * turn.y);
+            mesh.positions.push(place.as_vec3().to_array());
+        }
+    }
+    for ring in 0..rings {
+        for side in 0..sides {
+            let [a, b] = [side, (side + 1) % sides].map(|side| ring * sides + side);
+            mesh.triangles.extend([[a, b, a + sides], [b, b + sides, a + sides]]);
+        }
+    }
+    mesh
 }
 
 /// pinhole's picture of a scene.
