@@ -34,7 +34,7 @@ pub fn guide(pages: &mut [Page]) {
         if let Some(next) = place.and_then(|place| path.get(place + 1)) {
             let next = &course.chapters[*next];
             page.text +=
-                &format!("\n[A weekend’s path](teaching.md#a-weekend) goes on with [{}]({}).\n", next.title, next.name);
+                &format!("\n[A weekend's path](teaching.md#a-weekend) goes on with [{}]({}).\n", next.title, next.name);
         }
     }
 }
