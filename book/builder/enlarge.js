@@ -4,7 +4,7 @@
   dialog.className = "enlarged";
   dialog.addEventListener("click", () => dialog.close());
   document.body.append(dialog);
-  for (const picture of document.querySelectorAll("figure > svg, figure > img")) {
+  for (const picture of document.querySelectorAll(".drawing > svg, figure > img")) {
     const enlarge = () => {
       dialog.replaceChildren(picture.cloneNode(true));
       dialog.showModal();

@@ -131,13 +131,31 @@ fn inline(svg: &str, spoken: &str, stem: &str) -> Result<String, String> {
     let width = attribute(tag, "width").and_then(|width| width.trim_end_matches("px").parse::<f64>().ok());
     let width = width.or_else(|| view.split([' ', ',']).filter_map(|number| number.parse().ok()).nth(2));
     let width = width.ok_or_else(|| format!("wrote an SVG with the viewBox `{view}`, which has no width."))?;
+    let least = width * (LEGIBLE / smallest_letters(svg)).min(1.0);
     let kept = ["xmlns", "viewBox", "font-family", "font-size", "fill", "stroke", "stroke-width", "text-anchor"];
     let kept = kept.iter().filter_map(|name| Some(format!("{name}=\"{}\"", attribute(tag, name)?)));
     let kept: Vec<String> = kept.collect();
     let lines: Vec<&str> = rest.lines().filter(|line| !line.trim().is_empty()).collect();
-    let style = format!("width: 100%; max-width: {width}px; height: auto");
+    let style = format!("width: 100%; max-width: {width}px; --least: {least:.0}px; height: auto");
     let tag = format!("<svg {} role=\"img\" aria-label=\"{spoken}\" style=\"{style}\"", kept.join(" "));
-    Ok(format!("{tag}{}", own_names(&lines.join("\n"), stem)))
+    let drawing = without_command(&own_names(&lines.join("\n"), stem));
+    Ok(format!("<div class=\"drawing\">\n{tag}{drawing}\n</div>"))
+}
+
+/// The height in pixels that letters of a drawing keep in a narrow window, which then shows a part of it at a time.
+const LEGIBLE: f64 = 9.1;
+
+/// The height of the smallest letters in a drawing.
+fn smallest_letters(svg: &str) -> f64 {
+    let sizes = svg.split("font-size=\"").skip(1).filter_map(|rest| rest.split('"').next());
+    sizes.filter_map(|size| size.trim_end_matches("px").parse::<f64>().ok()).fold(f64::INFINITY, f64::min)
+}
+
+/// A drawing whose foot does not tell the command that the page has below it.
+fn without_command(svg: &str) -> String {
+    let Some((before, after)) = svg.split_once(TYPED) else { return svg.to_owned() };
+    let rest = after.find('<').map_or("", |end| &after[end..]);
+    format!("{}{rest}", before.trim_end().trim_end_matches('·').trim_end())
 }
 
 /// Two drawings on one page must not answer to each other's ids.
@@ -184,9 +202,17 @@ mod tests {
     fn a_drawing_is_inlined_and_fluid() {
         let program = program(SVG);
         let block = block(&mut program.borrow_mut(), &mut Pictures::default(), "figure 05_x", "It", "");
-        let expected = "<figure>\n<svg xmlns=\"s\" viewBox=\"0 0 300 9\" role=\"img\" aria-label=\"It\" \
-                        style=\"width: 100%; max-width: 300px; height: auto\">\n<g id=\"figure-05_x-a\" fill=\"url(#figure-05_x-a)\"/>\n</svg>\n<figcaption>";
+        let expected = "<figure>\n<div class=\"drawing\">\n<svg xmlns=\"s\" viewBox=\"0 0 300 9\" role=\"img\" aria-label=\"It\" \
+                        style=\"width: 100%; max-width: 300px; --least: 0px; height: auto\">\n<g id=\"figure-05_x-a\" fill=\"url(#figure-05_x-a)\"/>\n</svg>\n</div>\n<figcaption>";
         assert!(block.as_ref().is_ok_and(|block| block.contains(expected)), "{block:?}");
+    }
+
+    #[test]
+    fn a_drawing_stays_legible_and_the_command_stands_once() {
+        let text = "<svg viewBox=\"0 0 300 9\"><text font-size=\"13\">x</text>\
+                    <text font-size=\"18.2px\">a scene · cargo run --release -- figure 05_x --at 1</text></svg>";
+        let drawing = inline(text, "It", "x").expect("a drawing");
+        assert!(drawing.contains("--least: 210px") && drawing.contains(">a scene</text></svg>"), "{drawing}");
     }
 
     #[test]

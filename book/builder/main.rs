@@ -14,6 +14,7 @@ mod graph;
 mod handout;
 mod http;
 mod index;
+mod kept;
 mod live;
 mod live_figure;
 #[cfg(test)]
@@ -23,6 +24,7 @@ mod measure;
 mod page;
 mod print;
 mod program;
+mod progress;
 mod serve;
 mod site;
 mod slides;
@@ -79,6 +81,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     }
     let start = Instant::now();
     build::build(&book, &program)?;
+    program.borrow().let_go();
     let index = book.out.join("index.html");
     say(out, &format!("{} (in {:.1} s)", index.display(), start.elapsed().as_secs_f64()));
     Ok(())

@@ -91,7 +91,8 @@ fn formula(latex: &str, display: bool) -> Result<String, String> {
     push_mathml(&mut mathml, parser, config).map_err(|error| broken(&error))?;
     // pulldown-latex 0.8 escapes its own `&nbsp;` once too often.
     let spaces = mathml.replace("&amp;nbsp;", "\u{a0}").replace("&nbsp;", "\u{a0}");
-    let mathml = guarded(&spaces_before_scripts(&spaces.replace('\n', " ")));
+    let mathml = spaces_before_scripts(&spaces.replace('\n', " "));
+    let mathml = guarded(&breakable(&mathml, display).unwrap_or(mathml));
     Ok(if display { format!("<span class=\"formula\">{mathml}</span>") } else { mathml })
 }
 
@@ -107,6 +108,75 @@ fn spaces_before_scripts(mathml: &str) -> String {
         }
     }
     result
+}
+
+/// Browsers do not break a formula, but they break a line between two: a long one becomes a row of shorter ones, parted
+/// where a hand would part it. Nothing, where there is no such place.
+fn breakable(mathml: &str, display: bool) -> Option<String> {
+    let (tag, body) = mathml.strip_suffix("</math>")?.split_once('>')?;
+    let (mut pieces, mut inside, mut is_wide_space) = (vec![String::new()], 0_usize, false);
+    let mut is_between_bars = false;
+    for element in elements(body) {
+        // A bracket may have an exponent.
+        let base =
+            ["<msup>", "<msub>", "<msubsup>"].iter().find_map(|tag| element.strip_prefix(tag)).unwrap_or(element);
+        let is_letter = (base.starts_with("<mo") && !base.starts_with("<mover")) || base.starts_with("<mi");
+        let says =
+            base.split_once('>').and_then(|(_, rest)| rest.split('<').next()).filter(|_| is_letter).unwrap_or_default();
+        let is_operator = element.starts_with("<mo") && is_letter;
+        let is_place = is_wide_space || (is_operator && RELATIONS_AND_SIGNS.contains(&says));
+        let piece = match pieces.last_mut() {
+            Some(piece) if !is_place || inside > 0 || is_between_bars || piece.is_empty() => piece,
+            _ => {
+                pieces.push(String::new());
+                pieces.last_mut()?
+            }
+        };
+        // What joins two terms keeps its spaces at the beginning of a piece.
+        let is_first = piece.is_empty() && is_operator && pieces.len() > 1;
+        let element = if is_first { element.replacen("<mo", "<mo form=\"infix\"", 1) } else { element.to_owned() };
+        pieces.last_mut()?.push_str(&element);
+        match says {
+            "(" | "[" | "{" => inside += 1,
+            ")" | "]" | "}" => inside = inside.saturating_sub(1),
+            "|" | "‖" | "∥" => is_between_bars = !is_between_bars,
+            _ => {}
+        }
+        is_wide_space = WIDE_SPACES.iter().any(|width| element.starts_with(&format!("<mspace width=\"{width}")));
+    }
+    let letters = |piece: &String| {
+        piece.split('<').filter_map(|part| part.split_once('>')).map(|(_, text)| text.len()).sum::<usize>()
+    };
+    let is_long = display || pieces.iter().map(letters).sum::<usize>() > LONG;
+    let tag = if display { "<math displaystyle=\"true\"" } else { tag };
+    (is_long && pieces.len() > 1).then(|| pieces.iter().map(|piece| format!("{tag}>{piece}</math>")).collect())
+}
+
+/// Where a long formula is parted: before these, and after a wide space.
+const RELATIONS_AND_SIGNS: [&str; 12] = ["=", "≈", "≤", "≥", "&lt;", "&gt;", "∝", "≪", "→", "+", "−", "⋅"];
+
+/// How the widths of `\;`, `\quad` and `\qquad` begin.
+const WIDE_SPACES: [&str; 3] = ["0.27", "1em", "2em"];
+
+/// Within a sentence, formulas of more letters than this are parted.
+const LONG: usize = 24;
+
+/// The elements that stand directly in a text of MathML.
+fn elements(body: &str) -> Vec<&str> {
+    let (mut found, mut depth, mut begun) = (Vec::new(), 0_usize, 0);
+    for (at, _) in body.match_indices('<') {
+        let end = body[at..].find('>').map_or(body.len(), |length| at + length + 1);
+        match &body[at..end] {
+            tag if tag.starts_with("</") => depth = depth.saturating_sub(1),
+            tag if !tag.ends_with("/>") => depth += 1,
+            _ => {}
+        }
+        if depth == 0 {
+            found.push(&body[begun..end]);
+            begun = end;
+        }
+    }
+    found
 }
 
 /// The MathML goes through markdown once more: what markdown would read as marks is written by number.
@@ -146,6 +216,36 @@ mod tests {
         let space = expand("$a,\\ b$").expect("a formula");
         assert!(space.contains("<mtext>\u{a0}</mtext>"), "{space}");
         assert!(text.contains("<mfrac>") && !text.contains('\n'), "{text}");
+    }
+
+    #[test]
+    fn a_long_formula_is_parted_where_a_hand_would_part_it() {
+        let pieces = |latex: &str| {
+            let text = expand(latex).expect("a formula");
+            let says =
+                |part: &str| part.split('<').filter_map(|part| part.split_once('>')).map(|(_, text)| text).collect();
+            let pieces: Vec<String> = text.split("<math").skip(1).map(says).collect();
+            pieces
+                .iter()
+                .map(|piece| {
+                    piece
+                        .replace("&#40;", "(")
+                        .replace("&#41;", ")")
+                        .replace("&#43;", "+")
+                        .replace("&#61;", "=")
+                        .replace("&#124;", "|")
+                })
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(
+            pieces("$$a = (b + c)^2d + |e - f|^2 \\qquad g = \\frac{h + i}{j}$$"),
+            ["a", "=(b+c)2d", "+|e−f|2", "g", "=h+ij"]
+        );
+        assert_eq!(pieces("$a = b + c$").len(), 1, "it is short");
+        assert_eq!(pieces("$0.1234 \\cdot 0.5678 + 0.1234 \\cdot 0.5678 = 0.1401$").len(), 5);
+        assert_eq!(pieces("$$\\frac{a + b}{c}$$").len(), 1, "there is no place");
+        let text = expand("$$a = b$$").expect("a formula");
+        assert!(text.contains("<math displaystyle=\"true\"><mo form=\"infix\">"), "{text}");
     }
 
     #[test]

@@ -1,7 +1,8 @@
-//! How much of each page is prose, how much is printed, and what is folded: `cargo run -p book -- --measure`.
+//! How much of each page is prose, how much is printed, what is folded, and how long it takes: `cargo run -p book -- --measure`.
 
 use crate::build::Book;
 use crate::check::pattern::Measure;
+use crate::check::work::Work;
 use crate::check::{self, Page};
 use crate::page;
 use crate::program::Program;
@@ -18,17 +19,19 @@ pub fn measure(book: &Book, program: &Rc<RefCell<Program>>, out: &mut dyn Write)
     let pages = check::read_pages(&book.pages).map_err(|problem| problem.to_string())?;
     program.borrow_mut().ask_for(&pages);
     let mut table = String::from(
-        "page                          words  minutes  monospaced  of prose   folded: words  monospaced\n",
+        "page                          words  monospaced  of prose   folded: words  monospaced   minutes: read  write  do\n",
     );
     let mut worse = Vec::new();
     for page in pages.iter().filter(|page| page.name != "SUMMARY.md") {
         let own = of_page(page, &mut program.borrow_mut());
         let [words, folded_words] = own.words;
         let [monospaced, folded] = own.monospaced;
-        let (name, minutes, lines) = (&page.name, own.minutes(), own.lines());
+        let work = Work::of(page);
+        let (reading, writing, exercises) = (work.reading, work.writing(), work.exercises);
+        let (name, lines) = (&page.name, own.lines());
         let _ = writeln!(
             table,
-            "{name:28}  {words:>5}  {minutes:>7}  {monospaced:>10}  {lines:>8}  {folded_words:>14}  {folded:>10}"
+            "{name:28}  {words:>5}  {monospaced:>10}  {lines:>8}  {folded_words:>14}  {folded:>10}  {reading:>14}  {writing:>5}  {exercises:>3}"
         );
         if page.name.starts_with(|first: char| first.is_ascii_digit()) && monospaced >= lines {
             worse.push(name.as_str());

@@ -138,6 +138,13 @@ pub fn fitted(command: &str, text: &str) -> (String, bool) {
 
 /// What a command prints, under the command as a reader types it.
 fn printed(command: &str, text: &str) -> String {
+    if command.starts_with("extremes") {
+        let typed = escape(command);
+        let table = tabled(text);
+        return format!(
+            "\n<div class=\"printed\">\n<div class=\"typed\"><code>{TYPED} {typed}</code></div>\n{table}</div>\n"
+        );
+    }
     let (text, is_copied) = fitted(command, text);
     let copied = if is_copied { " copied" } else { "" };
     let longest = text.split(|letter| letter != '`').map(str::len).max().unwrap_or(0);
@@ -147,6 +154,24 @@ fn printed(command: &str, text: &str) -> String {
         "\n<div class=\"printed{copied}\">\n<div class=\"typed\"><code>{TYPED} {command}</code></div>\n\n\
          {fence}text\n{text}\n{fence}\n\n</div>\n"
     )
+}
+
+/// What `extremes` prints as a table: its columns are parted by two spaces or more, its cases and notes have none.
+fn tabled(text: &str) -> String {
+    let mut out = String::from("<div class=\"table-wrapper\"><table class=\"extremes\">\n");
+    for line in text.lines().filter(|line| !line.trim().is_empty()) {
+        let cells: Vec<String> = line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).map(escape).collect();
+        let spread = |cells: [&str; 5], tag: &str| cells.map(|cell| format!("<{tag}>{cell}</{tag}>")).concat();
+        let row = match cells.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+            [unit, wrong, worst, asked] if wrong == "wrong" => spread([unit, wrong, worst, "", asked], "th"),
+            [method, wrong, worst, held, asked] => spread([method, wrong, worst, held, asked], "td"),
+            [method, wrong, held, asked] => spread([method, wrong, "", held, asked], "td"),
+            _ if line.starts_with(' ') => format!("<td colspan=\"5\">{}</td>", cells.join(" ")),
+            _ => format!("<th colspan=\"5\">{}</th>", cells.join(" ")),
+        };
+        out += &format!("<tr>{row}</tr>\n");
+    }
+    out + "</table></div>\n"
 }
 
 fn indented(listing: &str, margin: &str) -> String {
@@ -208,6 +233,24 @@ mod tests {
             let text = format!("```{language}\n{comment}\n```\n");
             assert_eq!(page(&text) != text, is_broken, "{language}");
         }
+    }
+
+    #[test]
+    fn a_table_is_one() {
+        let table = tabled(
+            "all: rays\n  u = 2^-24     wrong   worst error    asked\na case: 5 tried\n  pinhole, t < 1   0   0.6 u  held   ≤ 4\n  \
+                            naive   0     held   0 wrong\n\n    a note\nheld: 1 of 1 cases",
+        );
+        for row in [
+            "<tr><th colspan=\"5\">a case: 5 tried</th></tr>",
+            "<tr><th>u = 2^-24</th><th>wrong</th><th>worst error</th><th></th><th>asked</th></tr>",
+            "<tr><td>pinhole, t &lt; 1</td><td>0</td><td>0.6 u</td><td>held</td><td>≤ 4</td></tr>",
+            "<tr><td>naive</td><td>0</td><td></td><td>held</td><td>0 wrong</td></tr>",
+            "<tr><td colspan=\"5\">a note</td></tr>",
+        ] {
+            assert!(table.contains(row), "{table}");
+        }
+        assert!(!table.contains("\n\n"), "a blank line would end the HTML in markdown");
     }
 
     #[test]

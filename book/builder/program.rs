@@ -4,6 +4,8 @@ use crate::check::Page;
 use crate::check::directive::{Directive, parse};
 use crate::check::scan::Scan;
 use crate::figure;
+use crate::kept::Kept;
+use crate::progress::Progress;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::io::Write;
@@ -11,14 +13,14 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::rc::Rc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};
 use std::thread;
 
 /// Runs one command line and writes what a reader would see; the error is one sentence.
 type Run = dyn Fn(&[String], &mut dyn Write) -> Result<(), String> + Send + Sync;
 
-/// Brings the program up to date with its sources; the error is one sentence.
-type Make = dyn Fn() -> Result<(), String>;
+/// Brings the program up to date with its sources, and finds its answers; the error is one sentence.
+type Make = dyn Fn() -> Result<Option<Kept>, String>;
 
 /// Answers commands, each only once however many pages ask.
 pub struct Program {
@@ -28,6 +30,8 @@ pub struct Program {
     /// How many commands run at once; each gets as many cores as are left for it.
     at_once: Arc<AtomicUsize>,
     answers: HashMap<Question, Result<Rc<[u8]>, String>>,
+    /// The answers of earlier builds, where they are kept.
+    kept: Option<Kept>,
 }
 
 /// A command, its words parted by single spaces, and the ending of the file that it makes, where that is the answer.
@@ -50,20 +54,24 @@ impl Program {
     /// Errors: cargo's, where the program cannot be compiled.
     pub fn shared(repository: &Path) -> Result<Rc<RefCell<Self>>, String> {
         let top = repository.to_path_buf();
-        let place = Arc::new(Mutex::new(compiled(&top, "release")?));
+        let kept = kept(&top, "release")?;
+        let place = Arc::new(Mutex::new(kept.program()));
         let (asked, at_once) = (Arc::clone(&place), Arc::new(AtomicUsize::new(1)));
         let crowd = Arc::clone(&at_once);
         let program = Self::with(move |words, out| {
             let program = at(&asked).clone();
             ask(&program, (cores() / crowd.load(Ordering::Relaxed)).max(1), words, out)
         });
-        program.borrow_mut().at_once = at_once;
-        program.borrow_mut().place = Some(Arc::clone(&place));
-        program.borrow_mut().make = Box::new(move || {
-            let compiled = compiled(&top, "edit")?;
-            *at(&place) = compiled;
-            Ok(())
+        let mut own = program.borrow_mut();
+        own.at_once = at_once;
+        own.place = Some(Arc::clone(&place));
+        own.kept = Some(kept);
+        own.make = Box::new(move || {
+            let kept = self::kept(&top, "edit")?;
+            *at(&place) = kept.program();
+            Ok(Some(kept))
         });
+        drop(own);
         Ok(program)
     }
 
@@ -73,10 +81,11 @@ impl Program {
     ) -> Rc<RefCell<Self>> {
         Rc::new(RefCell::new(Self {
             run: Box::new(run),
-            make: Box::new(|| Ok(())),
+            make: Box::new(|| Ok(None)),
             place: None,
             at_once: Arc::default(),
             answers: HashMap::new(),
+            kept: None,
         }))
     }
 
@@ -85,7 +94,13 @@ impl Program {
     /// Errors: cargo's, where the program cannot be compiled; the one of before is asked then.
     pub fn renew(&mut self) -> Result<(), String> {
         self.answers.clear();
-        (self.make)()
+        self.kept = (self.make)()?;
+        Ok(())
+    }
+
+    /// Lets go of kept answers that this build did not ask for.
+    pub fn let_go(&self) {
+        self.kept.iter().for_each(Kept::let_go);
     }
 
     /// Where the program is, once it is one of this repository.
@@ -100,15 +115,14 @@ impl Program {
         // Pictures take longest, and what takes long begins first.
         questions.sort_by(|one, other| (other.1, &one.0).cmp(&(one.1, &other.0)));
         questions.dedup();
-        let (run, waiting) = (&*self.run, Mutex::new(questions.into_iter()));
+        let count = questions.len();
+        let (progress, waiting) = (Progress::new(count), Mutex::new(questions.into_iter()));
         let next = || waiting.lock().unwrap_or_else(PoisonError::into_inner).next();
-        let work = || {
+        let asker = Asker { run: &*self.run, kept: self.kept.as_ref() };
+        let work = |_ended: mpsc::Sender<()>| {
             let mut answers = Vec::new();
             while let Some((command, extension)) = next() {
-                let answer = match extension {
-                    None => printed(run, &command, &words_of(&command)),
-                    Some(extension) => made(run, &command, extension),
-                };
+                let answer = progress.during(&command, || asker.answer(&command, &words_of(&command), extension));
                 answers.push(((command, extension), answer));
             }
             answers
@@ -117,7 +131,12 @@ impl Program {
         let workers = cores();
         self.at_once.store(workers, Ordering::Relaxed);
         let answers: Vec<_> = thread::scope(|scope| {
-            let workers: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+            let (end, ended) = mpsc::channel();
+            let work = &work;
+            let started = (0..workers).map(|_| end.clone()).map(|end| scope.spawn(move || work(end)));
+            let workers: Vec<_> = started.collect();
+            drop(end);
+            progress.tell(&ended);
             workers.into_iter().filter_map(|worker| worker.join().ok()).flatten().collect()
         });
         self.at_once.store(1, Ordering::Relaxed);
@@ -129,34 +148,53 @@ impl Program {
         let mut words = vec!["live".to_owned(), chapter.to_owned()];
         words.extend(paths.iter().flat_map(|path| ["--value".to_owned(), (*path).to_owned()]));
         let command = words.join(" ");
-        let printed = self.answer(&command, None, |program| printed(&*program.run, &command, &words))?;
+        let printed = self.answer(&command, &words, None)?;
         Ok(String::from_utf8_lossy(&printed).into_owned())
     }
 
     /// What the command prints.
     pub fn text(&mut self, command: &str) -> Result<String, String> {
-        let printed = self.answer(command, None, |program| printed(&*program.run, command, &words_of(command)))?;
+        let printed = self.answer(command, &words_of(command), None)?;
         Ok(String::from_utf8_lossy(&printed).trim_end().to_owned())
     }
 
     /// The file the command makes when it is told where to.
     pub fn file(&mut self, command: &str, extension: &'static str) -> Result<Rc<[u8]>, String> {
-        self.answer(command, Some(extension), |program| made(&*program.run, command, extension))
+        self.answer(command, &words_of(command), Some(extension))
     }
 
-    fn answer(
-        &mut self,
-        command: &str,
-        extension: Option<&'static str>,
-        ask: impl FnOnce(&Self) -> Result<Vec<u8>, String>,
-    ) -> Result<Rc<[u8]>, String> {
+    fn answer(&mut self, command: &str, words: &[String], extension: Option<&'static str>) -> Result<Rc<[u8]>, String> {
         let key = question(command, extension);
         if let Some(known) = self.answers.get(&key) {
             return known.clone();
         }
-        let answer = ask(self).map(Rc::from);
+        let asker = Asker { run: &*self.run, kept: self.kept.as_ref() };
+        let answer = asker.answer(&key.0, words, extension).map(Rc::from);
         self.answers.insert(key, answer.clone());
         answer
+    }
+}
+
+/// What answers a question: an earlier build, or a run.
+struct Asker<'a> {
+    run: &'a Run,
+    kept: Option<&'a Kept>,
+}
+
+impl Asker<'_> {
+    fn answer(&self, command: &str, words: &[String], extension: Option<&str>) -> Result<Vec<u8>, String> {
+        let run = || match extension {
+            None => printed(self.run, command, words),
+            Some(extension) => made(self.run, command, words, extension),
+        };
+        let Some(kept) = self.kept else { return run() };
+        let (name, known) = kept.find(command, words, extension);
+        if let Some(known) = known {
+            return Ok(known);
+        }
+        let answer = run()?;
+        kept.keep(&name, &answer);
+        Ok(answer)
     }
 }
 
@@ -182,17 +220,23 @@ fn printed(run: &Run, command: &str, words: &[String]) -> Result<Vec<u8>, String
     Ok(out)
 }
 
-fn made(run: &Run, command: &str, extension: &str) -> Result<Vec<u8>, String> {
+fn made(run: &Run, command: &str, words: &[String], extension: &str) -> Result<Vec<u8>, String> {
     let folder = tempfile::tempdir().map_err(|error| format!("no temporary folder can be made: {error}."))?;
     let file = folder.path().join(format!("figure.{extension}"));
-    let mut words = words_of(command);
-    words.extend(["-o".to_owned(), file.display().to_string()]);
+    let words: Vec<String> = words.iter().cloned().chain(["-o".to_owned(), file.display().to_string()]).collect();
     run(&words, &mut Vec::new()).map_err(|error| failed(command, &error))?;
     std::fs::read(&file).map_err(|_| format!("`{command}` wrote no .{extension} file when told where with `-o`."))
 }
 
 fn failed(command: &str, error: &str) -> String {
     format!("`{command}` failed: {}", error.trim_end())
+}
+
+/// The program, compiled, and the answers it gave: below the folder that cargo put it into.
+fn kept(repository: &Path, profile: &str) -> Result<Kept, String> {
+    let program = compiled(repository, profile)?;
+    let target = program.ancestors().nth(2).unwrap_or(repository);
+    Kept::of(&program, &repository.join("chapters"), &target.join("book"))
 }
 
 /// Compiles the program, as `cargo run --profile` does, and says where it is.
@@ -262,6 +306,32 @@ mod tests {
         assert_eq!(program.renew(), Ok(()));
         assert_eq!(program.text("plan 05"), Ok("plan+05".to_owned()));
         assert_eq!(count.load(Ordering::SeqCst), 3);
+    }
+
+    /// What a build made is there for the next one, even if it failed; and the program may go meanwhile.
+    #[cfg(unix)]
+    #[test]
+    fn a_failed_build_keeps_its_answers_and_the_program_may_be_replaced() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let script = folder.path().join("script");
+        std::fs::copy("/bin/sh", &script).expect("a program");
+        let count = || std::fs::read_to_string(folder.path().join("count")).map_or(0, |text| text.len());
+        let line = format!("-c 'printf x >> {}/count; echo $0; exit $1' ", folder.path().display());
+        let page =
+            |last: &str| made_up("a.md", &format!("{{{{#pinhole {line} one 0}}}}\n\n{{{{#pinhole {line} {last}}}}}\n"));
+        for (last, runs, said) in [("two 1", 2, false), ("two 1", 3, false), ("two 0", 4, true), ("two 0", 4, true)] {
+            let kept = Kept::of(&script, &folder.path().join("data"), &folder.path().join("shelf")).expect("a shelf");
+            let place = kept.program();
+            let program = Program::with(move |words, out| ask(&place, 1, words, out));
+            let mut program = program.borrow_mut();
+            program.kept = Some(kept);
+            std::fs::remove_file(&script).expect("cargo removes it");
+            program.ask_for(&[page(last)]);
+            assert_eq!(program.text(&format!("{line} one 0")), Ok("one".to_owned()));
+            assert_eq!(program.text(&format!("{line} {last}")).is_ok(), said, "{last}");
+            assert_eq!(count(), runs, "{last}");
+            std::fs::copy("/bin/sh", &script).expect("cargo puts it there again");
+        }
     }
 
     #[test]

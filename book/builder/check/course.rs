@@ -1,7 +1,7 @@
-//! The chapters as a course: what each builds on, directly and not, and how many minutes it takes.
+//! The chapters as a course: what each builds on, directly and not, and how long it takes.
 
 use super::lesson::{self, Lesson, short, taught};
-use super::pattern::Measure;
+use super::work::Work;
 use super::{Page, Problem};
 use std::collections::BTreeSet;
 
@@ -12,12 +12,14 @@ pub struct Taught {
     pub name: String,
     /// Its title as `SUMMARY.md` has it, with its number.
     pub title: String,
-    /// Minutes to read what is visible.
-    pub reading: usize,
-    /// Its goals, and the minutes to do what it asks for.
+    /// How long it takes.
+    pub work: Work,
+    /// Its goals.
     pub lesson: Lesson,
     /// The chapters it builds on, by their places in the course.
     pub needs: BTreeSet<usize>,
+    /// Those of them that only its second half builds on.
+    pub later: BTreeSet<usize>,
 }
 
 impl Taught {
@@ -49,13 +51,28 @@ impl Course {
             Ok(Taught {
                 name: page.name.clone(),
                 title: title.to_owned(),
-                // What commands print is not read word by word, so it does not matter here how much they print.
-                reading: Measure::of(page, |_| 0).minutes(),
+                work: Work::of(page),
                 needs: lesson.needs.iter().filter_map(place).collect(),
+                later: lesson.later.iter().filter_map(place).collect(),
                 lesson,
             })
         };
         Ok(Self { chapters: taught.iter().map(chapter).collect::<Result<_, _>>()? })
+    }
+
+    /// How long some chapters take together.
+    pub fn work(&self, chapters: &[usize]) -> Work {
+        chapters.iter().fold(Work::default(), |sum, &chapter| sum + self.chapters[chapter].work)
+    }
+
+    /// Minutes to read some chapters and to write what they ask for, with the steps of the reader's program that come
+    /// before theirs in other chapters.
+    pub fn minutes(&self, chapters: &[usize]) -> usize {
+        let has_step = |at: &usize| self.chapters[*at].work.step > 0;
+        let last = chapters.iter().copied().filter(has_step).max().unwrap_or(0);
+        let others: usize = (0..last).filter(|at| !chapters.contains(at)).map(|at| self.chapters[at].work.step).sum();
+        let work = self.work(chapters);
+        work.reading + work.writing() + others
     }
 
     /// Everything that a chapter builds on, directly or not.
@@ -128,13 +145,22 @@ mod tests {
     fn a_course_knows_what_follows_from_what() {
         let course = Course::of(&made_up()).expect("a course");
         assert_eq!(course.chapters[2].title, "Monte Carlo");
-        assert_eq!((course.chapters[0].reading, course.chapters[0].lesson.minutes), (1, 45));
         assert_eq!(course.needed_by(2), BTreeSet::from([0, 1]));
         assert_eq!(course.essential(2), BTreeSet::from([1]), "it builds on 1 already by way of 2");
         assert_eq!(course.builds_on(0), [BTreeSet::from([1, 2, 3]), BTreeSet::new()]);
         assert_eq!(course.builds_on(3), [BTreeSet::new(), BTreeSet::new()]);
         assert_eq!(course.find("3"), Some(3));
         assert_eq!(course.find("Monte Carlo"), Some(2));
+    }
+
+    #[test]
+    fn a_step_of_a_chapter_that_is_left_out_takes_its_time() {
+        let mut course = Course::of(&made_up()).expect("a course");
+        for (at, step) in [(0, 10), (1, 20), (3, 40)] {
+            course.chapters[at].work = Work { reading: 1, step, ..Work::default() };
+        }
+        assert_eq!(course.minutes(&[0, 3]), 1 + 10 + 20 + 1 + 40);
+        assert_eq!(course.minutes(&[0]), 11);
     }
 
     #[test]

@@ -51,12 +51,19 @@ pub enum Part {
     Needed,
     /// A table of goals and minutes.
     Goals,
+    /// The rates by which the minutes are counted.
+    Rates,
     /// A table of the paths that `{{#syllabus}}` declares.
     Paths,
 }
 
-const PARTS: [(&str, Part); 4] =
-    [("graph", Part::Graph), ("needed", Part::Needed), ("goals", Part::Goals), ("paths", Part::Paths)];
+const PARTS: [(&str, Part); 5] = [
+    ("graph", Part::Graph),
+    ("needed", Part::Needed),
+    ("goals", Part::Goals),
+    ("rates", Part::Rates),
+    ("paths", Part::Paths),
+];
 
 const ACCEPTED: &str = "a page may use {{#include file:anchor}}, {{#pinhole command}}, \
     {{#figure command | caption}}, {{#course part}}, {{#syllabus time | chapters: result}} and {{#index}}";

@@ -77,7 +77,10 @@ fn broken(line: &str, further: usize, has_strings: bool) -> Vec<String> {
         let min = if is_comment(min + 1) { min + COMMENT.len() } else { min };
         let fits = |at: usize, mark: usize| at > min && width(&rest[..at]) + mark <= COLUMNS;
         let place = |of: &dyn Fn(usize) -> bool| rest.match_indices(' ').map(|(at, _)| at).rfind(|&at| of(at));
-        let outside = place(&|at| fits(at, 0) && is_outside(at));
+        // Code parts best behind what ends a part of it, and not so that brackets alone are left.
+        let is_end = |at: usize| rest[..at].ends_with([',', ';', '{', '=', '&', '|']) && rest[at..].trim().len() > 4;
+        let is_good = |at: usize| has_strings && at > COLUMNS / 2 && is_outside(at) && !is_comment(at) && is_end(at);
+        let outside = place(&|at| fits(at, 0) && is_good(at)).or_else(|| place(&|at| fits(at, 0) && is_outside(at)));
         let Some(at) = outside.or_else(|| place(&|at| fits(at, MARK.len()))) else { break };
         let mark = if outside.is_some() { "" } else { MARK };
         let again = if is_comment(at) { COMMENT } else { "" };
@@ -180,6 +183,10 @@ mod tests {
         assert_eq!(squeezed(&text), squeezed(&call));
         let string = format!("let a = \"{}\";", "never broken ".repeat(12));
         assert_eq!(source(&string), string);
+        let head = format!("fn share(one: Distances, {}: f64, distance_squared: f64)", "b".repeat(40));
+        assert!(
+            source(&head).starts_with(&format!("fn share(one: Distances, {}: f64,\n        distance", "b".repeat(40)))
+        );
         let number = "1".repeat(200);
         assert_eq!(printed(&number), number);
     }

@@ -63,24 +63,70 @@ pub fn problems(page: &Page) -> Vec<Problem> {
     problems
 }
 
+/// Each run of citations as the sentence around it reads them: "Heckbert (1990) argues", "is older (Appel 1968)".
 fn with_citations(line: &str, citations: &Citations) -> String {
     let (mut out, mut rest) = (String::new(), line);
     while let Some(at) = rest.find("[@") {
         let (before, from) = rest.split_at(at);
         out.push_str(before);
-        let found = from.find(']').and_then(|end| Some((end, citations.get(&from[2..end])?, &from[2..end])));
-        match found {
-            Some((end, label, key)) => {
-                out.push_str(&format!("[{label}]({BIBLIOGRAPHY}#{key})"));
-                rest = &from[end + 1..];
-            }
-            None => {
-                out.push_str("[@");
-                rest = &from[2..];
-            }
+        let (cited, length) = run_of(from, citations);
+        if cited.is_empty() {
+            out.push_str("[@");
+            rest = &from[2..];
+        } else {
+            out = cited_after(&out, &cited);
+            rest = &from[length..];
         }
     }
     out + rest
+}
+
+/// The keys and labels of citations that only commas or semicolons part, and how long the run is.
+fn run_of<'a>(text: &'a str, citations: &'a Citations) -> (Vec<(&'a str, &'a str)>, usize) {
+    let (mut cited, mut length) = (Vec::new(), 0);
+    let mut next = Some(text);
+    while let Some(key) = next.and_then(|next| next.strip_prefix("[@")?.split(']').next()) {
+        let Some(label) = citations.get(key) else { break };
+        cited.push((key, label.as_str()));
+        length = text.len() - next.map_or(0, str::len) + key.len() + "[@]".len();
+        next = text.get(length..).and_then(|rest| rest.strip_prefix(", ").or_else(|| rest.strip_prefix("; ")));
+    }
+    (cited, length)
+}
+
+/// Words after which an author is named in the sentence: "as Kay and Kajiya (1986) did".
+const BEFORE_AUTHORS: [&str; 12] =
+    ["after", "and", "as", "by", "compare", "from", "in", "of", "see", "than", "what", "with"];
+
+/// The beginning of a line, and a run of citations after it.
+fn cited_after(before: &str, cited: &[(&str, &str)]) -> String {
+    let linked = |key: &str, text: &str| format!("[{text}]({BIBLIOGRAPHY}#{key})");
+    let whole: Vec<String> = cited.iter().map(|(key, label)| linked(key, label)).collect();
+    let whole = whole.join("; ");
+    let lead = before.trim_end();
+    let words: Vec<&str> = lead.split([' ', '*', '_', '(']).filter(|word| !word.is_empty()).collect();
+    let is_awaited = lead.ends_with(['.', ':', ';', '?', '!', '|', '-', '('])
+        || words.last().is_none_or(|word| BEFORE_AUTHORS.contains(&word.to_lowercase().as_str()));
+    if in_parentheses(before) {
+        let comma = if is_awaited || lead.ends_with(',') { "" } else { "," };
+        return if comma.is_empty() { format!("{before}{whole}") } else { format!("{lead}{comma} {whole}") };
+    }
+    let [(key, label)] = cited else { return format!("{before}({whole})") };
+    let (authors, year) = label.rsplit_once(' ').unwrap_or(("", label));
+    let first = authors.split(", ").next().and_then(|first| first.split(" and ").next()).unwrap_or(authors);
+    let is_named = words.iter().rev().take(4).any(|word| word.starts_with(first));
+    match (is_named, is_awaited) {
+        (true, _) => format!("{before}({})", linked(key, year)),
+        (false, true) => format!("{before}{} ({year})", linked(key, authors)),
+        (false, false) => format!("{before}({whole})"),
+    }
+}
+
+/// Whether a parenthesis is open at the end of a text; those in code and in formulas do not count.
+fn in_parentheses(text: &str) -> bool {
+    let prose = text.split('`').step_by(2).collect::<String>();
+    let prose = prose.split('$').step_by(2).collect::<String>();
+    prose.matches('(').count() > prose.matches(')').count()
 }
 
 /// `is_formula`: whether the line begins inside a formula between two `$$`.
@@ -306,11 +352,35 @@ mod tests {
         assert_eq!(told("x = {{= 2*120.5/480 - 1 : 4}}."), "x = −0.4979.");
         assert_eq!(told("$x = {{= -1/3 : 2}}$, {{= -1/3 : 2}}"), "$x = -0.33$, −0.33");
         assert_eq!(told("$$\nx = {{= -1 : 0}}\n$$\n{{= -0.001 : 1}}"), "$$\nx = -1\n$$\n0.0");
-        assert_eq!(told("as it is [@kajiya1986]"), "as it is [Kajiya 1986](bibliography.md#kajiya1986)");
         let code = "```text\n{{= 1 : 1}} [@nobody]\n```";
         assert_eq!(told(code), code);
         let entry = filled(BIBLIOGRAPHY, "- [@a1]: A et al. 1. *Title*.", &Citations::new());
         assert_eq!(entry, "- <a id=\"a1\"></a>**A et al. 1.** *Title*.");
+    }
+
+    #[test]
+    fn citations_read_as_a_part_of_the_sentence() {
+        let all = citations("- [@kay1986]: Kay and Kajiya 1986. *Slabs*.\n- [@appel1968]: Appel 1968. *Shades*.");
+        let read = |text: &str| {
+            let told = filled("page.md", text, &all);
+            told.replace("](bibliography.md#kay1986)", "").replace("](bibliography.md#appel1968)", "").replace('[', "")
+        };
+        for (text, expected) in [
+            ("the *shadow ray* [@appel1968]. It", "the *shadow ray* (Appel 1968). It"),
+            ("was Appel's idea [@appel1968];", "was Appel's idea (1968);"),
+            ("- [@kay1986]: slabs", "- Kay and Kajiya (1986): slabs"),
+            ("This is what [@kay1986] did", "This is what Kay and Kajiya (1986) did"),
+            ("found early [@appel1968], [@kay1986].", "found early (Appel 1968; Kay and Kajiya 1986)."),
+            (
+                "(compare [@kay1986], page 2, or $f(x$ of [@appel1968])",
+                "(compare Kay and Kajiya 1986, page 2, or $f(x$ of Appel 1968)",
+            ),
+            ("(slabs [@kay1986])", "(slabs, Kay and Kajiya 1986)"),
+            ("`f(` is old [@appel1968]", "`f(` is old (Appel 1968)"),
+        ] {
+            assert_eq!(read(text), expected);
+        }
+        assert_eq!(filled("page.md", "[@appel1968] [@x]", &all), "[Appel](bibliography.md#appel1968) (1968) [@x]");
     }
 
     #[test]

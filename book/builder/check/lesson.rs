@@ -1,4 +1,4 @@
-//! What a page builds on, what its reader can do afterwards, and how long that takes: its last folded block.
+//! What a page builds on, and what its reader can do afterwards: its last folded block.
 
 use super::lists::is_chapter;
 use super::scan::Scan;
@@ -18,10 +18,10 @@ const GOALS: std::ops::RangeInclusive<usize> = 3..=5;
 pub struct Lesson {
     /// The pages it builds on, `06_ndc.md`, without the appendix.
     pub needs: Vec<String>,
+    /// Those of them that only its second half builds on.
+    pub later: Vec<String>,
     /// What its reader can do afterwards, in markdown.
     pub goals: Vec<String>,
-    /// Minutes for the reader's function and all the exercises.
-    pub minutes: usize,
 }
 
 /// Whether a page is one of those that are learnt from: a numbered chapter, or Monte Carlo.
@@ -48,8 +48,7 @@ pub fn read(page: &Page) -> Result<Lesson, Problem> {
     let lines: Vec<_> = scan.prose().collect();
     let named = |text: &str| text.trim() == format!("<summary>{SUMMARY}</summary>");
     let Some(first) = lines.iter().position(|line| named(line.text)) else {
-        let what =
-            format!("has no block <summary>{SUMMARY}</summary>: what it builds on, three to five goals, minutes.");
+        let what = format!("has no block <summary>{SUMMARY}</summary>: what it builds on, three to five goals.");
         return Err(Problem::new(&page.label, 0, what));
     };
     let number = lines[first].number;
@@ -62,7 +61,10 @@ pub fn read(page: &Page) -> Result<Lesson, Problem> {
     let inside: Vec<&str> = lines[first + 1..last].iter().map(|line| line.text.trim_end()).collect();
     let needs = inside.iter().find_map(|line| line.strip_prefix("Builds on ")?.strip_suffix('.'));
     let needs = needs.ok_or_else(|| wrong("the block has no line `Builds on [chapter 6](06_ndc.md) and …`."))?;
-    let needs = needed(needs).map_err(|what| wrong(&what))?;
+    let (first, second) = needs.split_once("; its second half on ").unwrap_or((needs, ""));
+    let mut needs = needed(first).map_err(|what| wrong(&what))?;
+    let later = if second.is_empty() { Vec::new() } else { needed(second).map_err(|what| wrong(&what))? };
+    needs.extend(later.iter().cloned());
     let goals: Vec<String> = inside.iter().filter_map(|line| line.strip_prefix("- ")).map(str::to_owned).collect();
     if !GOALS.contains(&goals.len()) {
         return Err(wrong(&format!(
@@ -70,9 +72,7 @@ pub fn read(page: &Page) -> Result<Lesson, Problem> {
             goals.len()
         )));
     }
-    let minutes = inside.iter().find_map(|line| line.strip_prefix("Minutes: ")?.strip_suffix(" to do.")?.parse().ok());
-    let minutes = minutes.ok_or_else(|| wrong("the block has no line `Minutes: 45 to do.`"))?;
-    Ok(Lesson { needs, goals, minutes })
+    Ok(Lesson { needs, later, goals })
 }
 
 /// The pages that `[chapter 6](06_ndc.md) and [chapter 3](03_hit.md)` names, each by the name that it has.
@@ -134,7 +134,7 @@ pub fn made_up(name: &str, needs: &[&str]) -> Page {
     let goals = "- Derive $a^2$.\n- See it.\n- Write it.";
     let text = format!(
         "# A page\n\nOne two three.\n\n<details>\n<summary>{SUMMARY}</summary>\n\nBuilds on {}.\n\n{goals}\n\n\
-         Minutes: 45 to do.\n\n</details>\n",
+         </details>\n",
         links.join(" and ")
     );
     super::made_up(name, &text)
@@ -148,8 +148,19 @@ mod tests {
     fn a_block_is_read() {
         let lesson = read(&made_up("06_ndc.md", &["03_hit.md", "monte_carlo.md", APPENDIX])).expect("a block");
         assert_eq!(lesson.needs, ["03_hit.md", "monte_carlo.md"]);
-        assert_eq!((lesson.goals.len(), lesson.minutes), (3, 45));
+        assert_eq!(lesson.goals.len(), 3);
         assert_eq!(lesson.goals[0], "Derive $a^2$.");
+    }
+
+    #[test]
+    fn a_second_half_may_build_on_more() {
+        let mut page = made_up("06_ndc.md", &["03_hit.md"]);
+        page.text = page.text.replace("md).", "md); its second half on [Monte Carlo](monte_carlo.md).");
+        let lesson = read(&page).expect("a block");
+        assert_eq!(
+            (lesson.needs, lesson.later),
+            (vec!["03_hit.md".into(), "monte_carlo.md".into()], vec!["monte_carlo.md".into()])
+        );
     }
 
     #[test]
@@ -162,7 +173,6 @@ mod tests {
             ("[chapter 3](03_hit.md)", "nothing", "the line `Builds on …` links to no page"),
             ("[chapter 3]", "[chapter 4]", "the block calls 03_hit.md `chapter 4`, and its name is `chapter 3`"),
             ("- See it.", "", "the block has 2 goals"),
-            ("45 to do", "many", "the block has no line `Minutes: 45 to do.`"),
             ("\n</details>", "", "the block does not end"),
             ("</details>", "</details>\n\n<details>\n", "the block is not the last"),
         ] {

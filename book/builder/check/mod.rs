@@ -7,6 +7,7 @@
 pub mod course;
 pub mod directive;
 pub mod fit;
+pub mod guide;
 pub mod inline;
 pub mod lesson;
 pub mod links;
@@ -18,6 +19,7 @@ pub mod pattern;
 pub mod scan;
 pub mod syllabus;
 pub mod terms;
+pub mod work;
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -58,7 +60,7 @@ pub struct Page {
     pub name: String,
     /// How messages name it.
     pub label: String,
-    /// Its text, with what [`inline`] fills in.
+    /// Its text, with what [`inline`] and [`guide`] fill in.
     pub text: String,
 }
 
@@ -83,6 +85,7 @@ pub fn read_pages(folder: &Path) -> Result<Vec<Page>, Problem> {
     for page in &mut pages {
         page.text = inline::filled(&page.name, &page.text, &citations);
     }
+    guide::guide(&mut pages);
     Ok(pages)
 }
 

@@ -6,8 +6,6 @@ use super::{Page, listing};
 
 /// Words in a line of prose, at the width of the book's column.
 const WORDS_A_LINE: usize = 12;
-/// Words that a reader reads in a minute.
-const WORDS_A_MINUTE: usize = 200;
 
 /// The page's lines, each with whether it is folded.
 pub fn folded<'p>(scan: &'p Scan<'p>) -> impl Iterator<Item = (&'p super::scan::Line<'p>, bool)> {
@@ -65,11 +63,6 @@ impl Measure {
     /// Lines of visible prose.
     pub fn lines(&self) -> usize {
         self.words[0] / WORDS_A_LINE
-    }
-
-    /// Minutes to read what is visible.
-    pub fn minutes(&self) -> usize {
-        self.words[0].div_ceil(WORDS_A_MINUTE)
     }
 }
 

@@ -3,7 +3,7 @@
 //! `{{#syllabus one day | 1 to 3, 5; Monte Carlo: a path tracer}}` names chapters as lists do; `;` ends a session.
 //! Several stretches of weeks stand behind each other: `| weeks 1 to 2: 1 to 3; 4: rays | weeks 3 to 4: …`.
 
-use super::course::Course;
+use super::course::{Course, Taught};
 use super::directive::{Directive, parse};
 use super::lesson::label_of;
 use super::scan::Scan;
@@ -59,7 +59,8 @@ impl Syllabus {
             if chapters[..at].contains(&chapter) {
                 return Some(format!("{of} has {} twice.", label(chapter)));
             }
-            let late = course.chapters[chapter].needs.iter().find(|need| chapters[at..].contains(need));
+            let Taught { needs, later, .. } = &course.chapters[chapter];
+            let late = needs.difference(later).find(|need| chapters[at..].contains(need));
             if let Some(&need) = late {
                 return Some(format!("{of} has {} before {}, on which it builds.", label(chapter), label(need)));
             }
