@@ -11,8 +11,7 @@ const QUICK: u32 = 13;
 
 #[test]
 fn every_state_shows_what_pinhole_shows() {
-    let untouched: Vec<Edit> =
-        steps().iter().map(|step| (step.number, "fn main", "fn main")).collect();
+    let untouched: Vec<Edit> = steps().iter().map(|step| (step.number, "fn main", "fn main")).collect();
     for ((chapter, ..), found) in found(&untouched) {
         let lines = program_after(chapter).expect("applies").lines().count();
         let Comparison::Same { resolved } = found else { panic!("{chapter}: {found:?}") };

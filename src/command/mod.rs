@@ -163,7 +163,7 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
         Some(Command::Measure(asked)) => measure::measure_anew(chapters, &asked, format, streams),
         Some(Command::Report(asked)) => report::report(chapters, &asked, format, out),
         Some(Command::Review(asked)) => review::review(chapters, &asked, format, out),
-        Some(Command::Yours(asked)) => yours::yours(&asked, format, out),
+        Some(Command::Yours(asked)) => yours::yours(&asked, format, streams),
         Some(Command::Compare(asked)) => compare::compare(&asked, format, out),
         Some(Command::Conventions(asked)) => conventions::print_conventions(chapters, &asked, format, out),
         Some(Command::Live(_) | Command::Completions { .. }) => Ok(()),

@@ -2,6 +2,7 @@ use super::arguments::CompareYours;
 use super::error::{Error, Result};
 use super::format::{Format, print_json, print_written};
 use super::own_file::{check_file, write_file};
+use super::streams::Streams;
 use pinhole::film::{Curve, png_bytes};
 use pinhole::scene::{FileKind, printable_path, read_file};
 use pinhole_lab::yours::{Comparison, Expected, Picture, picture_in, picture_of, program_after, scene_after, steps};
@@ -16,7 +17,8 @@ const PICTURE: FileKind = FileKind { name: "a picture", max: 16 << 20 };
 /// picture that the reader's program wrote with that.
 ///
 /// Errors: a chapter without a step; a picture that is no text in the format PPM, or of another size.
-pub fn yours(asked: &CompareYours, format: Format, out: &mut dyn Write) -> Result {
+pub fn yours(asked: &CompareYours, format: Format, streams: &mut Streams<'_>) -> Result {
+    let (out, notes) = (&mut *streams.out, &mut *streams.notes);
     let Some(chapter) = &asked.chapter else { return list(format, out) };
     let all = steps();
     let found = all.iter().find(|step| step.chapter == chapter || Ok(step.number) == chapter.parse());
@@ -41,7 +43,9 @@ pub fn yours(asked: &CompareYours, format: Format, out: &mut dyn Write) -> Resul
         return print_written(&file, format, out);
     };
     let picture = read_ppm(picture)?;
-    tell(&Expected::after(step.number)?.compare(&picture)?, format, out)
+    let mut waits =
+        || _ = writeln!(notes, "note: it differs; known mistakes are tried in the program, for up to a minute");
+    tell(&Expected::after(step.number)?.compare(&picture, &mut waits)?, format, out)
 }
 
 fn list(format: Format, out: &mut dyn Write) -> Result {

@@ -115,7 +115,8 @@ pub fn found(edits: &[Edit]) -> Vec<(Edit, Comparison)> {
     edits.sort_by_key(|edit| edit.0);
     let of_chapter = |edits: &[Edit]| {
         let expected = Expected::after(edits[0].0).expect("renders");
-        let found = |edit: &Edit| (*edit, expected.compare(&picture_of_edited(*edit)).expect("of its size"));
+        let found =
+            |edit: &Edit| (*edit, expected.compare(&picture_of_edited(*edit), &mut || ()).expect("of its size"));
         edits.iter().map(found).collect::<Vec<_>>()
     };
     edits.chunk_by(|one, other| one.0 == other.0).flat_map(of_chapter).collect()

@@ -124,10 +124,11 @@ impl Expected {
         Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known })
     }
 
-    /// Compares the picture that a reader's program wrote.
+    /// Compares the picture that a reader's program wrote; `waits` is called before known mistakes are made in the program,
+    /// which takes a while.
     ///
     /// Errors: a picture of another size; those of a render.
-    pub fn compare(&self, ([width, height], bytes): &Picture) -> Result<Comparison, Error> {
+    pub fn compare(&self, ([width, height], bytes): &Picture, waits: &mut dyn FnMut()) -> Result<Comparison, Error> {
         if [*width, *height] != SIZE {
             let told =
                 format!("the picture has {width} × {height} pixels, and pinhole's has {} × {}", SIZE[0], SIZE[1]);
@@ -147,6 +148,7 @@ impl Expected {
             if let Some(by) = shift(&readers, right, EXPLAINED) {
                 return Ok(Comparison::Shifted { by });
             }
+            waits();
             looks_like = self.closest(&readers, apart.len(), self.known());
         }
         let light = |pixels: &Pixels| pixels.iter().flatten().sum::<f64>();
