@@ -297,7 +297,7 @@ fn by_chord(&(o, d, c, r): &Input, along: f64, half: f64) -> Roots {
 
 /// The nearest sphere of each ray.
 fn mine(ask: Ask<Input, Answer>, setting: &Setting<'_>) -> StandIn {
-    // A t below 0 is shown where it is the question whether there is one.
+    // With the ball behind the eye, a t below 0 is what is to be seen.
     let least = if setting.number == 0 { 0.0 } else { f64::NEG_INFINITY };
     StandIn::instead(
         intersect::sphere_stage,

@@ -166,7 +166,7 @@ fn divided(v: Vector) -> Vector {
     v.map(|part| part / length)
 }
 
-/// Every camera ray's direction, told with x left, y down and z ahead, and turned back by the reader's function.
+/// Every camera ray's direction, told in axes of which some are turned over, and turned back by the reader's function.
 fn mine(ask: Ask<Input, Vector>, setting: &Setting<'_>) -> StandIn {
     let width = setting.resolution().width;
     StandIn::after(rays::perspective_stage, move |mut tiles: Query<(RowPlaces, &mut CameraRays)>| {
@@ -174,11 +174,12 @@ fn mine(ask: Ask<Input, Vector>, setting: &Setting<'_>) -> StandIn {
             for row in 0..rays.rows() {
                 // Each eighth of the picture has other axes, and each direction is twice as long as a unit vector.
                 let eighth = 8 * place.0.pixel_of(row)[0] / width;
-                let flags @ [x_right, y_up, z_ahead] = [1, 2, 4].map(|bit| eighth & bit != 0);
+                let [x_right, y_up, z_ahead] = [1, 2, 4].map(|bit| eighth & bit != 0);
                 let own = rays.direction(row);
-                let turns = [!flags[0], !flags[1], flags[2]];
+                let turns = [!x_right, !y_up, z_ahead];
                 let theirs = [0, 1, 2].map(|axis| if turns[axis] { -2.0 * own[axis] } else { 2.0 * own[axis] });
                 if let Some([x, y, z]) = ask.at(place, row, (theirs, x_right, y_up, z_ahead)) {
+                    // z loses the half that it has too much by a difference, so that a length brought to 1 is seen.
                     rays.direction.put(row, [0.5 * x, 0.5 * y, z - own.z]);
                 }
             }

@@ -137,11 +137,12 @@ const UNSEEN: [(&str, &str); 0] = [];
 /// At a smaller size than `render N --mine` has by default, which `cargo bench --bench mine` tries.
 #[test]
 fn the_picture_shows_every_mistake_that_is_named() {
-    let resolution = Some(Resolution { width: 128, height: 72 });
-    let asked = Overrides { resolution, ..Overrides::default() };
     let (chapters, mut mistakes, mut wrong) = (all(), 0, Vec::new());
     for (name, answers) in ALL {
         let chapter = chapters.iter().find(|chapter| chapter.name == *name).expect("the chapter");
+        let mut asked = asked(chapter);
+        asked.resolution = Some(Resolution { width: 128, height: 72 });
+        asked.sampling.samples = asked.sampling.samples.map(|_| 4);
         match Shown::of(chapter, &answers().solution, &asked) {
             Shown::Pictures(_, seen) if seen.iter().all(|seen| !seen.is_shown() && seen.part_over_3 < 1e-3) => {}
             Shown::Pictures(_, seen) => wrong.push(format!("{name}: the solution's picture differs: {seen:?}")),

@@ -34,7 +34,7 @@ pub use progress::{Progress, Tries};
 pub use question::{Probe, Question, extremes, probes};
 pub use seen::Seen;
 pub use shown::Shown;
-pub use turn::{Turn, list_exercises, take_turn, turn};
+pub use turn::{Turn, list_exercises, take_turn, turn, what_is_left};
 
 use bevy_ecs::prelude::*;
 use compare::compare;

@@ -66,6 +66,14 @@ pub fn take_turn(name: &str, exercise: &Exercise, file: &Path, out: &mut dyn Wri
         writeln!(out, "`render {number} --mine` shows it")?;
     }
     notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))?;
+    what_is_left(name, &report)
+}
+
+/// What to do after a check.
+///
+/// Errors: that, where the function is not right yet; what is wrong with it, the report says.
+pub fn what_is_left(name: &str, report: &Report) -> Result {
+    let number = name.split('_').next().unwrap_or(name).trim_start_matches('0');
     match report.is_done() {
         true => Ok(()),
         false => Err(Error::Usage(format!("edit chapters/{name}/exercise.rs, then `check {number}` again"))),
