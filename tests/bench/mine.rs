@@ -3,6 +3,7 @@
 //!
 //! `cargo bench --bench mine`, or with the numbers of chapters behind a `--`; some minutes.
 #![allow(clippy::print_stdout, reason = "a bench prints what it found")]
+#![allow(clippy::disallowed_methods, reason = "a reader may call any function")]
 #![allow(dead_code, reason = "the answers that are right are for the tests")]
 
 #[path = "../exercises/shown.rs"]

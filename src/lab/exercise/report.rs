@@ -114,7 +114,7 @@ impl Report {
 fn number(off: f64) -> String {
     match off {
         0.0 => "0".into(),
-        0.001..1.0 => format!("{off:.0$}", (1.0 - off.log10().floor()) as usize).trim_end_matches('0').into(),
+        0.001..1.0 => format!("{off:.0$}", (1.0 - libm::log10(off).floor()) as usize).trim_end_matches('0').into(),
         1.0..100.0 => format!("{off:.1}"),
         100.0..1e4 => format!("{off:.0}"),
         _ => format!("{off:.1e}").replace(".0e", "e"),

@@ -140,7 +140,7 @@ impl Seen {
             return "yours is pinhole's picture, to the last bit".into();
         }
         if differing == 0 {
-            let digits = (-apart.log10()).floor().clamp(1.0, 16.0);
+            let digits = (-libm::log10(apart)).floor().clamp(1.0, 16.0);
             return format!("yours is pinhole's picture, to 1 part in 10^{digits}");
         }
         if self.is_shown() {
