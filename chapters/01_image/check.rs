@@ -16,6 +16,7 @@ pub type Yours = fn(u64, u32) -> [f64; 2];
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("raster_from_index", question, move |&(index, width)| yours(index, width), mine)
+        .and_in("far down, 8 pixels wide", |_| ())
 }
 
 fn question() -> Question<Input, [f64; 2]> {
@@ -46,7 +47,8 @@ fn question() -> Question<Input, [f64; 2]> {
         hints: &[
             "a pixel is a unit square and its number names the top left corner; where is its middle?",
             "first find the pixel: how many whole rows lie before it, and how far along its row is it?",
-            "the row is index / width and the place in it index % width, both in u64; add 0.5 to each as f64",
+            "dividing with a remainder tells both at once; in which type must that be done, so that no pixel of a \
+             huge image is lost?",
         ],
     }
 }
@@ -148,6 +150,9 @@ fn rows(&(index, width): &Input) -> f64 {
 
 /// Every pixel's centre by its number in the image.
 fn mine(ask: Ask<Input, [f64; 2]>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     let width = setting.resolution().width;
     StandIn::after(rays::raster_stage, move |mut tiles: Query<(RowPlaces, &mut RasterPoints)>| {
         for (place, mut raster) in &mut tiles {
@@ -159,5 +164,14 @@ fn mine(ask: Ask<Input, [f64; 2]>, setting: &Setting<'_>) -> StandIn {
                 }
             }
         }
+    })
+}
+
+/// An image so narrow that a fraction of a line is seen, and so far down in it that f32 cannot count its pixels.
+fn painted(ask: Ask<Input, [f64; 2]>) -> StandIn {
+    const FIRST: u64 = 100_000_000;
+    StandIn::painted([8, 5], move |[x, y]| {
+        let [right, down] = ask.once(((FIRST + u64::from(y)) * 8 + u64::from(x), 8)).unwrap_or_default();
+        [right / 8.0, (down - FIRST as f64) / 5.0, 0.0]
     })
 }

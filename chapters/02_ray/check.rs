@@ -18,7 +18,7 @@ pub type Yours = fn(Vector) -> Option<Vector>;
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::rendered("unit", question, move |&v| yours(v), mine)
+    Exercise::rendered("unit", question, move |&v| yours(v), mine).and_in("vectors 1e308 long", |_| ())
 }
 
 fn question() -> Question<Vector, Option<Vector>> {
@@ -159,8 +159,8 @@ fn question() -> Question<Vector, Option<Vector>> {
         hints: &[
             "divide by the length; then ask what has no direction at all",
             "squares of 1e200 and of 1e-200 do not fit in f64; but the direction of v and that of v / 1e200 are the same",
-            "None for 0 and for parts that are not finite; else divide v by its largest part (without sign) first, \
-             and that by its length",
+            "make the vector small before you square it: by which of its own parts can it be divided without being \
+             turned round?",
         ],
     }
 }
@@ -200,7 +200,10 @@ fn scaled(v: Vector, by: f64) -> Vector {
 }
 
 /// The vector from the eye to a point of the image plane, brought to length 1 by the reader's function.
-fn mine(ask: Ask<Vector, Option<Vector>>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Vector, Option<Vector>>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::after(
         rays::perspective_stage,
         move |camera: Res<Shared<PerspectiveProjection>>,
@@ -217,4 +220,13 @@ fn mine(ask: Ask<Vector, Option<Vector>>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// Vectors whose length is beyond f64, with parts that are 0 in the middle column and line.
+fn painted(ask: Ask<Vector, Option<Vector>>) -> StandIn {
+    StandIn::painted([31, 17], move |[x, y]| {
+        let [right, up] = [(f64::from(x) - 15.0) / 15.0, (8.0 - f64::from(y)) / 15.0];
+        let direction = ask.once([right, up, -1.0].map(|part| 1.7e308 * part)).flatten();
+        direction.map_or([0.0; 3], |direction| direction.map(|part| 0.5 + 0.5 * part))
+    })
 }

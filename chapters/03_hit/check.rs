@@ -7,10 +7,11 @@ use pinhole::intersect;
 use pinhole::intersect::Hits;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
+use pinhole::scene::{LookAt, View};
 use pinhole::shapes::sphere_intersection;
 use pinhole_lab::exercise::apart::{option, relative};
 use pinhole_lab::exercise::{
-    Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, extremes, probes,
+    Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, extremes, on_camera, probes,
 };
 use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::oracle_sphere::{Sphere, line_ts, sphere_hit};
@@ -30,6 +31,8 @@ pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], f64) -> Answer;
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("nearest_sphere_t", question, move |&(o, d, c, r)| yours(o, d, c, r), mine)
+        .and_in("its normals", |world| on_camera(world, View { column: "surface".into() }))
+        .and_in("the ball behind the eye", |world| on_camera(world, behind()))
 }
 
 fn question() -> Question<Input, Answer> {
@@ -49,10 +52,10 @@ fn question() -> Question<Input, Answer> {
             "put O + tR into |x − C| = r: a quadratic equation in t; its smallest root above 0 is asked for",
             "with f = C − O the ray is nearest to the centre at s = f·R / R·R; what is left across it, f − sR, decides \
              whether it hits the sphere, and nothing of the size of the distance is squared",
-            "with h = √((r² − |f − sR|²) / R·R) the roots are s − h and s + h; there are none where the number under the \
-             root is below 0",
-            "so: s − h if that is above 0, else s + h if that is, else None; f is the difference of the two points, and \
-             s is divided by R·R because R may have any length",
+            "half the chord is the third side of a right triangle, beside r and what is left across; over the \
+             direction's length it becomes a t",
+            "the two roots lie equally far before and behind the nearest place; which is asked for depends on where \
+             the ray begins",
         ],
     }
 }
@@ -293,17 +296,20 @@ fn by_chord(&(o, d, c, r): &Input, along: f64, half: f64) -> Roots {
 }
 
 /// The nearest sphere of each ray.
-fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, Answer>, setting: &Setting<'_>) -> StandIn {
+    // With the ball behind the eye, a t below 0 is what is to be seen.
+    let least = if setting.number == 0 { 0.0 } else { f64::NEG_INFINITY };
     StandIn::instead(
         intersect::sphere_stage,
         move |spheres: Res<Shared<SphereTable>>, mut tiles: Query<(RowPlaces, &WorldRays, &mut Hits)>| {
             for (place, rays, mut hits) in &mut tiles {
                 for row in 0..rays.rows() {
-                    let (origin, direction) = (rays.origin_of(row).into(), rays.direction_of(row).into());
+                    // A direction may have any length, and t counts in it.
+                    let (origin, direction) = (rays.origin_of(row).into(), (0.5 * rays.direction_of(row)).into());
                     for (sphere, &shape) in spheres.row.iter().zip(&spheres.shape) {
                         let asked = (origin, direction, sphere.centre.into(), sphere.radius);
-                        let t = ask.at(place, row, asked).flatten();
-                        if let Some(t) = t.filter(|t| *t > 0.0 && *t < hits.t[row]) {
+                        let t = ask.at(place, row, asked).flatten().map(|t| 0.5 * t);
+                        if let Some(t) = t.filter(|t| *t > least && *t < hits.t[row]) {
                             (hits.t[row], hits.shape[row]) = (t, shape);
                         }
                     }
@@ -311,4 +317,9 @@ fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// A camera that has the ball behind it.
+fn behind() -> LookAt {
+    LookAt { eye: [-0.6, 1.0, -2.5].into(), target: [0.6, 1.5, -8.0].into(), ..LookAt::default() }
 }

@@ -48,7 +48,8 @@ fn question() -> Question<Input, Ray> {
         hints: &[
             "all rays have the same direction; only the origin depends on the screen point",
             "the upper edge of the image is screen y = 1, and in the view it is half the height above the centre",
-            "origin: x and y of the screen point, each times view_height / 2, and z = 0; direction: (0, 0, −1)",
+            "x and y have the same unit, so one factor takes both from the screen to the scene; and along which axis \
+             does the camera look?",
         ],
     }
 }

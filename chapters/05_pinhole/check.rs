@@ -6,8 +6,11 @@ use pinhole::plan::{Column, Shared, VectorRows, VectorRowsMut};
 use pinhole::rays;
 use pinhole::rays::{CameraRays, ScreenPoints, camera_ray_perspective};
 use pinhole::scene::Degrees;
+use pinhole::scene::View;
 use pinhole_lab::exercise::apart::relative;
-use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Part, Question, RowPlaces, Setting, Shown, StandIn, probes};
+use pinhole_lab::exercise::{
+    Ask, Exercise, Mistakes, Part, Question, RowPlaces, Setting, Shown, StandIn, on_camera, probes,
+};
 use pinhole_lab::measure::draws::Draws;
 
 type Input = ([f64; 2], f64);
@@ -18,6 +21,7 @@ pub type Yours = fn([f64; 2], f64) -> [f64; 3];
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("perspective_direction", question, move |&(screen, tangent)| yours(screen, tangent), mine)
+        .and_in("the directions themselves", |world| on_camera(world, View { column: "camera".into() }))
 }
 
 fn question() -> Question<Input, [f64; 3]> {
@@ -49,7 +53,8 @@ fn question() -> Question<Input, [f64; 3]> {
         hints: &[
             "the eye is the origin: the direction is the point of the image plane itself, brought to length 1",
             "half the plane's height is the tangent; screen y = 1 is its upper edge, and x has the same unit",
-            "the point is (x · tan, y · tan, −1); divide each part by √(its x² + its y² + 1)",
+            "the plane is at distance 1 in front of the eye: write down the point's three coordinates, and then what \
+             brings them to length 1",
         ],
     }
 }

@@ -21,6 +21,7 @@ pub type Yours = fn([f64; 2], u32, u32) -> Pixel;
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("pixel_from_ndc", question, move |&(ndc, width, height)| yours(ndc, width, height), mine)
+        .and_in("8 x 4 pixels, and beyond", |_| ())
 }
 
 fn question() -> Question<Input, Pixel> {
@@ -126,7 +127,7 @@ fn question() -> Question<Input, Pixel> {
             "undo the division by the size, then ask in which unit square the raster point lies",
             "the whole part of x · width is the pixel, but what is below 0, at 1, above it, or NaN is outside; \
              decide that before anything is cast to u32, for a cast turns −0.2 and NaN into 0",
-            "inside means 0 ≤ x and x < 1, and so for y; the pixel is (x · width) as u32 and (y · height) as u32",
+            "is 0 still inside, and is 1? and what about NaN, with which every comparison is false?",
         ],
     }
 }
@@ -205,6 +206,9 @@ fn inside(input: &Input, whole: fn(f64, f64) -> f64) -> Pixel {
 
 /// Every NDC point moved to the centre of the pixel that the reader's function finds it in; outside, it is (0, 0).
 fn mine(ask: Ask<Input, Pixel>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     let size = setting.resolution();
     StandIn::after(
         rays::ndc_stage,
@@ -220,4 +224,13 @@ fn mine(ask: Ask<Input, Pixel>, setting: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// Points of an image of 8 × 4 pixels, on their edges and beyond it; what is outside is black.
+fn painted(ask: Ask<Input, Pixel>) -> StandIn {
+    StandIn::painted([33, 17], move |[x, y]| {
+        let ndc = [f64::from(x) / 16.0 - 0.5, f64::from(y) / 8.0 - 0.5];
+        let pixel = ask.once((ndc, 8, 4)).flatten();
+        pixel.map_or([0.0; 3], |[x, y]| [(f64::from(x) + 0.5) / 8.0, (f64::from(y) + 0.5) / 4.0, 0.5])
+    })
 }

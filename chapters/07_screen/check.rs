@@ -20,6 +20,7 @@ pub type Yours = fn([f64; 2], u32, u32) -> [f64; 2];
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("ndc_from_screen", question, move |&(screen, width, height)| yours(screen, width, height), mine)
+        .and_in("90 x 160, and beyond it", |_| ())
 }
 
 fn question() -> Question<Input, [f64; 2]> {
@@ -35,7 +36,7 @@ fn question() -> Question<Input, [f64; 2]> {
         hints: &[
             "write down x and y of the screen as the page has them, and solve each for NDC",
             "the aspect, width / height as f64, was the last thing done to x, so it is the first to be undone",
-            "x = (screen x / aspect + 1) / 2 and y = (1 − screen y) / 2",
+            "after the aspect, x has two steps to undo, and y has the same two; in one of them y changes its sign",
         ],
     }
 }
@@ -178,6 +179,9 @@ fn along(input: &Input) -> f64 {
 
 /// Every screen point taken to NDC by the reader's function, and back by pinhole's: what undoes it leaves it in place.
 fn mine(ask: Ask<Input, [f64; 2]>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     let size = setting.resolution();
     StandIn::after(
         rays::screen_stage,
@@ -192,4 +196,13 @@ fn mine(ask: Ask<Input, [f64; 2]>, setting: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// Screen points of a tall image and beyond it, as the NDC that come out, which are drawn half as large.
+fn painted(ask: Ask<Input, [f64; 2]>) -> StandIn {
+    StandIn::painted([64, 64], move |[x, y]| {
+        let [right, up] = [f64::from(x) / 31.5 - 1.0, 1.0 - f64::from(y) / 31.5];
+        let [x, y] = ask.once(([0.9 * right, 1.6 * up], 90, 160)).unwrap_or_default();
+        [0.25 + 0.5 * x, 0.25 + 0.5 * y, 0.0]
+    })
 }

@@ -8,7 +8,9 @@ use pinhole::rays;
 use pinhole::rays::{CameraRays, ScreenPoints, camera_ray_perspective};
 use pinhole::scene::{Degrees, FovAxis, PerspectiveCamera};
 use pinhole_lab::exercise::apart::relative;
-use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, StandIn, probes};
+use pinhole_lab::exercise::{
+    Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, StandIn, on_camera, probes,
+};
 use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::oracle_camera::ExactCamera;
 use std::f64::consts::{PI, SQRT_2};
@@ -30,6 +32,15 @@ pub fn exercise(yours: Yours) -> Exercise {
         move |&(angle, axis, width, height)| yours(angle, axis, width, height),
         mine,
     )
+    .and_in("across the width", |world| {
+        on_camera(world, PerspectiveCamera { fov: Degrees(90.0), axis: FovAxis::Horizontal })
+    })
+    .and_in("across the diagonal", |world| {
+        on_camera(world, PerspectiveCamera { fov: Degrees(90.0), axis: FovAxis::Diagonal })
+    })
+    .and_in("across the smaller side", |world| {
+        on_camera(world, PerspectiveCamera { fov: Degrees(90.0), axis: FovAxis::Smaller })
+    })
 }
 
 fn question() -> Question<Input, f64> {
@@ -49,7 +60,8 @@ fn question() -> Question<Input, f64> {
             "at distance 1 the angle spans 2 tan(angle / 2) along its axis; how much is that along the height?",
             "half the height is tan(angle / 2) divided by how many heights its axis is long: 1, width / height, …, \
              and for the diagonal √(width² + height²) / height",
-            "the answer is 2 atan of that half height; tan and atan work in radians, degrees go in and come out",
+            "now from half the height at distance 1 back to an angle: which function undoes the tangent, and of \
+             which part of the angle was it? It works in radians, and degrees go in and come out",
         ],
     }
 }

@@ -48,8 +48,8 @@ fn question() -> Question<Input, Vector> {
              n' · Mv = 0",
             "n' · Mv = (Mᵀn') · v, so Mᵀn' = n will do: n' is the inverse of the transpose of M, times n, brought to \
              length 1",
-            "with columns a, b, c that is (n.x b×c + n.y c×a + n.z a×b) / det, det = a · b×c; of det \
-             only the sign is left in a unit vector, and in a mirroring map it is −1",
+            "that matrix can be made of three cross products of the columns; of the determinant a unit vector keeps \
+             the sign only, which is −1 in a mirroring map",
         ],
     }
 }
@@ -209,7 +209,9 @@ fn mine(ask: Ask<Input, Vector>, _: &Setting<'_>) -> StandIn {
                     let ellipsoid = &ellipsoids.row[shapes.row[hits.shape[row] as usize] as usize];
                     let from_centre = rays.point_at(row, hits.t[row]) - ellipsoid.centre;
                     let own = (ellipsoid.unit_from_world * from_centre).normalize();
-                    let map = ellipsoid.unit_from_world.inverse();
+                    // The same ball may be turned and mirrored before it becomes the ellipsoid.
+                    let turned = DMat3::from_rotation_z(0.6) * DMat3::from_rotation_x(-0.9) * -1.0;
+                    let (map, own) = (ellipsoid.unit_from_world.inverse() * turned.transpose(), turned * own);
                     let columns = [map.x_axis, map.y_axis, map.z_axis].map(DVec3::into);
                     let Some(normal) = ask.at(place, row, (columns, own.into())) else { continue };
                     let mut surface = surfaces.get(row);

@@ -33,6 +33,7 @@ pub fn exercise(yours: Yours) -> Exercise {
         move |&(c, i, position, normal, light)| yours(c, i, position, normal, light),
         mine,
     )
+    .and_in("next to a lamp", |_| ())
 }
 
 fn question() -> Question<Input, f64> {
@@ -51,7 +52,7 @@ fn question() -> Question<Input, f64> {
         hints: &[
             "three factors: what the surface sends on, colour / π; how obliquely the light falls; how far it came",
             "with v = light − position and d its length the cosine is normal · v / d, and the light thins out with d²",
-            "colour / π · intensity · cosine / d² where the cosine is above 0; 0 where it is not, and where d is 0",
+            "multiply what you have; then ask what a light behind the surface gives, and one at the very point",
         ],
     }
 }
@@ -218,7 +219,10 @@ fn lit(input: &Input) -> f64 {
 }
 
 /// Radiance of matte surfaces from the point lights that nothing hides from them.
-fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::instead(
         direct_light_stage::<MatteTable>,
         move |materials: Res<Shared<MaterialTable>>,
@@ -249,4 +253,13 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
 fn in_direction(lights: &[PlacedPointLight], from: DVec3, direction: DVec3) -> Option<usize> {
     let along = |light: &PlacedPointLight| (light.position - from).normalize_or_zero().dot(direction);
     (0..lights.len()).max_by(|&a, &b| along(&lights[a]).total_cmp(&along(&lights[b])))
+}
+
+/// A speck within a hair's breadth of a light, which faces it on the left and faces away on the right.
+fn painted(ask: Ask<Input, f64>) -> StandIn {
+    StandIn::painted([48, 24], move |[x, y]| {
+        let position = [1e-5 * (f64::from(x % 24) - 11.5), 0.0, 1e-5 * (f64::from(y) - 11.5)];
+        let normal = [0.0, if x < 24 { 1.0 } else { -1.0 }, 0.0];
+        [ask.once((1.0, 7e-9, position, normal, [0.0, 5e-5, 0.0])).unwrap_or_default(); 3]
+    })
 }

@@ -57,7 +57,8 @@ fn question() -> Question<Input, Vector> {
             "the three axes are the same lines in both cameras; only which end is positive differs, axis by axis",
             "pinhole's: x right, y up, z back; keep a part whose axis points in the same direction, change the sign \
              of the others",
-            "x changes its sign unless x_right, y unless y_up, and z if z_ahead",
+            "which of the three flags describe pinhole's own camera where they are true, and which where it is \
+             false?",
         ],
     }
 }
@@ -165,14 +166,21 @@ fn divided(v: Vector) -> Vector {
     v.map(|part| part / length)
 }
 
-/// Every camera ray's direction, told with x left, y down and z ahead, and turned back by the reader's function.
-fn mine(ask: Ask<Input, Vector>, _: &Setting<'_>) -> StandIn {
+/// Every camera ray's direction, told in axes of which some are turned over, and turned back by the reader's function.
+fn mine(ask: Ask<Input, Vector>, setting: &Setting<'_>) -> StandIn {
+    let width = setting.resolution().width;
     StandIn::after(rays::perspective_stage, move |mut tiles: Query<(RowPlaces, &mut CameraRays)>| {
         for (place, mut rays) in &mut tiles {
             for row in 0..rays.rows() {
-                let theirs = (-rays.direction(row)).into();
-                if let Some(direction) = ask.at(place, row, (theirs, false, false, true)) {
-                    rays.direction.put(row, direction);
+                // Each eighth of the picture has other axes, and each direction is twice as long as a unit vector.
+                let eighth = 8 * place.0.pixel_of(row)[0] / width;
+                let [x_right, y_up, z_ahead] = [1, 2, 4].map(|bit| eighth & bit != 0);
+                let own = rays.direction(row);
+                let turns = [!x_right, !y_up, z_ahead];
+                let theirs = [0, 1, 2].map(|axis| if turns[axis] { -2.0 * own[axis] } else { 2.0 * own[axis] });
+                if let Some([x, y, z]) = ask.at(place, row, (theirs, x_right, y_up, z_ahead)) {
+                    // z loses the half that it has too much by a difference, so that a length brought to 1 is seen.
+                    rays.direction.put(row, [0.5 * x, 0.5 * y, z - own.z]);
                 }
             }
         }

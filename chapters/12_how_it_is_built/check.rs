@@ -35,6 +35,7 @@ pub type Yours = fn(&[StageWords], &str) -> Vec<String>;
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("kept", question, move |(stages, asked)| yours(stages, asked), mine)
+        .and_in("made-up stages", |_| ())
 }
 
 fn question() -> Question<Input, Vec<String>> {
@@ -138,8 +139,7 @@ fn question() -> Question<Input, Vec<String>> {
              writes; who must be decided first?",
             "go from the last stage to the first, with a list of the columns wanted so far; it begins with the one \
              asked for",
-            "keep a stage that is needed and writes a wanted column, and add what it reads to the list; turn the kept \
-             names about at the end",
+            "what does a stage that is kept want in its turn? and in which order do the names come out?",
         ],
     }
 }
@@ -313,6 +313,9 @@ fn read_by((stages, asked): &Input, counts: fn(&StageWords) -> bool, any: bool) 
 
 /// The chapter's stages in words, the painting of its view and the film among them, and those of them that are kept.
 fn mine(ask: Ask<Input, Vec<String>>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     let mut stages = setting.chapter.stages();
     // A chapter's own stage stands last in its list; its set says when it runs.
     stages.sort_by_key(|stage| stage.set);
@@ -332,4 +335,21 @@ fn words_of(stage: &Stage, setting: &Setting<'_>) -> StageWords {
     }
     let needed = (stage.when)(&Census::of(setting.scene)).needed;
     StageWords { name: stage.name.into(), needed, reads, writes: names(&stage.writes) }
+}
+
+/// The stages of the exercise's inputs, an input a column, in several bands: bright what is kept, and the later the
+/// brighter.
+fn painted(ask: Ask<Input, Vec<String>>) -> StandIn {
+    const COLUMNS: u32 = 32;
+    let inputs: Vec<Input> = asked().into_iter().map(|probe| probe.input).collect();
+    let band = inputs.iter().map(|(stages, _)| stages.len()).max().unwrap_or(0) as u32 + 1;
+    let kept: Vec<Vec<String>> = inputs.iter().map(|input| ask.once(input.clone()).unwrap_or_default()).collect();
+    StandIn::painted([COLUMNS, (inputs.len() as u32).div_ceil(COLUMNS) * band], move |[x, y]| {
+        let input = (y / band * COLUMNS + x) as usize;
+        let Some(stage) = inputs.get(input).and_then(|(stages, _)| stages.get((y % band) as usize)) else {
+            return [0.0; 3];
+        };
+        let place = kept[input].iter().position(|name| *name == stage.name);
+        place.map_or([0.1; 3], |place| [1.0, 0.3 + 0.7 * (place + 1) as f64 / kept[input].len() as f64, 0.3])
+    })
 }

@@ -28,6 +28,7 @@ pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], [f64; 3]) -> Answer;
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("nearest_box_t", question, move |&(o, d, min, max)| yours(o, d, min, max), mine)
+        .and_in("edges; below, from inside", |_| ())
 }
 
 fn question() -> Question<Input, Answer> {
@@ -49,8 +50,8 @@ fn question() -> Question<Input, Answer> {
              the two and leaves at the larger",
             "it is inside the box from the largest of the three entries to the smallest of the three exits, if the one \
              is not beyond the other",
-            "where d is 0 ask whether least ≤ o ≤ most: if not, there is no hit, and if so, this slab asks nothing; then \
-             take the entry if it is above 0, else the exit if that is",
+            "two cases are left: a ray along a slab is in it always or never; and one that begins inside has its \
+             entry behind it",
         ],
     }
 }
@@ -312,7 +313,10 @@ fn slabs(min: [f64; 3], max: [f64; 3]) -> Slabs {
 }
 
 /// The nearest cuboid of each ray, each asked in its own axes about its own centre.
-fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, Answer>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::instead(
         intersect::cuboid_stage,
         move |cuboids: Res<Shared<CuboidTable>>, mut tiles: Query<(RowPlaces, &WorldRays, &mut Hits)>| {
@@ -332,4 +336,14 @@ fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// Rays straight on, also along edges of a cube: in the upper half from outside, in the lower half from inside.
+fn painted(ask: Ask<Input, Answer>) -> StandIn {
+    StandIn::painted([17, 18], move |[x, y]| {
+        let [right, up] = [0.25 * f64::from(x) - 2.0, 0.4 * (4.0 - f64::from(y % 9))];
+        let origin = [right, up, if y < 9 { 3.0 } else { 0.25 }];
+        let t = ask.once((origin, [0.0, 0.0, -1.0], [-1.0; 3], [1.0; 3])).flatten();
+        t.map_or([0.0; 3], |t| [0.25 * t, 0.5, 1.0 - 0.25 * t])
+    })
 }

@@ -31,6 +31,7 @@ pub fn exercise(yours: Yours) -> Exercise {
         move |&(geometric, normals, weights, eye, light)| yours(geometric, normals, weights, eye, light),
         mine,
     )
+    .and_in("every light; right: below", |_| ())
 }
 
 fn question() -> Question<Input, f64> {
@@ -54,8 +55,8 @@ fn question() -> Question<Input, f64> {
              take the cosine",
             "the sum of weights times normals is shorter than 1; turn it so that it lies on the eye's side of the triangle, \
              which its scalar product with `geometric` tells",
-            "0 where geometric · to_eye and geometric · to_light have different signs; else the cosine between the mixed \
-             normal, on their side, and to_light, and 0 where that is negative",
+            "does light reach the eye where the two are on different sides of the triangle? and what is a cosine \
+             below 0 worth?",
         ],
     }
 }
@@ -231,7 +232,10 @@ fn to_side(normal: DVec3, side: Vector) -> DVec3 {
 }
 
 /// Irradiance from point lights on triangles whose corners have normals, by the cosine that the reader's function finds.
-fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::after(
         shade::point_light_stage,
         move |(triangles, normals, shapes): (
@@ -264,4 +268,21 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// One triangle with slanting normals, lit from every direction: on the left eye and light are above it, on the right
+/// below.
+fn painted(ask: Ask<Input, f64>) -> StandIn {
+    StandIn::painted([64, 32], move |[x, y]| {
+        let [right, up] = [(f64::from(x % 32) - 15.5) / 16.0, (15.5 - f64::from(y)) / 16.0];
+        let square = 1.0 - right * right - up * up;
+        if square < 0.0 {
+            return [0.0; 3];
+        }
+        let side = if x < 32 { 1.0 } else { -1.0 };
+        let corners = [[0.8, 0.0, 0.6], [0.6, 0.3, 0.741_619_848_709_566_3], [0.0, 0.0, 1.0]];
+        let light = [right, up, side * square.sqrt()];
+        let asked = ([0.0, 0.0, 1.0], corners, [0.5, 0.4, 0.1], [0.0, 0.0, side], light);
+        [ask.once(asked).unwrap_or_default(); 3]
+    })
 }

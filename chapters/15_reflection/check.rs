@@ -32,6 +32,7 @@ pub fn exercise(yours: Yours) -> Exercise {
         move |&(m, e, normal, light, eye)| yours(m, e, normal, light, eye),
         mine,
     )
+    .and_in("a wide highlight", |_| ())
 }
 
 fn question() -> Question<Input, f64> {
@@ -53,7 +54,7 @@ fn question() -> Question<Input, f64> {
              angle",
             "the highlight is specular · (n + 2) / 2π · cosⁿα, with cos α = (2(n·l)n − l) · v, and none where cos α \
              is below 0",
-            "(colour / π + specular · (n + 2) / 2π · cosⁿα) · irradiance · n·l where n·l is above 0; 0 where it is not",
+            "add the two parts before you multiply by what arrives; and what is left of a light below the surface?",
         ],
     }
 }
@@ -262,7 +263,10 @@ fn right(input: &Input) -> f64 {
 }
 
 /// Radiance of Phong surfaces.
-fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::instead(
         direct_light_stage::<PhongTable>,
         move |(materials, phong): (Res<Shared<MaterialTable>>, Res<Shared<PhongTable>>),
@@ -290,4 +294,15 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// A wide highlight: light from left to right across the normal, the eye from top to bottom.
+fn painted(ask: Ask<Input, f64>) -> StandIn {
+    StandIn::painted([64, 64], move |at| {
+        let [light, eye] = at.map(|at| {
+            let angle = (f64::from(at) - 31.5) / 32.0 * std::f64::consts::FRAC_PI_2;
+            [libm::sin(angle), 0.0, libm::cos(angle)]
+        });
+        [ask.once(([0.2, 0.9, 2.0], 1.0, [0.0, 0.0, 1.0], light, eye)).unwrap_or_default(); 3]
+    })
 }

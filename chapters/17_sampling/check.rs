@@ -6,8 +6,11 @@ use pinhole::plan::{Column, Shared};
 use pinhole::rays;
 use pinhole::rays::{Depth, PixelSamples, RasterPoints, SampleNumber, Tile, draws_of_two};
 use pinhole::sample::{Purpose, tent_offset, unit};
+use pinhole::scene::Sampling;
 use pinhole_lab::exercise::apart::absolute;
-use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Part, Probe, Question, Setting, Shown, StandIn, probes};
+use pinhole_lab::exercise::{
+    Ask, Exercise, Mistakes, Part, Probe, Question, Setting, Shown, StandIn, on_camera, probes,
+};
 use pinhole_lab::measure::draws::Draws;
 
 type Input = (f64, f64);
@@ -18,6 +21,10 @@ pub type Yours = fn(f64, f64) -> f64;
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("tent_offset", question, move |&(u, radius)| yours(u, radius), mine)
+        .shown_in(|world| {
+            on_camera(world, Sampling { samples: 32, seed: 17, ..Sampling::default() });
+        })
+        .and_in("how often each place", |_| ())
 }
 
 fn question() -> Question<Input, f64> {
@@ -35,7 +42,8 @@ fn question() -> Question<Input, f64> {
              side's area lies between the centre and the place",
             "to the right of a place x the tent leaves a triangle, similar to the whole right half: its area is \
              (1 − x / radius)² of that half's",
-            "with s = 2u − 1 the place has the sign of s, and (1 − |x| / radius)² = 1 − |s|; solve for |x|",
+            "that area is known from u; set the two equal and solve for the place, and let the left side be the \
+             mirror image",
         ],
     }
 }
@@ -193,7 +201,10 @@ fn one_term(&(u, radius): &Input, place: fn(f64, f64) -> f64) -> f64 {
 }
 
 /// Samples placed by the tent, with the radius of the filter that the camera has.
-fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::after(
         rays::place_samples_stage,
         move |(sampling, filter): (Res<Shared<SamplingTable>>, Res<Shared<FilterTable>>),
@@ -223,4 +234,24 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// How many of evenly spaced numbers land at each place, as columns.
+fn painted(ask: Ask<Input, f64>) -> StandIn {
+    const NUMBERS: usize = 9600;
+    let (columns, lines, radius) = (96, 48, 1.5);
+    let mut counts = vec![0.0; columns];
+    for number in 0..NUMBERS {
+        let place = ask.once(((number as f64 + 0.5) / NUMBERS as f64, radius)).unwrap_or_default();
+        let column = ((0.25 * place + 0.5) * columns as f64).floor();
+        if let Some(count) = (column >= 0.0).then(|| counts.get_mut(column as usize)).flatten() {
+            *count += 1.0;
+        }
+    }
+    // A tent is 1 / radius high.
+    let full = NUMBERS as f64 * 4.0 / columns as f64 / radius;
+    StandIn::painted([columns as u32, lines], move |[x, y]| {
+        let height = (f64::from(lines - y) - 0.5) / f64::from(lines);
+        [if height < 0.9 * counts[x as usize] / full { 0.9 } else { 0.1 }; 3]
+    })
 }

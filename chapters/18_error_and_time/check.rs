@@ -1,7 +1,9 @@
 //! Chapter 18: the variance of a pixel from run to run, and the square of its bias.
 
 use pinhole_lab::exercise::apart::option;
-use pinhole_lab::exercise::{Exercise, Mistakes, Part, Probe, Question, Shown, extremes, probes};
+use pinhole_lab::exercise::{
+    Ask, Exercise, Mistakes, Part, Probe, Question, Setting, Shown, StandIn, extremes, probes,
+};
 use pinhole_lab::measure::draws::Draws;
 
 /// Runs, truth.
@@ -9,16 +11,12 @@ type Input = (Vec<f64>, f64);
 
 type Answer = Option<[f64; 2]>;
 
-/// Why `render 18 --mine` makes no picture.
-const NOT_SEEN: &str = "variance_and_bias_squared stands in no stage: it compares many renders, and a picture is one; \
-                        `report 18` shows both";
-
 /// What the reader writes.
 pub type Yours = fn(&[f64], f64) -> Answer;
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("variance_and_bias_squared", question, move |(runs, truth)| yours(runs, *truth), NOT_SEEN)
+    Exercise::rendered("variance_and_bias_squared", question, move |(runs, truth)| yours(runs, *truth), mine)
 }
 
 fn question() -> Question<Input, Answer> {
@@ -33,8 +31,9 @@ fn question() -> Question<Input, Answer> {
         mistakes: mistakes(),
         hints: &[
             "take the truth from every run first; then both numbers are made of these distances",
-            "variance: Σ (d − their mean)² / (n − 1); bias²: the mean of dᵢ · dⱼ over i ≠ j",
-            "the sum over i ≠ j of dᵢ · dⱼ is (Σ d)² − Σ d², and there are n (n − 1) such pairs; below two runs None",
+            "the variance is taken about the runs' own mean, the bias from the truth; and no run may be paired with \
+             itself",
+            "a sum over all pairs also holds each run with itself; take these off, and count how many pairs are left",
         ],
     }
 }
@@ -230,4 +229,15 @@ fn neighbours(input: &Input, but: usize) -> f64 {
 
 fn right(input: &Input) -> Answer {
     (input.0.len() > 1).then(|| [variance(input), pairs(input)])
+}
+
+/// Four runs of a pixel in every square: to the right they are ever farther from the truth, and further down ever farther
+/// from each other. Red is the variance, and green the square of the bias.
+fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
+    StandIn::painted([48, 27], move |[x, y]| {
+        let [bias, scatter] = [f64::from(x) / 47.0, f64::from(y) / 26.0];
+        let runs = [1.0, -0.5, 0.25, -0.75].map(|run| 0.25 + bias + scatter * run);
+        let [variance, bias] = ask.once((runs.to_vec(), 0.25)).flatten().unwrap_or_default();
+        [variance, bias, 0.1]
+    })
 }

@@ -86,7 +86,7 @@ fn question() -> Question<Input, Vector> {
             "split the direction into a part along the normal and a part along the surface; a mirror turns one of them \
              round",
             "the part along a unit normal n is (d · n) n; take it off twice",
-            "d − 2 (d · n) / (n · n) n, whatever the length of n",
+            "and where n has another length: by what must (d · n) n be divided to stay the same part?",
         ],
     }
 }
@@ -138,7 +138,8 @@ fn mine(ask: Ask<Input, Vector>, _: &Setting<'_>) -> StandIn {
                 for ray in (0..scattered.rows()).filter(|&ray| scattered.pdf[ray] == f64::INFINITY).collect::<Vec<_>>()
                 {
                     let row = scattered.row[ray] as usize;
-                    let normal = surfaces.get(row).normal.as_dvec3();
+                    // A normal may have any length, and be on either side.
+                    let normal = -2.0 * surfaces.get(row).normal.as_dvec3();
                     if let Some(direction) = ask.at(place, row, (rays.direction_of(row).into(), normal.into())) {
                         let direction = DVec3::from(direction).as_vec3();
                         scattered.direction.put(ray, direction);

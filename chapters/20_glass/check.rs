@@ -23,6 +23,7 @@ pub type Yours = fn(Vector, Vector, f64) -> Option<Vector>;
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("refracted", question, move |&(direction, normal, eta)| yours(direction, normal, eta), mine)
+        .and_in("angles; down: denser", |_| ())
 }
 
 fn question() -> Question<Input, Option<Vector>> {
@@ -111,9 +112,9 @@ fn question() -> Question<Input, Option<Vector>> {
             .when(|i| bent(i, cosine(i) - squared(i).max(0.0).sqrt())),
         hints: &[
             "split the direction into a part along the surface, d + (−d · n) n, and a part along the normal",
-            "by Snell's law the part along the surface is divided by η; the other is √(1 − its square), against the \
-             normal; where that is NaN, no light passes",
-            "with c = −d · n and g² = η² − 1 + c²: None where g² < 0, else (d + (c − g) n) / η",
+            "by Snell's law the part along the surface is divided by η; the part along the normal makes the length 1 \
+             again, if it can",
+            "how long may the part along the surface become? beyond that no light passes",
         ],
     }
 }
@@ -183,7 +184,10 @@ fn asked() -> Vec<Probe<Input>> {
 const TELLS: f64 = 1e-3;
 
 /// Directions in which light goes on into glass and out of it.
-fn mine(ask: Ask<Input, Option<Vector>>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, Option<Vector>>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::after(
         split_stage::<SmoothGlass>,
         move |glass: Res<Shared<GlassTable>>, mut tiles: Query<(RowPlaces, &WorldRays, &Surfaces, &mut Scattered)>| {
@@ -216,4 +220,15 @@ fn nearest_eta(iors: &[f64], measured: f64) -> f64 {
     let media = || iors.iter().copied().chain([1.0]);
     let quotients = media().flat_map(|far| media().map(move |near| far / near));
     quotients.min_by(|a, b| (a - measured).abs().total_cmp(&(b - measured).abs())).unwrap_or(measured)
+}
+
+/// Angles of incidence from left to right, and from top to bottom media from half as dense to twice as dense.
+fn painted(ask: Ask<Input, Option<Vector>>) -> StandIn {
+    StandIn::painted([64, 32], move |[x, y]| {
+        let (angle, eta) =
+            ((f64::from(x) + 0.5) / 64.0 * std::f64::consts::FRAC_PI_2, libm::exp2(f64::from(y) / 15.5 - 1.0));
+        let direction = [libm::sin(angle), 0.0, -libm::cos(angle)];
+        let bent = ask.once((direction, [0.0, 0.0, 1.0], eta)).flatten();
+        bent.map_or([0.0; 3], |[x, _, z]| [0.5 + 0.5 * x, 0.3, 0.5 - 0.5 * z])
+    })
 }

@@ -33,6 +33,7 @@ pub fn exercise(yours: Yours) -> Exercise {
         move |&(from, at, normal, area)| yours(from, at, normal, area),
         mine,
     )
+    .and_in("all about a lamp", |_| ())
 }
 
 fn question() -> Question<Input, f64> {
@@ -52,7 +53,7 @@ fn question() -> Question<Input, f64> {
             "how much of the sky does a small part of the area fill, when it is turned to you and when it is not?",
             "a part dA at distance d fills dA cos θ / d², with θ between its normal and the direction to you; the probability \
              of the part is dA / A",
-            "d² / (A |cos θ|), where v = at − from, d = |v| and cos θ = normal · v / d; 0 where the cosine is 0",
+            "a pdf is a probability over what it fills: put the two together; a light seen edge-on fills nothing",
         ],
     }
 }
@@ -171,7 +172,10 @@ fn pdf(input: &Input) -> f64 {
 /// Shadow rays to rectangles by points chosen evenly over their area, with the pdf that the reader's function gives.
 ///
 /// Pinhole itself samples a rectangle that is near by its solid angle: the mean is the same, the noise is less.
-fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::after(
         shade::area_light_stage,
         move |(lights, sampling): (Res<Shared<AreaLightTable>>, Res<Shared<SamplingTable>>),
@@ -216,4 +220,13 @@ fn seen(shape: &Parallelogram, from: DVec3, direction: DVec3) -> bool {
     let off = from + t * direction - shape.centre;
     // A direction has f32 numbers, so the light's edge is not exact.
     t > 0.0 && shape.half_edges.iter().all(|half| off.dot(*half).abs() <= 1.0001 * half.length_squared())
+}
+
+/// Every place about a small lamp that shines upward: the brighter, the less likely is its point.
+fn painted(ask: Ask<Input, f64>) -> StandIn {
+    StandIn::painted([64, 32], move |[x, y]| {
+        let from = [(f64::from(x) - 31.5) / 8.0, 0.0, (15.5 - f64::from(y)) / 8.0];
+        let pdf = ask.once((from, [0.0; 3], [0.0, 0.0, 1.0], 1.0)).unwrap_or_default();
+        [1.0 / (1.0 + pdf); 3]
+    })
 }

@@ -25,6 +25,7 @@ pub type Yours = fn(f64, f64) -> [f64; 3];
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("cosine_direction", question, move |&(u, v)| yours(u, v), mine)
+        .and_in("where each pair leads", |_| ())
 }
 
 fn question() -> Question<Input, [f64; 3]> {
@@ -40,7 +41,7 @@ fn question() -> Question<Input, [f64; 3]> {
         hints: &[
             "choose a point of the unit disk, all of them alike, and go straight up from it to the hemisphere",
             "the fraction of the disk's area within a radius r is r², so r is the root of u; the angle is 2πv",
-            "x = r cos 2πv, y = r sin 2πv, and z makes the length 1: z² = 1 − r² = 1 − u",
+            "two coordinates are those of the point of the disk, and the third makes the length 1",
         ],
     }
 }
@@ -146,7 +147,10 @@ fn tilted(angle: f64, v: f64) -> [f64; 3] {
 }
 
 /// Directions about the normal, in which the open sky is looked for.
-fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, [f64; 3]>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::after(
         follow::sky_rays_stage,
         move |sampling: Res<Shared<SamplingTable>>,
@@ -166,4 +170,12 @@ fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// The direction for each pair of numbers: u to the right, v down.
+fn painted(ask: Ask<Input, [f64; 3]>) -> StandIn {
+    StandIn::painted([64, 32], move |[x, y]| {
+        let direction = ask.once(((f64::from(x) + 0.5) / 64.0, (f64::from(y) + 0.5) / 32.0)).unwrap_or_default();
+        direction.map(|part| 0.5 + 0.5 * part)
+    })
 }

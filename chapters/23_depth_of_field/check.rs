@@ -26,6 +26,7 @@ pub fn exercise(yours: Yours) -> Exercise {
         move |&(screen, tangent, lens, focus)| yours(screen, tangent, lens, focus),
         mine,
     )
+    .and_in("the directions", |_| ())
 }
 
 fn question() -> Question<Input, [f64; 3]> {
@@ -47,7 +48,7 @@ fn question() -> Question<Input, [f64; 3]> {
         hints: &[
             "find the point in focus first: the pinhole's ray is at (x, y, −1) times the focus distance there",
             "the direction is that point less the lens point, which lies at z = 0",
-            "with P = (screen · tan · f, −f) and L = (lens, 0): divide P − L by its length",
+            "write down the three coordinates of both points; the lens has no depth",
         ],
     }
 }
@@ -150,7 +151,10 @@ fn to_focus(&[x, y, tangent, lens_x, lens_y, focus]: &[f64; 6]) -> DVec3 {
 }
 
 /// Directions of rays from points of the lens.
-fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, [f64; 3]>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::after(
         rays::lens_stage,
         move |(camera, lens): (Res<Shared<PerspectiveProjection>>, Res<Shared<LensTable>>),
@@ -166,4 +170,13 @@ fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// Directions from a point far out on a wide lens, through a picture that is twice as wide as its distance.
+fn painted(ask: Ask<Input, [f64; 3]>) -> StandIn {
+    StandIn::painted([64, 32], move |[x, y]| {
+        let screen = [(f64::from(x) - 31.5) / 16.0, (15.5 - f64::from(y)) / 16.0];
+        let direction = ask.once((screen, 1.0, [0.8, 0.3], 2.0)).unwrap_or_default();
+        direction.map(|part| 0.5 + 0.5 * part)
+    })
 }

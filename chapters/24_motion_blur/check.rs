@@ -23,6 +23,7 @@ pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], f64, [f64; 3], f64) -> Answer;
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("moving_sphere_t", question, move |&(o, d, c, r, v, time)| yours(o, d, c, r, v, time), mine)
+        .and_in("ahead to behind; later", |_| ())
 }
 
 fn question() -> Question<Input, Answer> {
@@ -107,8 +108,8 @@ fn question() -> Question<Input, Answer> {
             .when(|input| moved(input, input.5).map(|t| t - input.5).filter(|&t| t > 0.0)),
         hints: &[
             "at the ray's own time the sphere is somewhere, and there it stands still for the ray",
-            "its centre is then at centre + velocity · time; the rest is chapter 3",
-            "or leave the sphere and move the ray: from origin − velocity · time it hits the sphere at the same t",
+            "how far has it moved by then? the rest is chapter 3",
+            "or leave the sphere where it is: what must be done to the ray for it to hit at the same t?",
         ],
     }
 }
@@ -189,7 +190,10 @@ fn decidable(&(origin, direction, centre, radius, velocity, time): &Input) -> bo
 }
 
 /// The nearest moving shape of each ray; spheres by the reader's function.
-fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, Answer>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::instead(
         intersect::moving_stage,
         move |moving: Res<Shared<MovingTable>>, mut tiles: Query<(RowPlaces, &WorldRays, &RayTimes, &mut Hits)>| {
@@ -216,4 +220,14 @@ fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// Rays straight at a ball that rises, from ahead of it on the left to behind it on the right, and further down later.
+fn painted(ask: Ask<Input, Answer>) -> StandIn {
+    StandIn::painted([64, 32], move |[x, y]| {
+        let origin = [0.0, 0.5, 8.0 - 0.25 * (f64::from(x) + 0.5)];
+        let asked = (origin, [0.0, 0.0, -1.0], [0.0; 3], 1.0, [0.0, 2.0, 0.0], (f64::from(y) + 0.5) / 32.0);
+        let t = ask.once(asked).flatten();
+        t.map_or([0.0; 3], |t| [0.1 * t, 0.5, 1.0 - 0.1 * t])
+    })
 }

@@ -19,6 +19,7 @@ pub type Yours = fn([f64; 3], f64) -> [f64; 3];
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("after_roulette", question, move |&(throughput, u)| yours(throughput, u), mine)
+        .and_in("numbers and throughputs", |_| ())
 }
 
 /// Roulette with this probability of survival, and the factor of what goes on.
@@ -140,8 +141,8 @@ fn question() -> Question<Input, [f64; 3]> {
         hints: &[
             "the mean over all numbers must be the throughput itself: p × what goes on + (1 − p) × 0",
             "so what goes on is the throughput divided by p; compare the number with p first",
-            "p is the largest of the three, but `.min(1.0)`; where the throughput is 0 nothing goes on, and \
-             nothing is divided by 0",
+            "which p keeps all three parts at most 1, and is a probability itself? and what if there is nothing to \
+             send on?",
         ],
     }
 }
@@ -163,7 +164,10 @@ fn asked() -> Vec<Probe<Input>> {
 }
 
 /// The throughput of paths after roulette; a path that ends keeps its row, with nothing left of its light.
-fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, [f64; 3]>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::instead(
         follow::roulette_stage,
         move |(sampling, integrator): (Res<Shared<SamplingTable>>, Res<Shared<IntegratorTable>>),
@@ -188,4 +192,12 @@ fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// Numbers from left to right, and throughputs of a reddish surface that grow from top to bottom, in the end above 1.
+fn painted(ask: Ask<Input, [f64; 3]>) -> StandIn {
+    StandIn::painted([64, 32], move |[x, y]| {
+        let throughput = [1.0, 0.6, 0.1].map(|part| part * 1.5 * (f64::from(y) + 0.5) / 32.0);
+        ask.once((throughput, (f64::from(x) + 0.5) / 64.0)).unwrap_or_default().map(|part| part / 1.5)
+    })
 }

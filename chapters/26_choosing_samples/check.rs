@@ -22,6 +22,7 @@ pub type Yours = fn(f64, f64) -> f64;
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("power_heuristic", question, move |&(own, other)| yours(own, other), mine)
+        .and_in("pdfs from 1e-300 to 1e300", |_| ())
 }
 
 fn question() -> Question<Input, f64> {
@@ -96,7 +97,7 @@ fn question() -> Question<Input, f64> {
         hints: &[
             "with two pdfs alike the answer is 1/2, and with one three times the other 9/10",
             "divide numerator and denominator by own²: only the ratio of the two pdfs is left",
-            "1 / (1 + (other / own)²), and 0 where own is 0; a ratio that is infinite gives 0 by itself",
+            "which of the two may be 0, and when is the ratio infinite? One of these cases needs a line of its own",
         ],
     }
 }
@@ -125,7 +126,10 @@ fn asked() -> Vec<Probe<Input>> {
 }
 
 /// The light of emitters that a path hits, weighted against light sampling, which could have found them too.
-fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::instead(
         follow::mis_emission_stage,
         move |(emissive, lights): (Res<Shared<EmissiveTable>>, Res<Shared<AreaLightTable>>),
@@ -155,4 +159,11 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// Pdfs from the smallest to the largest: the own one from left to right, the other from top to bottom, none in the first
+/// column and line.
+fn painted(ask: Ask<Input, f64>) -> StandIn {
+    let pdf = |at: u32| if at == 0 { 0.0 } else { libm::exp10(10.0 * (f64::from(at) - 31.0)) };
+    StandIn::painted([62, 62], move |[own, other]| [ask.once((pdf(own), pdf(other))).unwrap_or_default(); 3])
 }

@@ -24,6 +24,7 @@ pub fn exercise(yours: Yours) -> Exercise {
         move |&(point, tan_half, height)| yours(point, tan_half, height),
         mine,
     )
+    .and_in("off the axis, and behind", |_| ())
 }
 
 fn question() -> Question<Input, f64> {
@@ -52,7 +53,8 @@ fn question() -> Question<Input, f64> {
         hints: &[
             "on the axis θ is 0, and the fraction is 1 / (A d²)",
             "the pixel's side on the plane at distance 1 is 2 tan_half / height, and A is its square",
-            "cos θ is the depth, −z, over d; so the fraction is d / (A (−z)³), and 0 where −z is not above 0",
+            "cos θ is the depth over the distance; so how does the fraction grow towards the picture's edge, and \
+             what is it behind the eye?",
         ],
     }
 }
@@ -159,7 +161,10 @@ fn side(&(_, tan_half, height): &Input) -> f64 {
 }
 
 /// What pixels get of the light that reaches a surface from a light; rows are paths here, and no pixel is known yet.
-fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::after(
         shade::camera_join_stage,
         move |camera: Res<Shared<CameraJoinTable>>, mut tiles: Query<&mut ShadowRays>| {
@@ -176,4 +181,13 @@ fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// Points up to 4 to either side of the axis, from 3 ahead at the top to 1 behind the eye at the bottom.
+fn painted(ask: Ask<Input, f64>) -> StandIn {
+    StandIn::painted([64, 32], move |[x, y]| {
+        let point = [(f64::from(x) - 31.5) / 8.0, 0.3, -3.0 + (f64::from(y) + 0.5) / 8.0];
+        let fraction = ask.once((point, 0.5, 1.0)).unwrap_or_default();
+        [fraction / (1.0 + fraction); 3]
+    })
 }

@@ -10,7 +10,7 @@ use pinhole::rays::WorldRays;
 use pinhole::shapes::{direction_object_from_world, point_object_from_world};
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{
-    Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, probes,
+    Ask, Exercise, Mistakes, Part, Probe, Question, RowPlaces, Setting, Shown, StandIn, at_most, probes,
 };
 use pinhole_lab::measure::draws::Draws;
 
@@ -25,7 +25,7 @@ pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], [[f64; 3]; 3], [f64; 3]) -> An
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     let written = move |&(o, d, position, axes, scale): &Input| yours(o, d, position, axes, scale);
-    Exercise::rendered("ray_in_object_space", question, written, mine).asked_often()
+    Exercise::rendered("ray_in_object_space", question, written, mine).shown_in(|world| at_most(world, (240, 2)))
 }
 
 fn question() -> Question<Input, Answer> {

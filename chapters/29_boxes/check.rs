@@ -9,7 +9,7 @@ use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{
-    Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, extremes, probes,
+    Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, at_most, extremes, probes,
 };
 use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::naive::boxes::box_of_mesh;
@@ -24,7 +24,9 @@ pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], [f64; 3], f64) -> bool;
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     let written = move |&(o, inverse, low, high, t_max): &Input| yours(o, inverse, low, high, t_max);
-    Exercise::rendered("enters_box", question, written, mine).asked_often()
+    Exercise::rendered("enters_box", question, written, mine)
+        .and_in("a flat box and a thick one", |_| ())
+        .shown_in(|world| at_most(world, (240, 2)))
 }
 
 fn question() -> Question<Input, bool> {
@@ -110,8 +112,7 @@ fn question() -> Question<Input, bool> {
              sign of `inverse` says which, that of an infinity too",
             "at (plane − origin) · inverse it crosses a plane; a plane through the origin of a ray along it gives \
              0 · ∞, which is NaN",
-            "write `if enters > from { from = enters }` and `if leaves < until { until = leaves }`: with NaN both are \
-             false, and nothing changes, which is right for a ray in the plane of a face",
+            "with NaN every comparison is false; so change the interval only where a comparison is true",
         ],
     }
 }
@@ -247,7 +248,10 @@ fn drawn(index: u64) -> Input {
 }
 
 /// The closest mesh of each ray; only those are intersected whose box the ray enters by the reader's function.
-fn mine(ask: Ask<Input, bool>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, bool>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     StandIn::instead(
         intersect::mesh_stage,
         move |meshes: Res<Shared<MeshTable>>,
@@ -272,4 +276,16 @@ fn mine(ask: Ask<Input, bool>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// Slanting rays at a flat box in the upper half and at a thick one in the lower half, also at edges; on the right they end
+/// too soon.
+fn painted(ask: Ask<Input, bool>) -> StandIn {
+    StandIn::painted([50, 50], move |[x, y]| {
+        let [right, up] = [0.125 * f64::from(x % 25) - 1.5, 1.5 - 0.125 * f64::from(y % 25)];
+        let origin = [right - 2.0, up - 1.0, 2.0];
+        let (height, t_max) = (if y < 25 { 0.0 } else { 1.0 }, if x < 25 { f64::INFINITY } else { 0.5 });
+        let asked = (origin, [1.0, 2.0, -1.0], [-1.0, -1.0, 0.0], [1.0, 1.0, height], t_max);
+        [if ask.once(asked).unwrap_or_default() { 0.8 } else { 0.1 }; 3]
+    })
 }

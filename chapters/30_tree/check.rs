@@ -7,7 +7,7 @@ use pinhole::intersect::Hits;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole::shapes::Shape;
-use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, StandIn, probes};
+use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, StandIn, at_most, probes};
 use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::naive::tree::{Search, Tree, by_cost, to_visit};
 use std::sync::{Arc, OnceLock};
@@ -23,6 +23,8 @@ pub type Yours = fn([Option<f64>; 2], f64) -> Answer;
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("to_visit", question, move |&(enters, closest)| yours(enters, closest), mine)
+        .shown_in(|world| at_most(world, (320, 4)))
+        .and_in("two boxes; right: a hit", |_| ())
 }
 
 fn question() -> Question<Input, Answer> {
@@ -139,7 +141,10 @@ fn drawn(index: u64) -> Input {
 }
 
 /// Spheres through the plain tree of the page, whose children are visited as the reader says.
-fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, Answer>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     let tree: Arc<OnceLock<Tree>> = Arc::default();
     StandIn::instead(
         intersect::sphere_stage,
@@ -158,4 +163,16 @@ fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// Where two boxes are entered: the first ever later to the right, the second further down, and neither at all at the ends;
+/// on the right there is a hit. Red is whom to visit first, green whom second.
+fn painted(ask: Ask<Input, Answer>) -> StandIn {
+    let enters = |at: u32| (at < 28).then(|| f64::from(at) / 8.0 - 0.5);
+    StandIn::painted([64, 32], move |[x, y]| {
+        let closest = if x < 32 { f64::INFINITY } else { 2.05 };
+        let order = ask.once(([enters(x % 32), enters(y)], closest)).unwrap_or_default();
+        let colour = |child: Option<u32>| child.map_or(0.0, |child| 0.5 + 0.5 * f64::from(child));
+        [colour(order[0]), colour(order[1]), 0.1]
+    })
 }

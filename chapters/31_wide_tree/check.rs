@@ -24,6 +24,7 @@ pub type Yours = fn([f64; 8], [f64; 8], f64) -> u32;
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("entered", question, move |&(enters, leaves, closest)| yours(enters, leaves, closest), mine)
+        .and_in("eight boxes in a row", |_| ())
 }
 
 fn question() -> Question<Input, u32> {
@@ -97,8 +98,8 @@ fn question() -> Question<Input, u32> {
             .when(|&(enters, leaves, closest)| one_by_one(enters, leaves, closest, |enters, _| enters)),
         hints: &[
             "one box first: the part of it that the ray can still use begins at max(enters, 0)",
-            "and it ends at min(leaves, closest): the box counts if that is not before the beginning",
-            "box i sets the bit 1 << i; several bits are put together by |",
+            "and where does it end, if there is a hit already? the box counts if anything is left, be it a point",
+            "a mask with a single bit is 1, shifted; how are two masks put together?",
         ],
     }
 }
@@ -161,7 +162,10 @@ fn drawn(index: u64) -> Input {
 }
 
 /// Spheres through the wide tree in plain f64, with the reader's mask at every node.
-fn mine(ask: Ask<Input, u32>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, u32>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     let tree: Arc<OnceLock<Bvh>> = Arc::default();
     StandIn::instead(
         intersect::sphere_stage,
@@ -181,4 +185,17 @@ fn mine(ask: Ask<Input, u32>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// Eight boxes behind each other, every third of them flat: ever farther ahead to the right, and further down with a hit
+/// that is farther away. The colours are the bits.
+fn painted(ask: Ask<Input, u32>) -> StandIn {
+    StandIn::painted([64, 32], move |[x, y]| {
+        let enters = [0, 1, 2, 3, 4, 5, 6, 7].map(|child| 0.75 * f64::from(child) + 0.125 * f64::from(x) - 6.0);
+        let mut leaves = enters.map(|t| t + 0.5);
+        (leaves[0], leaves[3], leaves[6]) = (enters[0], enters[3], enters[6]);
+        let mask = ask.once((enters, leaves, 0.25 * f64::from(y))).unwrap_or_default();
+        let part = |shift: u32, bits: u32| f64::from(mask >> shift & bits) / f64::from(bits);
+        [part(0, 7), part(3, 7), part(6, 3)]
+    })
 }

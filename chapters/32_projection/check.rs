@@ -45,7 +45,7 @@ fn question() -> Question<Input, [f64; 2]> {
             "subtract the eye from the point; what is left along each of the three axes is a dot product",
             "the depth is minus the part along the axis that points back; x and y divided by depth · tan_half are the \
              screen point of chapters 7 and 8, y from −1 to 1 and x from −aspect to aspect",
-            "NDC is (0.5 + 0.5 · x / aspect, 0.5 − 0.5 · y); times the size it is in pixels",
+            "from the screen to NDC it is chapter 7, and from there to pixels chapter 6",
         ],
     }
 }

@@ -21,6 +21,7 @@ pub type Yours = fn([i32; 2], [i32; 2], [i32; 2]) -> bool;
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered("is_inside_edge", question, move |&(from, to, sample)| yours(from, to, sample), mine)
+        .and_in("edges of all directions", |_| ())
 }
 
 fn question() -> Question<Input, bool> {
@@ -102,7 +103,7 @@ fn question() -> Question<Input, bool> {
             "the edge function is twice the area of the triangle from, to, sample: \
              (to.x − from.x)(sample.y − from.y) − (to.y − from.y)(sample.x − from.x), in i64",
             "above 0 is inside, below 0 outside; only at exactly 0 does the rule decide",
-            "at 0: inside if to.y < from.y (a left edge), or to.y = from.y and to.x > from.x (a top edge)",
+            "at 0 the edge's own direction decides: which way does a left edge go, and which way a top edge?",
         ],
     }
 }
@@ -202,7 +203,10 @@ type OfTile =
     (RowPlaces, &'static RasterPoints, &'static WorldRays, &'static mut Hits, Option<&'static mut HitPrimitives>);
 
 /// Meshes rasterised in plain code, with the reader's edges.
-fn mine(ask: Ask<Input, bool>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, bool>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     let kept: Arc<OnceLock<Vec<RasterTriangle>>> = Arc::default();
     StandIn::instead(
         rasterise_stage,
@@ -220,4 +224,16 @@ fn mine(ask: Ask<Input, bool>, _: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// Eight edges that go eight ways, each among samples beside it and on it: above a few steps long, and below as long as any
+/// may be.
+fn painted(ask: Ask<Input, bool>) -> StandIn {
+    const TO: [[i32; 2]; 8] = [[4, 0], [4, 4], [0, 4], [-4, 4], [-4, 0], [-4, -4], [0, -4], [4, -4]];
+    StandIn::painted([128, 32], move |[x, y]| {
+        let scale = if y < 16 { 1 } else { 1 << 21 };
+        let to = TO[(x / 16) as usize].map(|part| part * scale);
+        let sample = [x % 16, y % 16].map(|at| (at as i32 - 8) * scale);
+        [if ask.once((to.map(|part| -part), to, sample)).unwrap_or_default() { 0.8 } else { 0.1 }; 3]
+    })
 }

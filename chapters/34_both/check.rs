@@ -23,7 +23,7 @@ pub type Yours = fn(f64, f64, f64, f64) -> [f64; 2];
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     let written = move |&[right, ahead, radius, half]: &Input| yours(right, ahead, radius, half);
-    Exercise::rendered("sphere_interval", question, written, mine)
+    Exercise::rendered("sphere_interval", question, written, mine).and_in("balls all about the eye", |_| ())
 }
 
 fn question() -> Question<Input, [f64; 2]> {
@@ -43,8 +43,8 @@ fn question() -> Question<Input, [f64; 2]> {
              plane; if the eye is inside the disk, every x may see the sphere",
             "the tangents are √(right² + ahead² − radius²) long; between a tangent and the line to the centre there is \
              an angle with the sine radius / √(right² + ahead²)",
-            "turn (right, ahead) by that angle, either to the right or to the left, and divide x by z; where z ≤ 0 the \
-             interval goes on to that edge, and everything is cut off at ±half",
+            "each tangent is the line to the centre, turned by that angle: where does it cross the plane, and what \
+             if it never does?",
         ],
     }
 }
@@ -206,7 +206,10 @@ fn drawn(index: u64) -> Input {
 type Rectangle = [DVec2; 2];
 
 /// Spheres in their rectangles on the image, whose sides the reader's function gives.
-fn mine(ask: Ask<Input, [f64; 2]>, _: &Setting<'_>) -> StandIn {
+fn mine(ask: Ask<Input, [f64; 2]>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     let kept: Arc<OnceLock<Vec<Rectangle>>> = Arc::default();
     StandIn::instead(
         box_stage::<PlacedSphere>,
@@ -249,4 +252,14 @@ fn rectangle(ask: &Ask<Input, [f64; 2]>, projection: &Projection, sphere: &Place
     // A ray in f32 may be a hair beside the sample that it was made for.
     let hair = f64::from(f32::EPSILON) * projection.half;
     [DVec2::new(left, low) - hair, DVec2::new(right, high) + hair]
+}
+
+/// Balls of radius 1 from far left to far right of the eye, and from about it at the top to far ahead: red is the left end
+/// of the interval, green the right one.
+fn painted(ask: Ask<Input, [f64; 2]>) -> StandIn {
+    StandIn::painted([64, 32], move |[x, y]| {
+        let (right, ahead) = ((f64::from(x) - 31.5) / 8.0, f64::from(y) / 6.0 - 0.9);
+        let [left, right] = ask.once([right, ahead, 1.0, 1.5]).unwrap_or_default();
+        [0.5 + left / 8.0, 0.5 + right / 8.0, 0.1]
+    })
 }

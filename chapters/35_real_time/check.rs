@@ -25,7 +25,7 @@ pub type Yours = fn([f64; 3], [f64; 3], [f64; 3]) -> f64;
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
     let written = move |&(normal, neighbour, offset): &Input| yours(normal, neighbour, offset);
-    Exercise::rendered("edge_weight", question, written, mine)
+    Exercise::rendered("edge_weight", question, written, mine).and_in("angles; down: off a plane", |_| ())
 }
 
 fn question() -> Question<Input, f64> {
@@ -47,7 +47,7 @@ fn question() -> Question<Input, f64> {
         hints: &[
             "the cosine of the angle between unit vectors is their dot product; below 0 the surfaces face away",
             "the 32nd power is five squarings, one after the other",
-            "the dot product of normal and offset is the distance from the plane; over the offset's length it is the sine",
+            "how far is the neighbour from the plane, and how far from the point? their quotient is the sine",
         ],
     }
 }
@@ -219,6 +219,9 @@ fn drawn(index: u64) -> Input {
 
 /// The picture through the filter, each neighbour counted as the reader's function says.
 fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
+    if setting.number == 1 {
+        return painted(ask);
+    }
     let width = setting.resolution().width as usize;
     let picture = smoothed(&ask, setting).unwrap_or_default();
     StandIn::instead(film_stage, move |mut tiles: Query<(&RasterPoints, Option<&PixelSamples>, &mut FilmTile)>| {
@@ -257,4 +260,15 @@ fn smoothed(ask: &Ask<Input, f64>, setting: &Setting<'_>) -> Option<Vec<[f32; 3]
     let albedo = |at: usize| guides.albedo.each_ref().map(|part| part[at]);
     let light = |(at, light): (usize, DVec3)| [0, 1, 2].map(|part| light[part] as f32 * albedo(at)[part]);
     Some(smooth.pixels.iter().map(|pixel| pixel.light).enumerate().map(light).collect())
+}
+
+/// Neighbours whose normals are turned ever farther from left to right, and which lie ever farther out of the plane
+/// downward.
+fn painted(ask: Ask<Input, f64>) -> StandIn {
+    StandIn::painted([64, 32], move |[x, y]| {
+        let [turned, out] = [(x, 64.0), (y, 64.0)].map(|(at, of)| (f64::from(at) + 0.5) / of * std::f64::consts::PI);
+        let neighbour = [libm::sin(turned), 0.0, libm::cos(turned)];
+        let offset = [0.2 * libm::cos(out), 0.0, 0.2 * libm::sin(out)];
+        [ask.once(([0.0, 0.0, 1.0], neighbour, offset)).unwrap_or_default(); 3]
+    })
 }

@@ -293,8 +293,8 @@ pub struct RenderChapter {
     /// Render the scene file again whenever it is saved, until Ctrl-C
     #[arg(long, conflicts_with = "stats")]
     pub watch: bool,
-    /// Render the chapter with the function that you have written for its exercise in place of pinhole's (default: to
-    /// out/, as 05_mine.png)
+    /// Render the chapter with the function that you have written for its exercise in place of pinhole's, beside pinhole's
+    /// picture and the difference (default: to out/, as 05_mine.png; with --output, your picture alone)
     #[arg(long, conflicts_with_all = ["watch", "set", "naive"])]
     pub mine: bool,
     #[command(flatten)]

@@ -2,7 +2,7 @@ use super::error::{Error, Result};
 use super::find;
 use super::format::{Format, number_or_word, print_json};
 use pinhole::Chapter;
-use pinhole_lab::exercise::{Exercise, Outcome, Progress, Turn, list_exercises, take_turn, turn};
+use pinhole_lab::exercise::{Exercise, Outcome, Progress, Turn, list_exercises, take_turn, turn, what_is_left};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::io::Write;
@@ -36,7 +36,7 @@ pub fn check(
             let (name, exercise) = exercise_of(chapters, exercises, asked)?;
             let turn = turn(name, exercise, file);
             print_json(&CheckRecord::of(name, &turn), out)?;
-            turn.report.sentence().map_or(Ok(()), |sentence| Err(Error::usage(sentence)))
+            Ok(what_is_left(name, &turn.report)?)
         }
     }
 }

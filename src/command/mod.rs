@@ -29,6 +29,7 @@ mod list;
 mod live;
 mod long_render;
 mod measure;
+mod mine;
 mod mutation;
 mod options;
 mod own_file;
@@ -131,7 +132,7 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
         Some(Command::List) => list::list(chapters, format, out),
         Some(Command::Render(asked)) if asked.watch => watch::render_at_every_save(chapters, &asked, format, streams),
         Some(Command::Render(asked)) if asked.mine => {
-            render::render_mine(chapters, &exercises(), &asked, format, streams)
+            mine::render_mine(chapters, &exercises(), &asked, format, streams)
         }
         Some(Command::Render(asked)) => {
             let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.scene.set)?;

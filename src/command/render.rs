@@ -1,5 +1,3 @@
-use super::arguments::RenderChapter;
-use super::check::{Named, exercise_of};
 use super::error::{Error, Result};
 use super::files::{Files, Targets};
 use super::find;
@@ -7,11 +5,10 @@ use super::format::{Format, print_json};
 use super::hints;
 use super::interrupt::{Waiting, interrupted};
 use super::long_render::{LongRender, render_long};
-use super::options::{RenderOptions, SceneOptions};
+use super::options::RenderOptions;
 use super::own_file::write_file;
 use super::preflight::before_rendering;
 use super::progress::Progress;
-use super::status;
 use super::streams::Streams;
 use super::subject::Subject;
 use super::summary::Summary;
@@ -22,8 +19,8 @@ use pinhole::film::png_bytes;
 use pinhole::look::{Foretold, RenderStats};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
-use pinhole::scene::{FileKind, Integrator, Resolution, Sampling, read_file};
-use pinhole_lab::exercise::{Mine, Outcome, PATIENCE, end_at_panics};
+use pinhole::scene::{FileKind, Integrator, Sampling, read_file};
+use pinhole_lab::exercise::Mine;
 use pinhole_lab::review::{PictureDifference, compare_pictures, picture_contrast};
 use std::borrow::Cow;
 use std::path::Path;
@@ -36,84 +33,6 @@ const PICTURE: FileKind = FileKind { name: "a picture", max: 1 << 30 };
 pub fn render_cover(chapters: &[Chapter], format: Format, streams: &mut Streams<'_>) -> Result {
     let cover = Subject::Chapter(Cow::Borrowed(find::chapter(chapters, "cover")?));
     render_subject(&cover, &RenderOptions::default(), format, streams)
-}
-
-/// Renders a chapter with the reader's function in place of one of pinhole's stages; and beside it, unless a file is named,
-/// the same with pinhole's own, and how the two differ.
-///
-/// Errors: no chapter with an exercise, or one that no picture shows; --resume; a function that never answers, panics
-/// or gives what no picture can hold, in one sentence, and then no file is written.
-pub fn render_mine(
-    chapters: &[Chapter],
-    exercises: &[Named],
-    asked: &RenderChapter,
-    format: Format,
-    streams: &mut Streams<'_>,
-) -> Result {
-    let (asked, mut options) = (&asked.chapter, asked.options());
-    if options.resume {
-        let what = "a function may have changed since, so `--mine` begins anew; leave out --resume";
-        return Err(Error::CommandLine(format!("there is nothing to continue: {what}")));
-    }
-    if find::is_scene_file(asked) || asked == "-" {
-        let what = "`--mine` renders a chapter with the function that it asks you to write; a scene file asks for none";
-        return Err(Error::CommandLine(what.into()));
-    }
-    let (name, exercise) = exercise_of(chapters, exercises, &asked.to_string_lossy())?;
-    let number = name.split('_').next().unwrap_or(name);
-    let chapter = find::chapter(chapters, name)?;
-    if streams.waits {
-        end_at_panics(end);
-    }
-    if let Some(small) = small_enough(chapter, exercise.samples, &options) {
-        options = small;
-        let how = "sampled scenes are rendered small, to be there at once; --size and --samples say otherwise";
-        streams.note(&format!("note: {how}"))?;
-    }
-    let mine = Mine::of(exercise, chapter, &chapter.world(&options.asked(!options.quiet)))?;
-    let report = exercise.check(PATIENCE);
-    match &report.outcome {
-        Outcome::Late(..) => {
-            let late = report.sentence().unwrap_or_default();
-            return Err(Error::usage(format!("{late}, so nothing is rendered; `check {number}` shows the input")));
-        }
-        _ if report.is_done() => {}
-        _ if report.is_stub() => {
-            streams.note(&format!("note: {} gives one and the same answer, as the stub does", exercise.function))?;
-        }
-        _ => {
-            let sentence = report.sentence().unwrap_or_default();
-            streams.note(&format!("note: {sentence}; `check {number}` shows the first"))?;
-        }
-    }
-    let beside = is_compared(&options, format);
-    let mine_file = Path::new("out").join(format!("{number}_mine.png"));
-    if options.output.is_empty() {
-        (options.output, options.output_is_chosen) = (vec![mine_file.clone()], true);
-    }
-    let subject = Subject::Chapter(Cow::Owned(mine.chapter.clone()));
-    render_with(&subject, &options, Some(mine), format, streams)?;
-    let pinholes = Subject::Chapter(Cow::Borrowed(chapter));
-    if beside { compare_with_pinhole(&pinholes, number, &options, &mine_file, streams) } else { Ok(()) }
-}
-
-/// The most pixels across in a picture of a sampled scene that shows a reader's function, unless more are asked for.
-const SMALL: u32 = 240;
-
-/// The options of a smaller picture, where the scene is sampled and the reader asks for no size, samples or time.
-fn small_enough(chapter: &Chapter, most_samples: u32, options: &RenderOptions) -> Option<RenderOptions> {
-    let SceneOptions { sampling, error, .. } = &options.scene;
-    if options.scene.sets_resolution() || sampling.samples.is_some() || options.time.is_some() || error.is_some() {
-        return None;
-    }
-    let scene = chapter.world(&options.asked(false));
-    let camera = scene.entity(camera_entity(&scene).ok()?);
-    let (samples, width) =
-        (camera.get::<Sampling>()?.samples, camera.get::<Resolution>().copied().unwrap_or_default().width);
-    let mut small = options.clone();
-    small.scene.width = Some(width.min(SMALL));
-    small.scene.sampling.samples = Some(samples.min(most_samples));
-    Some(small)
 }
 
 /// Renders a scene by a naive method; and beside it, unless a file is named, by pinhole's own, and how the two differ.
@@ -174,11 +93,6 @@ fn compare_with_pinhole(
     Ok(())
 }
 
-/// Ends the program as any failed command does; a panic on a thread of a render leaves nobody else to do so.
-fn end(sentence: &str) -> ! {
-    std::process::exit(status(Err(Error::usage(sentence))).into())
-}
-
 /// Renders a scene and says in a few lines what came of it; with `--verbose` all that ran and was left out, too.
 pub fn render_subject(
     subject: &Subject<'_>,
@@ -189,7 +103,8 @@ pub fn render_subject(
     render_with(subject, options, None, format, streams)
 }
 
-fn render_with(
+/// The same with a reader's function in one of its stages.
+pub fn render_with(
     subject: &Subject<'_>,
     options: &RenderOptions,
     mine: Option<Mine>,

@@ -5,8 +5,8 @@ use bevy_ecs::schedule::ScheduleConfigs;
 use bevy_ecs::system::ScheduleSystem;
 use pinhole::extract::camera_entity;
 use pinhole::plan::{Census, Stage, plan};
-use pinhole::scene::Resolution;
-use pinhole::{Chapter, Error, Result};
+use pinhole::scene::{Resolution, Sampling};
+use pinhole::{Chapter, Error, Overrides, Result, Size};
 use std::sync::Arc;
 
 /// What a stand-in may look at before the render: the chapter, and its scene with what the reader asks of it.
@@ -15,6 +15,8 @@ pub struct Setting<'s> {
     pub chapter: &'s Chapter,
     /// Its scene.
     pub scene: &'s World,
+    /// Which of the exercise's scenes this is; 0 is the chapter's own.
+    pub number: usize,
 }
 
 impl Setting<'_> {
@@ -45,7 +47,11 @@ enum Place {
     Instead(Make),
     After(Make),
     Keep(Vec<String>),
+    Painted([u32; 2], Box<Paint>),
 }
+
+/// The colour of a pixel, from 0 to 1.
+type Paint = dyn Fn([u32; 2]) -> [f64; 3];
 
 impl StandIn {
     /// A system that runs in place of this stage.
@@ -67,6 +73,11 @@ impl StandIn {
     /// Only the stages of these names are offered, beside what every chapter has.
     pub fn keeping(stages: Vec<String>) -> Self {
         Self { stage: None, place: Place::Keep(stages) }
+    }
+
+    /// No render, but a picture of this size that shows what the function answers, pixel by pixel.
+    pub fn painted(size: [u32; 2], paint: impl Fn([u32; 2]) -> [f64; 3] + 'static) -> Self {
+        Self { stage: None, place: Place::Painted(size, Box::new(paint)) }
     }
 
     /// The chapter with the stand-in, and the stage that must run for it.
@@ -94,34 +105,65 @@ impl Place {
                 let pinhole = Arc::clone(&stage.system);
                 stage.system = Arc::new(move || (pinhole(), mine()).chain());
             }
-            Self::Keep(_) => {}
+            Self::Keep(_) | Self::Painted(..) => {}
         }
     }
 }
 
-/// A chapter with a reader's function in place of one of pinhole's stages.
+/// Whose function stands in a chapter.
+#[derive(Clone, Copy)]
+pub enum Whose {
+    /// That which says what is right.
+    Pinholes,
+    /// The reader's.
+    Readers,
+}
+
+/// A chapter with an exercise's function in place of one of pinhole's stages.
 pub struct Mine {
     /// The chapter, to be rendered as any other.
     pub chapter: Chapter,
     complaint: Complaint,
+    /// What shows the answers where nothing is rendered.
+    painted: Option<Painted>,
 }
 
+/// A picture that was painted: its size, and its colours line by line.
+pub type Painted = ([u32; 2], Vec<[f32; 3]>);
+
 impl Mine {
-    /// The chapter with this exercise's function in it.
+    /// The chapter with the reader's function in it.
     ///
     /// Errors: why no picture shows the function; the stage in which it would stand does not run.
     pub fn of(exercise: &Exercise, chapter: &Chapter, scene: &World) -> Result<Self> {
-        let render = exercise.mine.as_ref().map_err(|why| Error::Usage((*why).into()))?;
-        let (stand_in, complaint) = render(&Setting { chapter, scene });
+        Self::by(Whose::Readers, exercise, &Setting { chapter, scene, number: 0 })
+    }
+
+    /// The same with anybody's function in any of the exercise's scenes.
+    ///
+    /// Errors: the same.
+    pub fn by(whose: Whose, exercise: &Exercise, setting: &Setting<'_>) -> Result<Self> {
+        let renders = exercise.mine.as_ref().map_err(|why| Error::Usage((*why).into()))?;
+        let (stand_in, complaint) = renders[whose as usize](setting);
+        let mut painted = None;
+        if let Place::Painted(size @ [width, height], paint) = &stand_in.place {
+            let pixels = (0..*height).flat_map(|y| (0..*width).map(move |x| [x, y]));
+            painted = Some((*size, pixels.map(|at| paint(at).map(|part| part as f32)).collect()));
+        }
         complaint.get().map_or(Ok(()), |sentence| Err(Error::Usage(sentence.clone())))?;
-        let (chapter, stage) = stand_in.put_in(chapter);
+        let (chapter, stage) = stand_in.put_in(setting.chapter);
         if let Some(stage) = stage
-            && !plan(&Census::of(scene), &chapter.stages())?.stages.contains(&stage)
+            && !plan(&Census::of(setting.scene), &chapter.stages())?.stages.contains(&stage)
         {
             let (function, name) = (exercise.function, stage.name);
             return Err(Error::Usage(format!("{function} stands in \"{name}\", which this render does not run")));
         }
-        Ok(Self { chapter, complaint })
+        Ok(Self { chapter, complaint, painted })
+    }
+
+    /// What was painted in place of a render.
+    pub fn painted(&mut self) -> Option<Painted> {
+        self.painted.take()
     }
 
     /// What the render has to say against the function, in one sentence.
@@ -130,4 +172,33 @@ impl Mine {
     pub fn answers(&self) -> Result {
         self.complaint.get().map_or(Ok(()), |sentence| Err(Error::Usage(sentence.clone())))
     }
+}
+
+/// A chapter whose scene is changed before anything else is asked of it.
+pub fn edited(chapter: &Chapter, edit: impl Fn(&mut World) + Send + Sync + 'static) -> Chapter {
+    let own = chapter.clone();
+    let mut chapter = chapter.clone().with_scene(move |world| {
+        *world = own.world(&Overrides::default());
+        edit(world);
+    });
+    // By now the camera names the column that the chapter paints, so that an edit may name another.
+    chapter.view = None;
+    chapter
+}
+
+/// Puts components on a scene's camera, in place of those that it has.
+pub fn on_camera(world: &mut World, components: impl Bundle) {
+    if let Ok(camera) = camera_entity(world) {
+        world.entity_mut(camera).insert(components);
+    }
+}
+
+/// Renders a sampled scene with no more pixels across than this, and no more samples of each.
+pub fn at_most(world: &mut World, (width, samples): (u32, u32)) {
+    let Ok(camera) = camera_entity(world) else { return };
+    let mut camera = world.entity_mut(camera);
+    let Some(&sampling) = camera.get::<Sampling>() else { return };
+    let own = camera.get::<Resolution>().copied().unwrap_or_default();
+    let size = Size::Width(own.width.min(width)).of(own);
+    camera.insert((size, Sampling { samples: sampling.samples.min(samples), ..sampling }));
 }

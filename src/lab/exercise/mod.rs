@@ -9,28 +9,37 @@
 mod answers;
 pub mod apart;
 mod ask;
+mod beside;
 mod compare;
+mod letters;
 mod mine;
 mod mistake;
+mod panels;
 mod panics;
 mod progress;
 mod question;
 mod report;
+mod seen;
 mod shown;
 mod turn;
 
 pub use ask::{Ask, RowPlace, RowPlaces};
+pub use beside::Beside;
 pub use compare::{Mismatch, Outcome, Report};
-pub use mine::{Mine, Setting, StandIn};
+pub use mine::{Mine, Setting, StandIn, Whose, at_most, on_camera};
 pub use mistake::{Mistakes, Part};
+pub use panels::sheet;
 pub use panics::end_at_panics;
 pub use progress::{Progress, Tries};
 pub use question::{Probe, Question, extremes, probes};
+pub use seen::Seen;
 pub use shown::Shown;
-pub use turn::{Turn, list_exercises, take_turn, turn};
+pub use turn::{Turn, list_exercises, take_turn, turn, what_is_left};
 
+use bevy_ecs::prelude::*;
 use compare::compare;
-use mine::Render;
+use mine::{Render, edited};
+use pinhole::Chapter;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -41,14 +50,14 @@ pub const PATIENCE: Duration = Duration::from_secs(3);
 pub struct Exercise {
     /// The function's name.
     pub function: &'static str,
-    /// The most samples of a pixel, where the scene is sampled, with which its picture is there at once.
-    pub samples: u32,
     check: Box<dyn Fn(Duration) -> Report + Send + Sync>,
-    mine: Result<Box<Render>, &'static str>,
+    /// How pinhole's function and the reader's take their place; or why no picture shows them.
+    mine: Result<[Box<Render>; 2], &'static str>,
+    scenes: Vec<(&'static str, fn(&mut World))>,
 }
 
-/// The samples with which most pictures show what a function does.
-const SAMPLES: u32 = 4;
+/// The most pixels across in a picture of a sampled scene, and samples of each, that is there soon after an edit.
+const SOON: (u32, u32) = (320, 16);
 
 impl Exercise {
     /// An exercise whose function renders in the place that `mine` gives it.
@@ -63,13 +72,15 @@ impl Exercise {
         A: Shown + Send + 'static,
     {
         let written: Arc<dyn Fn(&I) -> A + Send + Sync> = Arc::new(written);
-        let asked = Arc::clone(&written);
-        let mine: Box<Render> = Box::new(move |setting| {
-            let ask = Ask::new(function, question, Arc::clone(&asked));
-            let complaint = ask.complaint();
-            (mine(ask, setting), complaint)
+        let right: Arc<dyn Fn(&I) -> A + Send + Sync> = Arc::new(question().right);
+        let renders = [right, Arc::clone(&written)].map(|function_of| -> Box<Render> {
+            Box::new(move |setting| {
+                let ask = Ask::new(function, question, Arc::clone(&function_of));
+                let complaint = ask.complaint();
+                (mine(ask, setting), complaint)
+            })
         });
-        Self { mine: Ok(mine), ..Self::unseen(function, question, move |input| written(input), "") }
+        Self { mine: Ok(renders), ..Self::unseen(function, question, move |input| written(input), "") }
     }
 
     /// An exercise whose function no picture shows, and the sentence that says why.
@@ -88,13 +99,36 @@ impl Exercise {
             let written = Arc::clone(&written);
             compare(function, question(), move |input: &I| written(input), patience)
         };
-        Self { function, samples: SAMPLES, check: Box::new(check), mine: Err(why) }
+        Self { function, check: Box::new(check), mine: Err(why), scenes: vec![("", |_| ())] }
     }
 
-    /// The same, shown with one sample of a pixel: for a function that a render asks so often that it takes long.
+    /// The same, shown in the chapter's scene as this changes it, so that mistakes can be seen.
     #[must_use]
-    pub fn asked_often(self) -> Self {
-        Self { samples: 1, ..self }
+    pub fn shown_in(mut self, scene: fn(&mut World)) -> Self {
+        self.scenes[0].1 = scene;
+        self
+    }
+
+    /// The same, shown in a further scene as well, in which those mistakes are seen that the chapter's own leaves in the
+    /// dark.
+    #[must_use]
+    pub fn and_in(mut self, what: &'static str, scene: fn(&mut World)) -> Self {
+        self.scenes.push((what, scene));
+        self
+    }
+
+    /// What is special about the scenes in which the function is shown, the chapter's own first.
+    pub fn scenes(&self) -> impl Iterator<Item = &'static str> {
+        self.scenes.iter().map(|(what, _)| *what)
+    }
+
+    /// The chapter with one of these scenes.
+    pub fn pictured(&self, chapter: &Chapter, number: usize) -> Chapter {
+        let scene = self.scenes.get(number).map_or((|_: &mut World| ()) as fn(&mut World), |(_, scene)| *scene);
+        edited(chapter, move |world| {
+            at_most(world, SOON);
+            scene(world);
+        })
     }
 
     /// Asks the function all inputs of its exercise and says how it did.

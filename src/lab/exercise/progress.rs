@@ -18,7 +18,7 @@ pub struct Progress(pub BTreeMap<String, Tries>);
 pub struct Tries {
     /// Tries altogether; looking at a stub is none.
     pub tried: u32,
-    /// Wrong tries since it was last right; each brings a further hint.
+    /// Wrong tries since it was last right whose mistake was not named; each brings a further hint.
     pub wrong: u32,
     /// Whether the last try was right, for ordinary inputs at least.
     pub done: bool,

@@ -51,7 +51,7 @@ impl Report {
         }
         if mismatch.apart.is_finite() && self.allowed.0 > 0.0 {
             let (allowed, measured) = self.allowed;
-            writeln!(out, "  off by     {:.1e} {measured}, where {allowed:e} is allowed", mismatch.apart)?;
+            writeln!(out, "  off by     {} {measured}, where {} is allowed", number(mismatch.apart), number(allowed))?;
         }
         Ok(())
     }
@@ -63,7 +63,8 @@ impl Report {
         match self.allowed {
             (0.0, _) => writeln!(out, "  every answer is the expected one, exactly")?,
             (allowed, measured) => {
-                writeln!(out, "  the worst is off by {worst:.1e} {measured}, where {allowed:e} is allowed")?;
+                let (worst, allowed) = (number(worst), number(allowed));
+                writeln!(out, "  the worst is off by {worst} {measured}, where {allowed} is allowed")?;
             }
         }
         let (file, name) = self.pinhole_has;
@@ -98,13 +99,40 @@ impl Report {
         matches!(self.outcome, Outcome::Right(_) | Outcome::OrdinaryRight(_))
     }
 
+    /// Whether the mistake is known and named.
+    pub fn is_named(&self) -> bool {
+        matches!(&self.outcome, Outcome::Wrong(mismatch) if mismatch.looks_like.is_some())
+    }
+
     /// Whether the reader has not begun: the answer is one and the same, as a stub's is.
     pub fn is_stub(&self) -> bool {
         matches!(&self.outcome, Outcome::Wrong(mismatch) if mismatch.always_the_same)
     }
 }
 
+/// A number to two digits, with a power of ten where it would be long.
+fn number(off: f64) -> String {
+    match off {
+        0.0 => "0".into(),
+        0.001..1.0 => format!("{off:.0$}", (1.0 - libm::log10(off).floor()) as usize).trim_end_matches('0').into(),
+        1.0..100.0 => format!("{off:.1}"),
+        100.0..1e4 => format!("{off:.0}"),
+        _ => format!("{off:.1e}").replace(".0e", "e"),
+    }
+}
+
 fn print_asked(asked: &Input, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "  input {:<4} {}", asked.number, asked.about)?;
     writeln!(out, "             {}", asked.input)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn a_number_is_written_as_a_person_would() {
+        let told = [0.0, 0.51, 0.5, 0.043, 1.0, 17.25, 480.0, 3.4e-9, 1e-9, 2.5e7].map(number);
+        assert_eq!(told, ["0", "0.51", "0.5", "0.043", "1.0", "17.2", "480", "3.4e-9", "1e-9", "2.5e7"]);
+    }
 }

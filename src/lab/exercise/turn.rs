@@ -24,7 +24,9 @@ pub fn turn(name: &str, exercise: &Exercise, file: &Path) -> Turn {
     if !report.is_stub() {
         let done = report.is_done();
         tries.tried = tries.tried.saturating_add(1);
-        tries.wrong = if done { 0 } else { tries.wrong.saturating_add(1) };
+        // Whoever is told the mistake is not stuck.
+        let is_stuck = u32::from(!report.is_named());
+        tries.wrong = if done { 0 } else { tries.wrong.saturating_add(is_stuck) };
         tries.done = done;
         tries.extremes = matches!(report.outcome, Outcome::Right(_)) && report.extremes > 0;
         progress.0.insert(name.into(), tries);
@@ -36,18 +38,19 @@ pub fn turn(name: &str, exercise: &Exercise, file: &Path) -> Turn {
 }
 
 impl Turn {
-    /// The hints that the reader has earned: one for each wrong try, unless the mistake itself is known.
+    /// The hints that the reader has earned: one for each wrong try whose mistake was not
+    /// named, unless that of this one is.
     pub fn hints(&self) -> &'static [&'static str] {
         let all = self.report.hints;
-        let is_known = matches!(&self.report.outcome, Outcome::Wrong(mismatch) if mismatch.looks_like.is_some());
-        let earns = !self.report.is_done() && !self.report.is_stub() && !is_known;
+        let earns = !self.report.is_done() && !self.report.is_stub() && !self.report.is_named();
         &all[..if earns { all.len().min(self.tries.wrong as usize) } else { 0 }]
     }
 }
 
 /// Checks a chapter's exercise once: prints how the reader's function did, and remembers it in the file.
 ///
-/// Errors: a wrong answer, a panic or no answer in time, in one sentence; printing failed.
+/// Errors: a wrong answer, a panic or no answer in time, with what to do next, for all else has been printed; printing
+/// failed.
 pub fn take_turn(name: &str, exercise: &Exercise, file: &Path, out: &mut dyn Write) -> Result {
     let Turn { report, tries, notes } = turn(name, exercise, file);
     report.print(tries.wrong as usize, out)?;
@@ -57,13 +60,24 @@ pub fn take_turn(name: &str, exercise: &Exercise, file: &Path, out: &mut dyn Wri
         Outcome::OrdinaryRight(_) => {
             writeln!(out, "next: on with the chapter, or edit chapters/{name}/exercise.rs for the second star")?;
         }
-        _ => writeln!(out, "edit chapters/{name}/exercise.rs, then `check {number}` again")?,
+        _ => {}
     }
     if exercise.renders() && !report.is_stub() {
         writeln!(out, "`render {number} --mine` shows it")?;
     }
     notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))?;
-    report.sentence().map_or(Ok(()), |sentence| Err(Error::Usage(sentence)))
+    what_is_left(name, &report)
+}
+
+/// What to do after a check.
+///
+/// Errors: that, where the function is not right yet; what is wrong with it, the report says.
+pub fn what_is_left(name: &str, report: &Report) -> Result {
+    let number = name.split('_').next().unwrap_or(name).trim_start_matches('0');
+    match report.is_done() {
+        true => Ok(()),
+        false => Err(Error::Usage(format!("edit chapters/{name}/exercise.rs, then `check {number}` again"))),
+    }
 }
 
 /// The exercises of all chapters, and how far the reader has come.
