@@ -2,7 +2,7 @@
 
 use crate::check;
 use crate::check::terms::INDEX;
-use crate::figure::Pictures;
+use crate::figure::{Pictures, with_drawings};
 use crate::handout::{FONTS, Handout};
 use crate::page::{Pages, told};
 use crate::print;
@@ -58,8 +58,9 @@ pub fn build(book: &Book, program: &Rc<RefCell<Program>>) -> Result<(), String> 
         handouts: Rc::clone(&handouts),
     });
     site.build().map_err(mdbook)?;
-    print::unfold(&book.out)?;
     let pictures = pictures.borrow();
+    write_drawings(&book.out, &pictures)?;
+    print::unfold(&book.out)?;
     write_pictures(&book.out.join("figures"), &pictures)?;
     write_handouts(&book.out, &handouts.borrow())
 }
@@ -74,6 +75,19 @@ fn config(book: &Book) -> Result<Config, String> {
         config.set("output.html.search.chapter", unsearched).map_err(|error| format!("{error:#}"))?;
     }
     Ok(config)
+}
+
+/// Puts the drawings into the pages that mdBook wrote.
+fn write_drawings(folder: &Path, pictures: &Pictures) -> Result<(), String> {
+    let failed = |error: std::io::Error| format!("{} cannot be written: {error}.", folder.display());
+    for entry in folder.read_dir().map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        if path.extension().is_some_and(|extension| extension == "html") {
+            let page = std::fs::read_to_string(&path).map_err(failed)?;
+            std::fs::write(&path, with_drawings(&page, pictures)).map_err(failed)?;
+        }
+    }
+    Ok(())
 }
 
 fn write_pictures(folder: &Path, pictures: &Pictures) -> Result<(), String> {

@@ -22,6 +22,8 @@ const GROWN: u32 = 480;
 pub struct Pictures {
     /// Each with its command.
     pub files: BTreeMap<String, (String, Rc<[u8]>)>,
+    /// The drawings of the pages, which mdBook never sees: to read and write them once more takes it seconds.
+    pub drawings: Vec<String>,
     /// Those whose values a reader of the served book moves, by the name that the page has for them.
     pub live: BTreeMap<String, LiveFigure>,
 }
@@ -52,15 +54,18 @@ pub fn block(
         live = format!(" data-live=\"{name}\"");
         pictures.live.insert(name, figure);
     }
-    // A line may break between the words of a command, never inside `--size`.
-    let words = [TYPED, command].join(" ");
-    let words: Vec<String> = words.split_whitespace().map(|word| format!("<span>{}</span>", escape(word))).collect();
-    let made = words.join(" ");
+    let made = typed(command);
     // Blank lines let markdown into the caption; the picture itself must hold none.
     Ok(format!(
         "\n<figure{live}>\n{picture}\n<figcaption>\n\n{caption}\n\n\
          <div class=\"made\">made by <code>{made}</code></div>\n</figcaption>\n</figure>\n"
     ))
+}
+
+/// A command as a reader types it; a line may break between its words, never inside `--size`.
+pub fn typed(command: &str) -> String {
+    let words = TYPED.split(' ').chain(command.split_whitespace());
+    words.map(|word| format!("<span>{}</span>", escape(word))).collect::<Vec<_>>().join(" ")
 }
 
 /// What a command writes: a drawing, or a picture of pixels.
@@ -139,8 +144,36 @@ fn inline(svg: &str, spoken: &str, stem: &str) -> Result<String, String> {
     let style = format!("width: 100%; max-width: {width}px; --least: {least:.0}px; height: auto");
     let tag = format!("<svg {} role=\"img\" aria-label=\"{spoken}\" style=\"{style}\"", kept.join(" "));
     let drawing = without_command(&own_names(&lines.join("\n"), stem));
-    Ok(format!("<div class=\"drawing\">\n{tag}{drawing}\n</div>"))
+    Ok(format!("{DRAWING}{tag}{drawing}\n</div>"))
 }
+
+/// A page with a mark for each drawing.
+pub fn with_drawings_apart(page: &str, pictures: &mut Pictures) -> String {
+    let (mut out, mut rest) = (String::new(), page);
+    while let Some((before, from)) = rest.split_once(DRAWING) {
+        let Some((drawing, after)) = from.split_once("</svg>\n</div>") else { break };
+        out += &format!("{before}<div class=\"drawing\"><!--{}--></div>", pictures.drawings.len());
+        pictures.drawings.push(format!("{drawing}</svg>"));
+        rest = after;
+    }
+    out + rest
+}
+
+/// A page as mdBook made it, its drawings in their places again.
+pub fn with_drawings(page: &str, pictures: &Pictures) -> String {
+    let (mut out, mut rest) = (String::new(), page);
+    while let Some((before, from)) = rest.split_once("<div class=\"drawing\"><!--") {
+        let mark = from.split_once("-->").and_then(|(number, after)| Some((number.parse::<usize>().ok()?, after)));
+        let drawing = mark.and_then(|(number, after)| Some((pictures.drawings.get(number)?, after)));
+        let Some((drawing, after)) = drawing else { break };
+        out += &format!("{before}{DRAWING}{drawing}\n");
+        rest = after;
+    }
+    out + rest
+}
+
+/// How a drawing begins on a page.
+const DRAWING: &str = "<div class=\"drawing\">\n";
 
 /// The height in pixels that letters of a drawing keep in a narrow window, which then shows a part of it at a time.
 const LEGIBLE: f64 = 9.1;
@@ -221,6 +254,16 @@ mod tests {
         let told =
             block(&mut program.borrow_mut(), &mut Pictures::default(), "figure 05_x", "It", "").expect_err("refused");
         assert_eq!(told, "`figure 05_x` wrote an SVG without a viewBox, which cannot be fitted to a page.");
+    }
+
+    #[test]
+    fn drawings_come_back_to_their_places() {
+        let mut pictures = Pictures::default();
+        let page = ["one", "two"].map(|text| format!("a\n{DRAWING}<svg>{text}</svg>\n</div>\nb")).concat();
+        let apart = with_drawings_apart(&page, &mut pictures);
+        assert!(!apart.contains("svg") && pictures.drawings == ["<svg>one</svg>", "<svg>two</svg>"], "{apart}");
+        assert_eq!(with_drawings(&apart, &pictures), page);
+        assert_eq!(with_drawings(&[&apart, &apart[..]].concat(), &pictures), [&page, &page[..]].concat());
     }
 
     #[test]

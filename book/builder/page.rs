@@ -4,7 +4,7 @@ use crate::check::directive::{Directive, parse};
 use crate::check::scan::{Fence, Scan};
 use crate::check::{Page, Problem, fit, listing};
 use crate::edit::{Edit, apply, escape};
-use crate::figure::{self, Pictures, TYPED};
+use crate::figure::{self, Pictures};
 use crate::handout::{Handout, Printer};
 use crate::program::Program;
 use crate::{exercises, index, math, print, slides, teaching};
@@ -52,7 +52,7 @@ impl Preprocessor for Pages {
             let name = chapter.source_path.as_ref().map(|path| path.display().to_string());
             let page = self.written.iter().find(|page| Some(&page.name) == name.as_ref());
             match page.map(|page| expand(page, &self.written, program, pictures)) {
-                Some(Ok(content)) => chapter.content = content,
+                Some(Ok(content)) => chapter.content = figure::with_drawings_apart(&content, pictures),
                 Some(Err(found)) => problems.extend(found),
                 None => {}
             }
@@ -138,22 +138,16 @@ pub fn fitted(command: &str, text: &str) -> (String, bool) {
 
 /// What a command prints, under the command as a reader types it.
 fn printed(command: &str, text: &str) -> String {
-    if command.starts_with("extremes") {
-        let typed = escape(command);
-        let table = tabled(text);
-        return format!(
-            "\n<div class=\"printed\">\n<div class=\"typed\"><code>{TYPED} {typed}</code></div>\n{table}</div>\n"
-        );
-    }
-    let (text, is_copied) = fitted(command, text);
-    let copied = if is_copied { " copied" } else { "" };
-    let longest = text.split(|letter| letter != '`').map(str::len).max().unwrap_or(0);
-    let fence = "`".repeat(3.max(longest + 1));
-    let command = escape(command);
-    format!(
-        "\n<div class=\"printed{copied}\">\n<div class=\"typed\"><code>{TYPED} {command}</code></div>\n\n\
-         {fence}text\n{text}\n{fence}\n\n</div>\n"
-    )
+    let typed = figure::typed(command);
+    let (copied, text) = if command.starts_with("extremes") {
+        ("", tabled(text))
+    } else {
+        let (text, is_copied) = fitted(command, text);
+        let longest = text.split(|letter| letter != '`').map(str::len).max().unwrap_or(0);
+        let fence = "`".repeat(3.max(longest + 1));
+        (if is_copied { " copied" } else { "" }, format!("\n{fence}text\n{text}\n{fence}\n\n"))
+    };
+    format!("\n<div class=\"printed{copied}\">\n<div class=\"typed\"><code>{typed}</code></div>\n{text}</div>\n")
 }
 
 /// What `extremes` prints as a table: its columns are parted by two spaces or more, its cases and notes have none.
@@ -209,7 +203,7 @@ mod tests {
     #[test]
     fn output_stands_under_its_command() {
         let text = expanded("a\n\n{{#pinhole plan 05 --a<b}}\n\nb $\n".trim_end_matches(" $\n")).expect("expands");
-        let expected = "<div class=\"typed\"><code>cargo run --release -- plan 05 --a&lt;b</code></div>\n\n\
+        let expected = "<span>plan</span> <span>05</span> <span>--a&lt;b</span></code></div>\n\n\
                         ````text\n```\nkept <b> & $x$\n```\n````\n\n</div>";
         assert!(text.contains(expected), "{text}");
         assert!(text.starts_with("a\n\n") && text.ends_with("\n\nb"), "{text}");

@@ -70,7 +70,7 @@ const ACCEPTED: &str = "a page may use {{#include file:anchor}}, {{#pinhole comm
 
 /// Reads a line: no directive at all, a good one, or one sentence about a bad one.
 pub fn parse(line: &str) -> Option<Result<Directive<'_>, String>> {
-    if !blank_spans(line).contains("{{#") {
+    if !line.contains('{') || !blank_spans(line).contains("{{#") {
         return None;
     }
     let alone = line.trim().strip_prefix("{{#").and_then(|rest| rest.strip_suffix("}}"));

@@ -111,14 +111,21 @@ fn cited_after(before: &str, cited: &[(&str, &str)]) -> String {
         let comma = if is_awaited || lead.ends_with(',') { "" } else { "," };
         return if comma.is_empty() { format!("{before}{whole}") } else { format!("{lead}{comma} {whole}") };
     }
-    let [(key, label)] = cited else { return format!("{before}({whole})") };
-    let (authors, year) = label.rsplit_once(' ').unwrap_or(("", label));
-    let first = authors.split(", ").next().and_then(|first| first.split(" and ").next()).unwrap_or(authors);
-    let is_named = words.iter().rev().take(4).any(|word| word.starts_with(first));
-    match (is_named, is_awaited) {
-        (true, _) => format!("{before}({})", linked(key, year)),
-        (false, true) => format!("{before}{} ({year})", linked(key, authors)),
-        (false, false) => format!("{before}({whole})"),
+    let named = |label: &str| {
+        let authors = label.rsplit_once(' ').map_or("", |(authors, _)| authors);
+        let mut authors = authors.split(", ").flat_map(|some| some.split(" and ")).filter(|author| *author != "others");
+        authors.any(|author| words.iter().rev().take(4).any(|word| word.starts_with(author)))
+    };
+    let in_text = |(key, label): &(&str, &str)| {
+        let (authors, year) = label.rsplit_once(' ').unwrap_or((label, ""));
+        format!("{} ({year})", linked(key, authors))
+    };
+    match cited {
+        [(key, label)] if named(label) => {
+            format!("{before}({})", linked(key, label.rsplit_once(' ').map_or(label, |(_, year)| year)))
+        }
+        _ if is_awaited => before.to_owned() + &cited.iter().map(in_text).collect::<Vec<_>>().join(" and "),
+        _ => format!("{before}({whole})"),
     }
 }
 
@@ -368,6 +375,8 @@ mod tests {
         for (text, expected) in [
             ("the *shadow ray* [@appel1968]. It", "the *shadow ray* (Appel 1968). It"),
             ("was Appel's idea [@appel1968];", "was Appel's idea (1968);"),
+            ("as Kay and Kajiya do it [@kay1986]", "as Kay and Kajiya do it (1986)"),
+            ("- [@appel1968], [@kay1986]: old", "- Appel (1968) and Kay and Kajiya (1986): old"),
             ("- [@kay1986]: slabs", "- Kay and Kajiya (1986): slabs"),
             ("This is what [@kay1986] did", "This is what Kay and Kajiya (1986) did"),
             ("found early [@appel1968], [@kay1986].", "found early (Appel 1968; Kay and Kajiya 1986)."),
