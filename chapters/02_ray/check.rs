@@ -54,6 +54,10 @@ fn question() -> Question<Vector, Option<Vector>> {
         allowed: 1e-15,
         measured: "in a part",
         mistakes: Mistakes::<Vector, Option<Vector>>::new()
+            .say("one part is left out of the length; it is √(x² + y² + z²)")
+            .when(|&v @ [x, y, _]| unit(v).map(|_| divided(v, length([x, y, 0.0]))))
+            .when(|&v @ [x, _, z]| unit(v).map(|_| divided(v, length([x, 0.0, z]))))
+            .when(|&v @ [_, y, z]| unit(v).map(|_| divided(v, length([0.0, y, z]))))
             .say("what has no direction is given one: 0, NaN and infinite parts must give None")
             .when(|&v| Some(unit(v).unwrap_or_else(|| plain(v))))
             .when(|&v| unit(v).or_else(|| (v != [0.0; 3]).then(|| plain(v))))

@@ -124,7 +124,10 @@ fn mistakes() -> Mistakes<Input, Ray> {
     let whole = Part::<[[f64; 3]; 2], Ray>::new(|&[origin, direction]| (origin, direction))
         .say("origin and direction are swapped")
         .when(|&[origin, direction]| (direction, origin));
-    Mistakes::new().of_parts([origin, direction], whole)
+    Mistakes::<Input, Ray>::new()
+        .say("half the height is added to the screen point; it is to be multiplied by it")
+        .when(|&([x, y], height)| ([x + height / 2.0, y + height / 2.0, 0.0], AHEAD))
+        .of_parts([origin, direction], whole)
 }
 
 /// The place on the rectangle.

@@ -53,8 +53,12 @@ fn question() -> Question<Input, [f64; 3]> {
 }
 
 fn mistakes() -> Mistakes<Input, [f64; 3]> {
-    let x = Part::<Input, f64>::new(|i| i.0[0]);
+    let x = Part::<Input, f64>::new(|i| i.0[0])
+        .say("only y is multiplied by the tangent; x is in half heights, too")
+        .when(|i| i.0[0] / i.1);
     let y = Part::<Input, f64>::new(|i| i.0[1])
+        .say("only x is multiplied by the tangent; y is, too")
+        .when(|i| i.0[1] / i.1)
         .say("y is turned round; screen points have y upwards, as camera space has")
         .when(|i| -i.0[1]);
     let tangent = Part::<Input, f64>::new(|i| i.1)

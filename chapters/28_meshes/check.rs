@@ -89,6 +89,8 @@ fn mistakes() -> Mistakes<Input, Answer> {
         .say("the two are swapped: the origin is first")
         .when(|&[origin, direction]| [direction, origin]);
     Mistakes::<Input, Answer>::new()
+        .say("the turn is left out; it is undone, as the scale is")
+        .when(|&(o, d, position, _, scale)| right(&(o, d, position, DMat3::IDENTITY.to_cols_array_2d(), scale)))
         .say("the scale is left out")
         .when(|i| scaled(i, [1.0; 3]))
         .say("one factor is taken for all three axes; each has its own")

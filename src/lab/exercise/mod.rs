@@ -8,17 +8,21 @@
 
 mod answers;
 pub mod apart;
+mod argument;
 mod ask;
 mod compare;
+mod looks_like;
 mod mine;
 mod mistake;
 mod panics;
 mod progress;
 mod question;
+mod relation;
 mod report;
 mod shown;
 mod turn;
 
+pub use argument::{Argument, Misread};
 pub use ask::{Ask, RowPlace, RowPlaces};
 pub use compare::{Mismatch, Outcome, Report};
 pub use mine::{Mine, Setting, StandIn};

@@ -1,115 +1,107 @@
 //! Of chapters 1 to 7.
 
-use super::{Fresh, dot, length, over, sub, times, unit};
+use super::{Fresh, dot, fresh, length, over, sub, times, unit};
 use pinhole_cli::checks::{
     chapter_01_image, chapter_02_ray, chapter_03_hit, chapter_04_orthographic, chapter_05_pinhole, chapter_06_ndc,
     chapter_07_screen,
 };
 
-pub fn fresh() -> Vec<Fresh> {
+pub fn all() -> Vec<Fresh> {
     vec![image(), ray(), hit(), orthographic(), pinhole(), ndc(), screen()]
 }
 
 fn image() -> Fresh {
     use chapter_01_image::check::exercise;
-    Fresh {
-        chapter: 1,
-        wrong: vec![
-            (exercise(|i, w| [(i % u64::from(w)) as f64 + 1.0, (i / u64::from(w)) as f64 + 1.0]), "adds 1"),
-            (
-                exercise(|i, w| {
-                    let (i, w) = (i as f32, w as f32);
-                    [f64::from(i % w + 0.5), f64::from((i / w).floor() + 0.5)]
-                }),
-                "f32",
-            ),
-            (
-                exercise(|i, w| {
-                    let w = u64::from(w - 1).max(1);
-                    [(i % w) as f64 + 0.5, (i / w) as f64 + 0.5]
-                }),
-                "width - 1",
-            ),
-            (
-                exercise(|i, w| {
-                    let (x, y) = (i % u64::from(w), i / u64::from(w));
-                    let x = if y % 2 == 1 { u64::from(w) - 1 - x } else { x };
-                    [x as f64 + 0.5, y as f64 + 0.5]
-                }),
-                "every other row backwards",
-            ),
-            (exercise(|i, w| [(i % u64::from(w)) as f64 + 0.5, (i / u64::from(w)) as f64]), "half only in x"),
-            (
-                exercise(|i, w| {
-                    [(i % u64::from(w)) as f64 + 0.5, (i / u64::from(w)) as f64 + 0.5].map(|part| part / f64::from(w))
-                }),
-                "divided by width",
-            ),
-            (
-                exercise(|i, w| {
-                    let x = i % u64::from(w);
-                    [x as f64 + 0.5, (i - x) as f64 + 0.5]
-                }),
-                "y not divided by width",
-            ),
-            (exercise(|i, w| [(i % u64::from(w)) as f64 + 0.5, (i as f64 / f64::from(w)).round() + 0.5]), "y rounded"),
-            (exercise(|i, w| [(i % u64::from(w)) as f64 - 0.5, (i / u64::from(w)) as f64 - 0.5]), "half subtracted"),
+    fresh(
+        1,
+        exercise,
+        &[
+            ("adds 1", |i, w| [(i % u64::from(w)) as f64 + 1.0, (i / u64::from(w)) as f64 + 1.0]),
+            ("f32", |i, w| {
+                let (i, w) = (i as f32, w as f32);
+                [f64::from(i % w + 0.5), f64::from((i / w).floor() + 0.5)]
+            }),
+            ("width - 1", |i, w| {
+                let w = u64::from(w - 1).max(1);
+                [(i % w) as f64 + 0.5, (i / w) as f64 + 0.5]
+            }),
+            ("every other row backwards", |i, w| {
+                let (x, y) = (i % u64::from(w), i / u64::from(w));
+                let x = if y % 2 == 1 { u64::from(w) - 1 - x } else { x };
+                [x as f64 + 0.5, y as f64 + 0.5]
+            }),
+            ("half only in x", |i, w| [(i % u64::from(w)) as f64 + 0.5, (i / u64::from(w)) as f64]),
+            ("divided by width", |i, w| {
+                [(i % u64::from(w)) as f64 + 0.5, (i / u64::from(w)) as f64 + 0.5].map(|part| part / f64::from(w))
+            }),
+            ("y not divided by width", |i, w| {
+                let x = i % u64::from(w);
+                [x as f64 + 0.5, (i - x) as f64 + 0.5]
+            }),
+            ("y rounded", |i, w| [(i % u64::from(w)) as f64 + 0.5, (i as f64 / f64::from(w)).round() + 0.5]),
+            ("half subtracted", |i, w| [(i % u64::from(w)) as f64 - 0.5, (i / u64::from(w)) as f64 - 0.5]),
+            ("2: as if width were a power of two", |i, w| {
+                let w = u64::from(w);
+                [(i & (w - 1)) as f64 + 0.5, (i >> w.ilog2()) as f64 + 0.5]
+            }),
+            ("2: from the right", |i, w| {
+                let w = u64::from(w);
+                [(w - i % w) as f64 - 0.5, (i / w) as f64 + 0.5]
+            }),
         ],
-        right: vec![
-            exercise(|i, w| {
+        &[
+            |i, w| {
                 let (i, w) = (i as f64, f64::from(w));
                 let y = (i / w).floor();
                 [i - y * w + 0.5, y + 0.5]
-            }),
-            exercise(|i, w| [i % u64::from(w), i / u64::from(w)].map(|part| (2 * part + 1) as f64 / 2.0)),
+            },
+            |i, w| [i % u64::from(w), i / u64::from(w)].map(|part| (2 * part + 1) as f64 / 2.0),
         ],
-    }
+    )
 }
 
 fn ray() -> Fresh {
     use chapter_02_ray::check::exercise;
-    Fresh {
-        chapter: 2,
-        wrong: vec![
-            (exercise(|v| Some(over(v, dot(v, v))).filter(|_| v != [0.0; 3])), "divided by squared length"),
-            (exercise(|v| Some(over(v, v[0].abs().max(v[1].abs()).max(v[2].abs()))).filter(|_| v != [0.0; 3])), "max"),
-            (exercise(|v| if length(v) < 1e-6 { None } else { Some(unit(v)) }), "epsilon"),
-            (
-                exercise(|v| {
-                    let l = f64::from((dot(v, v) as f32).sqrt());
-                    if l > 0.0 { Some(over(v, l)) } else { None }
-                }),
-                "f32",
-            ),
-            (
-                exercise(|v| {
-                    let l = v[0].hypot(v[1]);
-                    if l > 0.0 { Some(over(v, l)) } else { None }
-                }),
-                "z left out of the length",
-            ),
-            (exercise(|v| if length(v) > 0.0 { Some(over(v, -length(v))) } else { None }), "turned round"),
-            (
-                exercise(|v| {
-                    let l = length(v);
-                    if l > 0.0 { Some(v.map(|part| part.abs() / l)) } else { None }
-                }),
-                "absolute",
-            ),
-            (exercise(|v| if v == [0.0; 3] { None } else { Some(times(v, length(v))) }), "multiplied"),
-            (exercise(|v| if v.contains(&0.0) { None } else { Some(unit(v)) }), "none where any part is 0"),
-            (exercise(|v| Some(unit(v))), "0 not looked at"),
-            (exercise(|v| if dot(v, v) > 0.0 { Some(over(v, dot(v, [1.0; 3]))) } else { None }), "sum of parts"),
+    fresh(
+        2,
+        exercise,
+        &[
+            ("divided by squared length", |v| Some(over(v, dot(v, v))).filter(|_| v != [0.0; 3])),
+            ("max", |v| Some(over(v, v[0].abs().max(v[1].abs()).max(v[2].abs()))).filter(|_| v != [0.0; 3])),
+            ("epsilon", |v| if length(v) < 1e-6 { None } else { Some(unit(v)) }),
+            ("f32", |v| {
+                let l = f64::from((dot(v, v) as f32).sqrt());
+                if l > 0.0 { Some(over(v, l)) } else { None }
+            }),
+            ("z left out of the length", |v| {
+                let l = v[0].hypot(v[1]);
+                if l > 0.0 { Some(over(v, l)) } else { None }
+            }),
+            ("turned round", |v| if length(v) > 0.0 { Some(over(v, -length(v))) } else { None }),
+            ("absolute", |v| {
+                let l = length(v);
+                if l > 0.0 { Some(v.map(|part| part.abs() / l)) } else { None }
+            }),
+            ("multiplied", |v| if v == [0.0; 3] { None } else { Some(times(v, length(v))) }),
+            ("none where any part is 0", |v| if v.contains(&0.0) { None } else { Some(unit(v)) }),
+            ("0 not looked at", |v| Some(unit(v))),
+            ("sum of parts", |v| if dot(v, v) > 0.0 { Some(over(v, dot(v, [1.0; 3]))) } else { None }),
+            ("2: each part by itself", |v| {
+                if dot(v, v) > 0.0 { Some(v.map(|part| part / (part * part).sqrt())) } else { None }
+            }),
+            ("2: a small number is added to the length", |v| {
+                if v == [0.0; 3] { None } else { Some(over(v, length(v) + 1e-8)) }
+            }),
         ],
-        right: vec![
-            exercise(|v| {
+        &[
+            |v| {
                 let most = v.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
                 if v.iter().any(|part| !part.is_finite()) || most == 0.0 {
                     return None;
                 }
                 Some(unit(over(v, most)))
-            }),
-            exercise(|v| {
+            },
+            |v| {
                 if !v.iter().all(|part| part.is_finite()) || v == [0.0; 3] {
                     return None;
                 }
@@ -118,115 +110,93 @@ fn ray() -> Fresh {
                 let small = v.iter().all(|part| part.abs() < 1e-150);
                 let v = times(v, if small { 1e180 } else { 1.0 });
                 Some(over(v, v[0].hypot(v[1]).hypot(v[2])))
-            }),
+            },
         ],
-    }
+    )
 }
 
 fn hit() -> Fresh {
     use chapter_03_hit::check::exercise;
-    Fresh {
-        chapter: 3,
-        wrong: vec![
-            (
-                exercise(|o, d, c, r| {
-                    let f = sub(o, c);
-                    nearest(dot(d, d), dot(f, d), dot(f, f) - r * r)
-                }),
-                "b without its 2",
-            ),
-            (
-                exercise(|o, d, c, r| {
-                    let f = sub(c, o);
-                    nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r)
-                }),
-                "centre - origin",
-            ),
-            (
-                exercise(|o, d, c, r| {
-                    let f = sub(o, c);
-                    nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - r)
-                }),
-                "radius not squared",
-            ),
-            (
-                exercise(|o, d, c, r| {
-                    let f = sub(o, c);
-                    if dot(f, f) < r * r {
-                        return None;
-                    }
-                    nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r)
-                }),
-                "none from inside",
-            ),
-            (
-                exercise(|o, d, c, r| {
-                    let f = sub(o, c);
-                    Some(nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r)? * length(d))
-                }),
-                "distance instead of t",
-            ),
-            (
-                exercise(|o, d, c, r| {
-                    let f = sub(o, c);
-                    let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
-                    let root = (b * b - 4.0 * a * c).sqrt();
-                    [(-b - root) / 2.0 * a, (-b + root) / 2.0 * a].into_iter().find(|t| *t > 0.0)
-                }),
-                "/ 2 * a",
-            ),
-            (
-                exercise(|o, d, c, r| {
-                    let f = sub(o, c);
-                    let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
-                    let under = b * b - 4.0 * a * c;
-                    if under < 0.0 {
-                        return None;
-                    }
-                    [(-b - under) / (2.0 * a), (-b + under) / (2.0 * a)].into_iter().find(|t| *t > 0.0)
-                }),
-                "root forgotten",
-            ),
-            (
-                exercise(|o, d, c, r| {
-                    let f = sub(c, o);
-                    let t = dot(f, d) / dot(d, d);
-                    let near = sub(f, times(d, t));
-                    if dot(near, near) <= r * r && t > 0.0 { Some(t) } else { None }
-                }),
-                "closest approach instead of the hit",
-            ),
-            (
-                exercise(|o, d, c, r| {
-                    let f = sub(o, c);
-                    let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
-                    let root = (b * b - 4.0 * a * c).sqrt();
-                    [(-b - root) / (2.0 * a), (-b + root) / (2.0 * a)].into_iter().find(|t| *t > 0.001)
-                }),
-                "epsilon",
-            ),
-            (
-                exercise(|o, d, c, r| {
-                    let f = sub(o, c);
-                    let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
-                    let under = b * b - 4.0 * a * c;
-                    if under < 0.0 {
-                        return None;
-                    }
-                    Some(((-b - under.sqrt()) / (2.0 * a)).abs())
-                }),
-                "absolute of the near root",
-            ),
-            (
-                exercise(|o, d, c, r| {
-                    let f = sub(o, c);
-                    nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - (r / 2.0) * (r / 2.0))
-                }),
-                "radius taken as a diameter",
-            ),
+    fresh(
+        3,
+        exercise,
+        &[
+            ("b without its 2", |o, d, c, r| {
+                let f = sub(o, c);
+                nearest(dot(d, d), dot(f, d), dot(f, f) - r * r)
+            }),
+            ("centre - origin", |o, d, c, r| {
+                let f = sub(c, o);
+                nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r)
+            }),
+            ("radius not squared", |o, d, c, r| {
+                let f = sub(o, c);
+                nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - r)
+            }),
+            ("none from inside", |o, d, c, r| {
+                let f = sub(o, c);
+                if dot(f, f) < r * r {
+                    return None;
+                }
+                nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r)
+            }),
+            ("distance instead of t", |o, d, c, r| {
+                let f = sub(o, c);
+                Some(nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r)? * length(d))
+            }),
+            ("/ 2 * a", |o, d, c, r| {
+                let f = sub(o, c);
+                let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
+                let root = (b * b - 4.0 * a * c).sqrt();
+                [(-b - root) / 2.0 * a, (-b + root) / 2.0 * a].into_iter().find(|t| *t > 0.0)
+            }),
+            ("root forgotten", |o, d, c, r| {
+                let f = sub(o, c);
+                let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
+                let under = b * b - 4.0 * a * c;
+                if under < 0.0 {
+                    return None;
+                }
+                [(-b - under) / (2.0 * a), (-b + under) / (2.0 * a)].into_iter().find(|t| *t > 0.0)
+            }),
+            ("closest approach instead of the hit", |o, d, c, r| {
+                let f = sub(c, o);
+                let t = dot(f, d) / dot(d, d);
+                let near = sub(f, times(d, t));
+                if dot(near, near) <= r * r && t > 0.0 { Some(t) } else { None }
+            }),
+            ("epsilon", |o, d, c, r| {
+                let f = sub(o, c);
+                let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
+                let root = (b * b - 4.0 * a * c).sqrt();
+                [(-b - root) / (2.0 * a), (-b + root) / (2.0 * a)].into_iter().find(|t| *t > 0.001)
+            }),
+            ("absolute of the near root", |o, d, c, r| {
+                let f = sub(o, c);
+                let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
+                let under = b * b - 4.0 * a * c;
+                if under < 0.0 {
+                    return None;
+                }
+                Some(((-b - under.sqrt()) / (2.0 * a)).abs())
+            }),
+            ("radius taken as a diameter", |o, d, c, r| {
+                let f = sub(o, c);
+                nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - (r / 2.0) * (r / 2.0))
+            }),
+            ("2: -b - root / 2a without brackets", |o, d, c, r| {
+                let f = sub(o, c);
+                let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
+                let root = (b * b - 4.0 * a * c).sqrt();
+                [-b - root / (2.0 * a), -b + root / (2.0 * a)].into_iter().find(|t| *t > 0.0)
+            }),
+            ("2: centre left out of c", |o, d, c, r| {
+                let f = sub(o, c);
+                nearest(dot(d, d), 2.0 * dot(f, d), dot(o, o) - r * r)
+            }),
         ],
-        right: vec![
-            exercise(|o, d, c, r| {
+        &[
+            |o, d, c, r| {
                 let (f, l) = (over(sub(o, c), r), length(d));
                 let u = over(d, l);
                 let along = -dot(f, u);
@@ -240,8 +210,8 @@ fn hit() -> Fresh {
                 let mut both = [far, if far == 0.0 { 0.0 } else { -inside / far }];
                 both.sort_by(f64::total_cmp);
                 both.into_iter().find(|t| *t > 0.0).map(|t| t * r / l)
-            }),
-            exercise(|o, d, c, r| {
+            },
+            |o, d, c, r| {
                 let f = sub(o, c);
                 let (a, h) = (dot(d, d), -dot(f, d));
                 let nearest = sub(f, times(d, -h / a));
@@ -253,9 +223,9 @@ fn hit() -> Fresh {
                 let (first, second) =
                     if h > 0.0 { (c / (h + root), (h + root) / a) } else { ((h - root) / a, c / (h - root)) };
                 if first > 0.0 { Some(first) } else { Some(second).filter(|t| *t > 0.0) }
-            }),
+            },
         ],
-    }
+    )
 }
 
 /// The smaller root above 0.
@@ -267,167 +237,142 @@ fn nearest(a: f64, b: f64, c: f64) -> Option<f64> {
 fn orthographic() -> Fresh {
     use chapter_04_orthographic::check::exercise;
     const AHEAD: [f64; 3] = [0.0, 0.0, -1.0];
-    Fresh {
-        chapter: 4,
-        wrong: vec![
-            (exercise(|[x, y], h| ([x * h, y * h, 0.0], AHEAD)), "not halved"),
-            (exercise(|[x, y], h| ([x * h / 2.0, y * h / 2.0, 0.0], [0.0, 0.0, 1.0])), "+z"),
-            (
-                exercise(|[x, y], h| {
-                    let at = [x * h / 2.0, y * h / 2.0, 0.0];
-                    (at, unit([at[0], at[1], -1.0]))
-                }),
-                "perspective direction",
-            ),
-            (exercise(|[x, y], h| ([x * h / 2.0, y * h / 2.0, -1.0], AHEAD)), "origin at z -1"),
-            (exercise(|[x, y], h| ([x, y * h / 2.0, 0.0], AHEAD)), "x not scaled"),
-            (exercise(|[x, y], h| ([x * h / 2.0, -y * h / 2.0, 0.0], AHEAD)), "y down"),
-            (exercise(|[x, y], h| ([0.0; 3], unit([x * h / 2.0, y * h / 2.0, -1.0]))), "pinhole"),
-            (exercise(|[x, y], h| (AHEAD, [x * h / 2.0, y * h / 2.0, 0.0])), "swapped"),
-            (exercise(|[x, y], h| ([x / h * 2.0, y / h * 2.0, 0.0], AHEAD)), "divided by half the height"),
-            (exercise(|[x, y], h| ([x + h / 2.0, y + h / 2.0, 0.0], AHEAD)), "added"),
-            (exercise(|[x, y], h| ([y * h / 2.0, x * h / 2.0, 0.0], AHEAD)), "x, y swapped"),
+    fresh(
+        4,
+        exercise,
+        &[
+            ("not halved", |[x, y], h| ([x * h, y * h, 0.0], AHEAD)),
+            ("+z", |[x, y], h| ([x * h / 2.0, y * h / 2.0, 0.0], [0.0, 0.0, 1.0])),
+            ("perspective direction", |[x, y], h| {
+                let at = [x * h / 2.0, y * h / 2.0, 0.0];
+                (at, unit([at[0], at[1], -1.0]))
+            }),
+            ("origin at z -1", |[x, y], h| ([x * h / 2.0, y * h / 2.0, -1.0], AHEAD)),
+            ("x not scaled", |[x, y], h| ([x, y * h / 2.0, 0.0], AHEAD)),
+            ("y down", |[x, y], h| ([x * h / 2.0, -y * h / 2.0, 0.0], AHEAD)),
+            ("pinhole", |[x, y], h| ([0.0; 3], unit([x * h / 2.0, y * h / 2.0, -1.0]))),
+            ("swapped", |[x, y], h| (AHEAD, [x * h / 2.0, y * h / 2.0, 0.0])),
+            ("divided by half the height", |[x, y], h| ([x / h * 2.0, y / h * 2.0, 0.0], AHEAD)),
+            ("added", |[x, y], h| ([x + h / 2.0, y + h / 2.0, 0.0], AHEAD)),
+            ("x, y swapped", |[x, y], h| ([y * h / 2.0, x * h / 2.0, 0.0], AHEAD)),
+            ("2: from the corner", |[x, y], h| ([(x + 1.0) * h / 2.0, (y + 1.0) * h / 2.0, 0.0], AHEAD)),
+            ("2: direction is the origin normalised", |[x, y], h| {
+                let at = [x * h / 2.0, y * h / 2.0, 0.0];
+                (at, unit(at))
+            }),
         ],
-        right: vec![
-            exercise(|screen, h| {
+        &[
+            |screen, h| {
                 let at = screen.map(|part| 0.5 * part * h);
                 ([at[0], at[1], -0.0], unit([0.0, 0.0, -h]))
-            }),
-            exercise(|[x, y], h| {
+            },
+            |[x, y], h| {
                 let half = h / 2.0;
                 (times([x, y, 0.0], half), sub([0.0; 3], [0.0, 0.0, 1.0]))
-            }),
+            },
         ],
-    }
+    )
 }
 
 fn pinhole() -> Fresh {
     use chapter_05_pinhole::check::exercise;
-    Fresh {
-        chapter: 5,
-        wrong: vec![
-            (exercise(|[x, y], t| unit([x, y * t, -1.0])), "tangent only on y"),
-            (exercise(|[x, y], t| unit([x * t.tan(), y * t.tan(), -1.0])), "tangent of the tangent"),
-            (exercise(|[x, y], t| unit([x * t / 2.0, y * t / 2.0, -1.0])), "halved again"),
-            (
-                exercise(|[x, y], t| {
-                    let v = [x * t, y * t, -1.0];
-                    over(v, dot(v, v))
-                }),
-                "divided by the squared length",
-            ),
-            (exercise(|[x, y], t| unit([x * t, -y * t, -1.0])), "y down"),
-            (
-                exercise(|[x, y], t| {
-                    let v = [x * t, y * t, -1.0];
-                    [v[0] / length(v), v[1] / length(v), -1.0]
-                }),
-                "z not divided",
-            ),
-            (
-                exercise(|[x, y], t| {
-                    let v = [x * t, y * t, -1.0];
-                    over(v, v[0].hypot(v[1]))
-                }),
-                "z left out of the length",
-            ),
-            (
-                exercise(|[x, y], t| {
-                    let [a, b] = [x * t.atan(), y * t.atan()];
-                    [a.sin() * b.cos(), b.sin(), -a.cos() * b.cos()]
-                }),
-                "angles",
-            ),
-            (exercise(|[x, y], t| unit([x * t, y * t, -t])), "z times tangent too"),
-            (exercise(|[x, y], t| unit([y * t, x * t, -1.0])), "x and y swapped"),
-            (exercise(|[x, y], t| unit([x * t * t, y * t * t, -1.0])), "tangent squared"),
+    fresh(
+        5,
+        exercise,
+        &[
+            ("tangent only on y", |[x, y], t| unit([x, y * t, -1.0])),
+            ("tangent of the tangent", |[x, y], t| unit([x * t.tan(), y * t.tan(), -1.0])),
+            ("halved again", |[x, y], t| unit([x * t / 2.0, y * t / 2.0, -1.0])),
+            ("divided by the squared length", |[x, y], t| {
+                let v = [x * t, y * t, -1.0];
+                over(v, dot(v, v))
+            }),
+            ("y down", |[x, y], t| unit([x * t, -y * t, -1.0])),
+            ("z not divided", |[x, y], t| {
+                let v = [x * t, y * t, -1.0];
+                [v[0] / length(v), v[1] / length(v), -1.0]
+            }),
+            ("z left out of the length", |[x, y], t| {
+                let v = [x * t, y * t, -1.0];
+                over(v, v[0].hypot(v[1]))
+            }),
+            ("angles", |[x, y], t| {
+                let [a, b] = [x * t.atan(), y * t.atan()];
+                [a.sin() * b.cos(), b.sin(), -a.cos() * b.cos()]
+            }),
+            ("z times tangent too", |[x, y], t| unit([x * t, y * t, -t])),
+            ("x and y swapped", |[x, y], t| unit([y * t, x * t, -1.0])),
+            ("tangent squared", |[x, y], t| unit([x * t * t, y * t * t, -1.0])),
+            ("2: normalised too early", |[x, y], t| {
+                let v = unit([x, y, -1.0]);
+                [v[0] * t, v[1] * t, v[2]]
+            }),
+            ("2: tangent turned to radians", |[x, y], t| unit([x * t.to_radians(), y * t.to_radians(), -1.0])),
         ],
-        right: vec![
-            exercise(|[x, y], t| {
+        &[
+            |[x, y], t| {
                 let z = -1.0 / (1.0 + t * t * (x * x + y * y)).sqrt();
                 [-x * t * z, -y * t * z, z]
-            }),
-            exercise(|screen, t| {
+            },
+            |screen, t| {
                 let [x, y] = screen.map(|part| part * t);
                 let l = x.hypot(y).hypot(1.0);
                 [x / l, y / l, -l.recip()]
-            }),
+            },
         ],
-    }
+    )
 }
 
 fn ndc() -> Fresh {
     use chapter_06_ndc::check::exercise;
-    Fresh {
-        chapter: 6,
-        wrong: vec![
-            (
-                exercise(|p, w, h| {
-                    in_image(p).then(|| [(p[0] * f64::from(w)).round() as u32, (p[1] * f64::from(h)).round() as u32])
-                }),
-                "rounds",
-            ),
-            (
-                exercise(|p, w, h| {
-                    in_image(p).then(|| [(p[0] * f64::from(w - 1)) as u32, (p[1] * f64::from(h - 1)) as u32])
-                }),
-                "width - 1",
-            ),
-            (
-                exercise(|[x, y], w, h| {
-                    let at = |part: f64, size: u32| ((part * f64::from(size)) as u32).min(size - 1);
-                    Some([at(x, w), at(y, h)])
-                }),
-                "outside is clamped",
-            ),
-            (
-                exercise(|p, w, h| {
-                    let inside = p.iter().all(|part| (0.0..=1.0).contains(part));
-                    inside.then(|| [(p[0] * f64::from(w)) as u32, (p[1] * f64::from(h)) as u32])
-                }),
-                "1 inside",
-            ),
-            (exercise(|p, w, _| in_image(p).then(|| p.map(|part| (part * f64::from(w)) as u32))), "width for both"),
-            (
-                exercise(|p, w, h| {
-                    in_image(p).then(|| [(p[0] * f64::from(w)) as u32, ((1.0 - p[1]) * f64::from(h)) as u32])
-                }),
-                "y up",
-            ),
-            (
-                exercise(|p, w, h| in_image(p).then(|| [(p[1] * f64::from(h)) as u32, (p[0] * f64::from(w)) as u32])),
-                "swapped",
-            ),
-            (
-                exercise(|[x, y], w, h| {
-                    (x < 1.0 && y < 1.0).then(|| [(x * f64::from(w)) as u32, (y * f64::from(h)) as u32])
-                }),
-                "negative gets pixel 0",
-            ),
-            (
-                exercise(|[x, y], w, h| {
-                    if x < 0.0 || y < 0.0 || x >= 1.0 || y >= 1.0 {
-                        return None;
-                    }
-                    Some([(x * f64::from(w)) as u32, (y * f64::from(h)) as u32])
-                }),
-                "NaN gets pixel 0",
-            ),
-            (
-                exercise(|p, w, h| {
-                    in_image(p).then(|| [(p[0] * f64::from(w) + 1.0) as u32, (p[1] * f64::from(h) + 1.0) as u32])
-                }),
-                "from 1",
-            ),
-            (
-                exercise(|p, w, h| {
-                    in_image(p).then(|| [(p[0] * f64::from(w) - 0.5) as u32, (p[1] * f64::from(h) - 0.5) as u32])
-                }),
-                "minus a half",
-            ),
+    fresh(
+        6,
+        exercise,
+        &[
+            ("rounds", |p, w, h| {
+                in_image(p).then(|| [(p[0] * f64::from(w)).round() as u32, (p[1] * f64::from(h)).round() as u32])
+            }),
+            ("width - 1", |p, w, h| {
+                in_image(p).then(|| [(p[0] * f64::from(w - 1)) as u32, (p[1] * f64::from(h - 1)) as u32])
+            }),
+            ("outside is clamped", |[x, y], w, h| {
+                let at = |part: f64, size: u32| ((part * f64::from(size)) as u32).min(size - 1);
+                Some([at(x, w), at(y, h)])
+            }),
+            ("1 inside", |p, w, h| {
+                let inside = p.iter().all(|part| (0.0..=1.0).contains(part));
+                inside.then(|| [(p[0] * f64::from(w)) as u32, (p[1] * f64::from(h)) as u32])
+            }),
+            ("width for both", |p, w, _| in_image(p).then(|| p.map(|part| (part * f64::from(w)) as u32))),
+            ("y up", |p, w, h| {
+                in_image(p).then(|| [(p[0] * f64::from(w)) as u32, ((1.0 - p[1]) * f64::from(h)) as u32])
+            }),
+            ("swapped", |p, w, h| in_image(p).then(|| [(p[1] * f64::from(h)) as u32, (p[0] * f64::from(w)) as u32])),
+            ("negative gets pixel 0", |[x, y], w, h| {
+                (x < 1.0 && y < 1.0).then(|| [(x * f64::from(w)) as u32, (y * f64::from(h)) as u32])
+            }),
+            ("NaN gets pixel 0", |[x, y], w, h| {
+                if x < 0.0 || y < 0.0 || x >= 1.0 || y >= 1.0 {
+                    return None;
+                }
+                Some([(x * f64::from(w)) as u32, (y * f64::from(h)) as u32])
+            }),
+            ("from 1", |p, w, h| {
+                in_image(p).then(|| [(p[0] * f64::from(w) + 1.0) as u32, (p[1] * f64::from(h) + 1.0) as u32])
+            }),
+            ("minus a half", |p, w, h| {
+                in_image(p).then(|| [(p[0] * f64::from(w) - 0.5) as u32, (p[1] * f64::from(h) - 0.5) as u32])
+            }),
+            ("2: cast before multiplying", |p, w, h| in_image(p).then(|| [p[0] as u32 * w, p[1] as u32 * h])),
+            ("2: negative wraps round", |p, w, h| {
+                let at = |part: f64, size: u32| {
+                    (part < 1.0).then(|| ((part.rem_euclid(1.0) * f64::from(size)) as u32).min(size - 1))
+                };
+                Some([at(p[0], w)?, at(p[1], h)?])
+            }),
         ],
-        right: vec![
-            exercise(|p, w, h| {
+        &[
+            |p, w, h| {
                 let at = |part: f64, size: u32| {
                     if (0.0..1.0).contains(&part) {
                         Some(((part * f64::from(size)) as u32).min(size - 1))
@@ -436,16 +381,16 @@ fn ndc() -> Fresh {
                     }
                 };
                 Some([at(p[0], w)?, at(p[1], h)?])
-            }),
-            exercise(|[x, y], w, h| {
+            },
+            |[x, y], w, h| {
                 if !(x >= 0.0 && y >= 0.0 && x < 1.0 && y < 1.0) {
                     return None;
                 }
                 let [x, y] = [(x * f64::from(w)).floor(), (y * f64::from(h)).floor()];
                 Some([(x as u64).min(u64::from(w) - 1) as u32, (y as u64).min(u64::from(h) - 1) as u32])
-            }),
+            },
         ],
-    }
+    )
 }
 
 fn in_image(p: [f64; 2]) -> bool {
@@ -454,39 +399,35 @@ fn in_image(p: [f64; 2]) -> bool {
 
 fn screen() -> Fresh {
     use chapter_07_screen::check::exercise;
-    Fresh {
-        chapter: 7,
-        wrong: vec![
-            (
-                exercise(|[x, y], w, h| [(x / aspect(w, h) + 1.0) / 2.0, (1.0 - y / aspect(w, h)) / 2.0]),
-                "aspect on y too",
-            ),
-            (exercise(|[x, y], w, h| [(x + aspect(w, h)) / 2.0, (1.0 - y) / 2.0]), "not divided by the width"),
-            (exercise(|[x, y], w, h| [x / aspect(w, h) + 1.0, 1.0 - y]), "not halved"),
-            (
-                exercise(|[x, y], w, h| {
-                    [(x / aspect(w, h) + 1.0) / 2.0 * f64::from(w), (1.0 - y) / 2.0 * f64::from(h)]
-                }),
-                "raster",
-            ),
-            (exercise(|[x, y], w, h| [(2.0 * x - 1.0) * aspect(w, h), 1.0 - 2.0 * y]), "the other way"),
-            (exercise(|[x, y], w, h| [(1.0 - x / aspect(w, h)) / 2.0, (1.0 - y) / 2.0]), "x mirrored"),
-            (exercise(|[x, y], w, h| [x / aspect(w, h) + 0.5, 0.5 - y]), "half added, not halved"),
-            (exercise(|[x, y], w, h| [(1.0 - y) / 2.0, (x / aspect(w, h) + 1.0) / 2.0]), "swapped"),
-            (
-                exercise(|[x, y], w, h| [(x / aspect(w - 1, h.max(2) - 1).max(1e-9) + 1.0) / 2.0, (1.0 - y) / 2.0]),
-                "aspect of size - 1",
-            ),
-            (exercise(|[x, y], w, h| [x / aspect(w, h) + 1.0 / 2.0, 1.0 - y / 2.0]), "brackets missing"),
-        ],
-        right: vec![
-            exercise(|[x, y], w, h| [0.5 + x * f64::from(h) / (2.0 * f64::from(w)), 0.5 - 0.5 * y]),
-            exercise(|[x, y], w, h| {
-                let a = aspect(w, h);
-                [(x + a) / (2.0 * a), (y - 1.0) / -2.0]
+    fresh(
+        7,
+        exercise,
+        &[
+            ("aspect on y too", |[x, y], w, h| [(x / aspect(w, h) + 1.0) / 2.0, (1.0 - y / aspect(w, h)) / 2.0]),
+            ("not divided by the width", |[x, y], w, h| [(x + aspect(w, h)) / 2.0, (1.0 - y) / 2.0]),
+            ("not halved", |[x, y], w, h| [x / aspect(w, h) + 1.0, 1.0 - y]),
+            ("raster", |[x, y], w, h| [(x / aspect(w, h) + 1.0) / 2.0 * f64::from(w), (1.0 - y) / 2.0 * f64::from(h)]),
+            ("the other way", |[x, y], w, h| [(2.0 * x - 1.0) * aspect(w, h), 1.0 - 2.0 * y]),
+            ("x mirrored", |[x, y], w, h| [(1.0 - x / aspect(w, h)) / 2.0, (1.0 - y) / 2.0]),
+            ("half added, not halved", |[x, y], w, h| [x / aspect(w, h) + 0.5, 0.5 - y]),
+            ("swapped", |[x, y], w, h| [(1.0 - y) / 2.0, (x / aspect(w, h) + 1.0) / 2.0]),
+            ("aspect of size - 1", |[x, y], w, h| {
+                [(x / aspect(w - 1, h.max(2) - 1).max(1e-9) + 1.0) / 2.0, (1.0 - y) / 2.0]
+            }),
+            ("brackets missing", |[x, y], w, h| [x / aspect(w, h) + 1.0 / 2.0, 1.0 - y / 2.0]),
+            ("2: aspect divided after adding", |[x, y], w, h| [(x + 1.0) / 2.0 / aspect(w, h), (1.0 - y) / 2.0]),
+            ("2: y over the other aspect", |[x, y], w, h| {
+                [(x / aspect(w, h) + 1.0) / 2.0, 1.0 - (y / aspect(h, w) + 1.0) / 2.0]
             }),
         ],
-    }
+        &[
+            |[x, y], w, h| [0.5 + x * f64::from(h) / (2.0 * f64::from(w)), 0.5 - 0.5 * y],
+            |[x, y], w, h| {
+                let a = aspect(w, h);
+                [(x + a) / (2.0 * a), (y - 1.0) / -2.0]
+            },
+        ],
+    )
 }
 
 fn aspect(width: u32, height: u32) -> f64 {

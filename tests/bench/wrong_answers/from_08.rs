@@ -1,6 +1,6 @@
 //! Of chapters 8 to 14.
 
-use super::{Fresh, add, cross, dot, length, over, sub, times, unit};
+use super::{Fresh, add, cross, dot, fresh, length, over, sub, times, unit};
 use pinhole::scene::FovAxis;
 use pinhole_cli::checks::{
     chapter_08_field_of_view, chapter_09_camera_to_world, chapter_10_light_and_shadow, chapter_11_conventions,
@@ -8,7 +8,7 @@ use pinhole_cli::checks::{
 };
 use std::f64::consts::PI;
 
-pub fn fresh() -> Vec<Fresh> {
+pub fn all() -> Vec<Fresh> {
     vec![field_of_view(), normals(), light(), conventions(), plan(), boxes(), transforms()]
 }
 
@@ -30,75 +30,61 @@ fn angle_of(angle: f64, ratio: f64) -> f64 {
 
 fn field_of_view() -> Fresh {
     use chapter_08_field_of_view::check::exercise;
-    Fresh {
-        chapter: 8,
-        wrong: vec![
-            (exercise(|a, axis, w, h| a * f64::from(h) / spanned(axis, w, h)), "angles in proportion"),
-            (
-                exercise(|a, axis, w, h| {
-                    (a.to_radians().tan() * f64::from(h) / spanned(axis, w, h)).atan().to_degrees()
-                }),
-                "not halved",
-            ),
-            (
-                exercise(|a, axis, w, h| angle_of(a, f64::from(h) / spanned(axis, w, h)).to_radians()),
-                "answer in radians",
-            ),
-            (
-                exercise(|a, axis, w, h| {
-                    2.0 * ((a / 2.0).tan() * f64::from(h) / spanned(axis, w, h)).atan().to_degrees()
-                }),
-                "degrees taken for radians",
-            ),
-            (exercise(|a, axis, w, h| angle_of(a, spanned(axis, w, h) / f64::from(h))), "ratio inverted"),
-            (
-                exercise(|a, axis, w, h| {
-                    let axis = match axis {
-                        FovAxis::Smaller => FovAxis::Larger,
-                        FovAxis::Larger => FovAxis::Smaller,
-                        other => other,
-                    };
-                    angle_of(a, f64::from(h) / spanned(axis, w, h))
-                }),
-                "smaller and larger swapped",
-            ),
-            (
-                exercise(|a, axis, w, h| {
-                    let spanned = if axis == FovAxis::Diagonal { f64::from(w + h) } else { spanned(axis, w, h) };
-                    angle_of(a, f64::from(h) / spanned)
-                }),
-                "diagonal is the sum of the sides",
-            ),
-            (exercise(|a, axis, w, h| angle_of(a, f64::from(h) / spanned(axis, w, h)) / 2.0), "half the answer"),
-            (
-                exercise(
-                    |a, axis, w, h| {
-                        if axis == FovAxis::Diagonal { a } else { angle_of(a, f64::from(h) / spanned(axis, w, h)) }
-                    },
-                ),
-                "diagonal not converted",
-            ),
-            (
-                exercise(|a, axis, w, h| {
-                    let sine = (a.to_radians() / 2.0).sin() * f64::from(h) / spanned(axis, w, h);
-                    2.0 * sine.asin().to_degrees()
-                }),
-                "sine for tangent",
-            ),
-            (
-                exercise(|a, axis, w, h| {
-                    let axis = if axis == FovAxis::Vertical { FovAxis::Horizontal } else { axis };
-                    angle_of(a, f64::from(h) / spanned(axis, w, h))
-                }),
-                "vertical taken for horizontal",
-            ),
+    fresh(
+        8,
+        exercise,
+        &[
+            ("angles in proportion", |a, axis, w, h| a * f64::from(h) / spanned(axis, w, h)),
+            ("not halved", |a, axis, w, h| {
+                (a.to_radians().tan() * f64::from(h) / spanned(axis, w, h)).atan().to_degrees()
+            }),
+            ("answer in radians", |a, axis, w, h| angle_of(a, f64::from(h) / spanned(axis, w, h)).to_radians()),
+            ("degrees taken for radians", |a, axis, w, h| {
+                2.0 * ((a / 2.0).tan() * f64::from(h) / spanned(axis, w, h)).atan().to_degrees()
+            }),
+            ("ratio inverted", |a, axis, w, h| angle_of(a, spanned(axis, w, h) / f64::from(h))),
+            ("smaller and larger swapped", |a, axis, w, h| {
+                let axis = match axis {
+                    FovAxis::Smaller => FovAxis::Larger,
+                    FovAxis::Larger => FovAxis::Smaller,
+                    other => other,
+                };
+                angle_of(a, f64::from(h) / spanned(axis, w, h))
+            }),
+            ("diagonal is the sum of the sides", |a, axis, w, h| {
+                let spanned = if axis == FovAxis::Diagonal { f64::from(w + h) } else { spanned(axis, w, h) };
+                angle_of(a, f64::from(h) / spanned)
+            }),
+            ("half the answer", |a, axis, w, h| angle_of(a, f64::from(h) / spanned(axis, w, h)) / 2.0),
+            ("diagonal not converted", |a, axis, w, h| {
+                if axis == FovAxis::Diagonal { a } else { angle_of(a, f64::from(h) / spanned(axis, w, h)) }
+            }),
+            ("sine for tangent", |a, axis, w, h| {
+                let sine = (a.to_radians() / 2.0).sin() * f64::from(h) / spanned(axis, w, h);
+                2.0 * sine.asin().to_degrees()
+            }),
+            ("vertical taken for horizontal", |a, axis, w, h| {
+                let axis = if axis == FovAxis::Vertical { FovAxis::Horizontal } else { axis };
+                angle_of(a, f64::from(h) / spanned(axis, w, h))
+            }),
+            ("2: atan2 with its arguments swapped", |a, axis, w, h| {
+                2.0 * spanned(axis, w, h).atan2((a.to_radians() / 2.0).tan() * f64::from(h)).to_degrees()
+            }),
+            ("2: smaller is always the height", |a, axis, w, h| {
+                let spanned = match axis {
+                    FovAxis::Smaller => f64::from(h),
+                    FovAxis::Larger => f64::from(w),
+                    other => spanned(other, w, h),
+                };
+                angle_of(a, f64::from(h) / spanned)
+            }),
         ],
-        right: vec![
-            exercise(|a, axis, w, h| {
+        &[
+            |a, axis, w, h| {
                 let focal = spanned(axis, w, h) / (a * PI / 360.0).tan();
                 360.0 / PI * f64::from(h).atan2(focal)
-            }),
-            exercise(|a, axis, w, h| {
+            },
+            |a, axis, w, h| {
                 let (sine, cosine) = (a.to_radians() / 2.0).sin_cos();
                 let (w, h) = (f64::from(w), f64::from(h));
                 let of = |l: f64| (sine * h).atan2(cosine * l).to_degrees() * 2.0;
@@ -121,9 +107,9 @@ fn field_of_view() -> Fresh {
                         }
                     }
                 }
-            }),
+            },
         ],
-    }
+    )
 }
 
 /// What the matrix of these columns makes of a vector.
@@ -145,53 +131,46 @@ fn determinant([a, b, c]: [[f64; 3]; 3]) -> f64 {
 
 fn normals() -> Fresh {
     use chapter_09_camera_to_world::check::exercise;
-    Fresh {
-        chapter: 9,
-        wrong: vec![
-            (
-                exercise(|m, n| unit(over(mapped(transposed(cofactors(m)), n), determinant(m)))),
-                "inverse not transposed",
-            ),
-            (exercise(|m, n| over(mapped(cofactors(m), n), determinant(m))), "not normalised"),
-            (exercise(|m, n| unit(mapped(transposed(m), n))), "transposed, not inverted"),
-            (exercise(|m, n| unit(over(mapped(cofactors(m), n), determinant(m))).map(f64::abs)), "absolute"),
-            (exercise(|m, n| times(unit(over(mapped(cofactors(m), n), determinant(m))), -1.0)), "inward"),
-            (
-                exercise(|m, n| unit(mapped(m.map(|column| over(column, dot(column, column))), n))),
-                "columns over their squared length",
-            ),
-            (
-                exercise(|m, n| {
-                    let v = over(mapped(cofactors(m), n), determinant(m));
-                    over(v, dot(v, v))
-                }),
-                "divided by the squared length",
-            ),
-            (exercise(|_, n| n), "as it is"),
-            (exercise(|m, n| mapped(m.map(unit), n)), "columns normalised, then as a direction"),
-            (
-                exercise(|m, n| {
-                    let v = unit(mapped(cofactors(m), n));
-                    if dot(v, n) < 0.0 { times(v, -1.0) } else { v }
-                }),
-                "turned to the object's normal",
-            ),
-            (
-                exercise(|[a, b, c], n| {
-                    let m = [cross(b, c), cross(a, c), cross(a, b)];
-                    unit(over(mapped(m, n), determinant([a, b, c])))
-                }),
-                "one cross product the wrong way round",
-            ),
+    fresh(
+        9,
+        exercise,
+        &[
+            ("inverse not transposed", |m, n| unit(over(mapped(transposed(cofactors(m)), n), determinant(m)))),
+            ("not normalised", |m, n| over(mapped(cofactors(m), n), determinant(m))),
+            ("transposed, not inverted", |m, n| unit(mapped(transposed(m), n))),
+            ("absolute", |m, n| unit(over(mapped(cofactors(m), n), determinant(m))).map(f64::abs)),
+            ("inward", |m, n| times(unit(over(mapped(cofactors(m), n), determinant(m))), -1.0)),
+            ("columns over their squared length", |m, n| {
+                unit(mapped(m.map(|column| over(column, dot(column, column))), n))
+            }),
+            ("divided by the squared length", |m, n| {
+                let v = over(mapped(cofactors(m), n), determinant(m));
+                over(v, dot(v, v))
+            }),
+            ("as it is", |_, n| n),
+            ("columns normalised, then as a direction", |m, n| mapped(m.map(unit), n)),
+            ("turned to the object's normal", |m, n| {
+                let v = unit(mapped(cofactors(m), n));
+                if dot(v, n) < 0.0 { times(v, -1.0) } else { v }
+            }),
+            ("one cross product the wrong way round", |[a, b, c], n| {
+                let m = [cross(b, c), cross(a, c), cross(a, b)];
+                unit(over(mapped(m, n), determinant([a, b, c])))
+            }),
+            ("2: only the diagonal", |m, n| unit([n[0] / m[0][0], n[1] / m[1][1], n[2] / m[2][2]])),
+            ("2: columns normalised first", |m, n| {
+                let m = m.map(unit);
+                unit(over(mapped(cofactors(m), n), determinant(m)))
+            }),
         ],
-        right: vec![
-            exercise(|m, n| {
+        &[
+            |m, n| {
                 let most = if n[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
                 let t = cross(n, most);
                 let v = unit(cross(mapped(m, t), mapped(m, cross(n, t))));
                 if dot(v, mapped(m, n)) < 0.0 { times(v, -1.0) } else { v }
-            }),
-            exercise(|m, n| {
+            },
+            |m, n| {
                 let mut rows = [0, 1, 2].map(|row| [m[row][0], m[row][1], m[row][2], n[row]]);
                 for at in 0..3 {
                     let best = (at..3).max_by(|&i, &j| rows[i][at].abs().total_cmp(&rows[j][at].abs())).unwrap_or(at);
@@ -203,9 +182,9 @@ fn normals() -> Fresh {
                     }
                 }
                 unit([0, 1, 2].map(|at| rows[at][3] / rows[at][at]))
-            }),
+            },
         ],
-    }
+    )
 }
 
 /// The cosine, cut at 0, and the distance.
@@ -217,102 +196,75 @@ fn towards(p: [f64; 3], n: [f64; 3], light: [f64; 3]) -> (f64, f64) {
 
 fn light() -> Fresh {
     use chapter_10_light_and_shadow::check::exercise;
-    Fresh {
-        chapter: 10,
-        wrong: vec![
-            (
-                exercise(|c, i, p, n, light| {
-                    let l = sub(light, p);
-                    let d2 = dot(l, l);
-                    if d2 > 0.0 { c / PI * i * dot(n, l).max(0.0) / d2 } else { 0.0 }
-                }),
-                "direction not normalised",
-            ),
-            (
-                exercise(|c, i, p, n, light| {
-                    let (cosine, d) = towards(p, n, light);
-                    if d > 0.0 { c / PI * i * cosine / (4.0 * PI * d * d) } else { 0.0 }
-                }),
-                "divided by the sphere's 4 π d²",
-            ),
-            (
-                exercise(|c, i, p, n, light| {
-                    let (cosine, d) = towards(p, n, light);
-                    if d > 0.0 { c / (2.0 * PI) * i * cosine / (d * d) } else { 0.0 }
-                }),
-                "2π",
-            ),
-            (
-                exercise(|_, i, p, n, light| {
-                    let (cosine, d) = towards(p, n, light);
-                    if d > 0.0 { i * cosine / (PI * d * d) } else { 0.0 }
-                }),
-                "colour forgotten",
-            ),
-            (
-                exercise(|c, i, p, n, light| {
-                    let (cosine, d) = towards(light, n, p);
-                    if d > 0.0 { c / PI * i * cosine / (d * d) } else { 0.0 }
-                }),
-                "from the light instead of to it",
-            ),
-            (
-                exercise(|c, i, p, n, light| {
-                    let (cosine, d) = towards(p, n, light);
-                    if d > 0.0 { c / PI * i * cosine * cosine / (d * d) } else { 0.0 }
-                }),
-                "cosine twice",
-            ),
-            (
-                exercise(|c, i, p, n, light| {
-                    let (cosine, d) = towards(p, n, light);
-                    if d > 0.0 { c / PI * i * cosine / (d * d * d * d) } else { 0.0 }
-                }),
-                "distance to the fourth",
-            ),
-            (
-                exercise(|c, i, p, n, light| {
-                    let (cosine, d) = towards(p, n, light);
-                    c / PI * i * cosine / (1.0 + d * d)
-                }),
-                "1 + d²",
-            ),
-            (
-                exercise(|c, i, p, n, light| {
-                    let (cosine, d) = towards(p, n, light);
-                    if d > 0.0 { (c / PI * i * cosine / (d * d)).min(1.0) } else { 0.0 }
-                }),
-                "cut at 1",
-            ),
-            (
-                exercise(|c, i, p, n, light| {
-                    let d = length(sub(light, p));
-                    if d > 0.0 { c / PI * i * (dot(n, light) / length(light)).max(0.0) / (d * d) } else { 0.0 }
-                }),
-                "the light's position as a direction",
-            ),
-            (
-                exercise(|c, i, p, n, light| {
-                    let (cosine, d) = towards(p, n, light);
-                    if d > 0.0 { c * PI * i * cosine / (d * d) } else { 0.0 }
-                }),
-                "times π",
-            ),
-            (
-                exercise(|c, i, p, n, light| {
-                    let (cosine, _) = towards(p, n, light);
-                    c / PI * i * cosine
-                }),
-                "distance forgotten",
-            ),
+    fresh(
+        10,
+        exercise,
+        &[
+            ("direction not normalised", |c, i, p, n, light| {
+                let l = sub(light, p);
+                let d2 = dot(l, l);
+                if d2 > 0.0 { c / PI * i * dot(n, l).max(0.0) / d2 } else { 0.0 }
+            }),
+            ("divided by the sphere's 4 π d²", |c, i, p, n, light| {
+                let (cosine, d) = towards(p, n, light);
+                if d > 0.0 { c / PI * i * cosine / (4.0 * PI * d * d) } else { 0.0 }
+            }),
+            ("2π", |c, i, p, n, light| {
+                let (cosine, d) = towards(p, n, light);
+                if d > 0.0 { c / (2.0 * PI) * i * cosine / (d * d) } else { 0.0 }
+            }),
+            ("colour forgotten", |_, i, p, n, light| {
+                let (cosine, d) = towards(p, n, light);
+                if d > 0.0 { i * cosine / (PI * d * d) } else { 0.0 }
+            }),
+            ("from the light instead of to it", |c, i, p, n, light| {
+                let (cosine, d) = towards(light, n, p);
+                if d > 0.0 { c / PI * i * cosine / (d * d) } else { 0.0 }
+            }),
+            ("cosine twice", |c, i, p, n, light| {
+                let (cosine, d) = towards(p, n, light);
+                if d > 0.0 { c / PI * i * cosine * cosine / (d * d) } else { 0.0 }
+            }),
+            ("distance to the fourth", |c, i, p, n, light| {
+                let (cosine, d) = towards(p, n, light);
+                if d > 0.0 { c / PI * i * cosine / (d * d * d * d) } else { 0.0 }
+            }),
+            ("1 + d²", |c, i, p, n, light| {
+                let (cosine, d) = towards(p, n, light);
+                c / PI * i * cosine / (1.0 + d * d)
+            }),
+            ("cut at 1", |c, i, p, n, light| {
+                let (cosine, d) = towards(p, n, light);
+                if d > 0.0 { (c / PI * i * cosine / (d * d)).min(1.0) } else { 0.0 }
+            }),
+            ("the light's position as a direction", |c, i, p, n, light| {
+                let d = length(sub(light, p));
+                if d > 0.0 { c / PI * i * (dot(n, light) / length(light)).max(0.0) / (d * d) } else { 0.0 }
+            }),
+            ("times π", |c, i, p, n, light| {
+                let (cosine, d) = towards(p, n, light);
+                if d > 0.0 { c * PI * i * cosine / (d * d) } else { 0.0 }
+            }),
+            ("distance forgotten", |c, i, p, n, light| {
+                let (cosine, _) = towards(p, n, light);
+                c / PI * i * cosine
+            }),
+            ("2: |x| + |y| + |z| for the distance", |c, i, p, n, light| {
+                let d: f64 = sub(light, p).iter().map(|part| part.abs()).sum();
+                if d > 0.0 { c / PI * i * (dot(n, sub(light, p)) / d).max(0.0) / (d * d) } else { 0.0 }
+            }),
+            ("2: gamma", |c, i, p, n, light| {
+                let (cosine, d) = towards(p, n, light);
+                if d > 0.0 { (c / PI * i * cosine / (d * d)).powf(1.0 / 2.2) } else { 0.0 }
+            }),
         ],
-        right: vec![
-            exercise(|c, i, p, n, light| {
+        &[
+            |c, i, p, n, light| {
                 let l = sub(light, p);
                 let facing = dot(n, l);
                 if facing <= 0.0 { 0.0 } else { i * c * facing / (PI * dot(l, l).powf(1.5)) }
-            }),
-            exercise(|colour, intensity, p, n, light| {
+            },
+            |colour, intensity, p, n, light| {
                 let l = [light[0] - p[0], light[1] - p[1], light[2] - p[2]];
                 let d = l[0].hypot(l[1]).hypot(l[2]);
                 if d == 0.0 {
@@ -320,52 +272,46 @@ fn light() -> Fresh {
                 }
                 let irradiance = intensity * n.iter().zip(l).map(|(a, b)| a * (b / d)).sum::<f64>() / d / d;
                 if irradiance < 0.0 { 0.0 } else { colour * irradiance * std::f64::consts::FRAC_1_PI }
-            }),
+            },
         ],
-    }
+    )
 }
 
 fn conventions() -> Fresh {
     use chapter_11_conventions::check::exercise;
-    Fresh {
-        chapter: 11,
-        wrong: vec![
-            (exercise(|[x, y, z], r, u, a| [x * s(r), y * s(u), z * s(a)]), "z the wrong way"),
-            (exercise(|[x, y, z], r, u, a| [x * s(!r), y * s(u), z * s(!a)]), "x the wrong way"),
-            (exercise(|[x, y, z], r, u, a| [x * s(r), z * s(!a), y * s(u)]), "y and z swapped"),
-            (exercise(|[x, y, z], r, _, a| [x * s(r), y, z * s(!a)]), "y left out"),
-            (exercise(|[x, y, z], r, u, _| [x * s(r), y * s(u), -z]), "z always turned"),
-            (
-                exercise(|[x, y, z], r, u, a| {
-                    [x * f64::from(u8::from(r)), y * f64::from(u8::from(u)), z * f64::from(u8::from(!a))]
-                }),
-                "0 instead of -1",
-            ),
-            (
-                exercise(|[x, y, z], r, u, a| {
-                    if !r {
-                        return [-x, y, z];
-                    }
-                    if !u {
-                        return [x, -y, z];
-                    }
-                    [x, y, z * s(!a)]
-                }),
-                "only the first flip",
-            ),
-            (exercise(|[x, y, z], r, u, a| [x * s(a), y * s(u), z * s(!r)]), "flags of x and z mixed up"),
-            (
-                exercise(|[x, y, z], r, u, a| {
-                    let right_handed = r == (u == !a);
-                    [x, y, if right_handed { z } else { -z }]
-                }),
-                "only the handedness",
-            ),
-            (exercise(|[x, y, z], r, u, a| [x.abs() * s(r), y.abs() * s(u), z.abs() * s(!a)]), "absolute"),
-            (exercise(|[x, y, z], r, u, a| [x * s(r), y * s(!u), z * s(!a)]), "y the wrong way"),
+    fresh(
+        11,
+        exercise,
+        &[
+            ("z the wrong way", |[x, y, z], r, u, a| [x * s(r), y * s(u), z * s(a)]),
+            ("x the wrong way", |[x, y, z], r, u, a| [x * s(!r), y * s(u), z * s(!a)]),
+            ("y and z swapped", |[x, y, z], r, u, a| [x * s(r), z * s(!a), y * s(u)]),
+            ("y left out", |[x, y, z], r, _, a| [x * s(r), y, z * s(!a)]),
+            ("z always turned", |[x, y, z], r, u, _| [x * s(r), y * s(u), -z]),
+            ("0 instead of -1", |[x, y, z], r, u, a| {
+                [x * f64::from(u8::from(r)), y * f64::from(u8::from(u)), z * f64::from(u8::from(!a))]
+            }),
+            ("only the first flip", |[x, y, z], r, u, a| {
+                if !r {
+                    return [-x, y, z];
+                }
+                if !u {
+                    return [x, -y, z];
+                }
+                [x, y, z * s(!a)]
+            }),
+            ("flags of x and z mixed up", |[x, y, z], r, u, a| [x * s(a), y * s(u), z * s(!r)]),
+            ("only the handedness", |[x, y, z], r, u, a| {
+                let right_handed = r == (u == !a);
+                [x, y, if right_handed { z } else { -z }]
+            }),
+            ("absolute", |[x, y, z], r, u, a| [x.abs() * s(r), y.abs() * s(u), z.abs() * s(!a)]),
+            ("y the wrong way", |[x, y, z], r, u, a| [x * s(r), y * s(!u), z * s(!a)]),
+            ("2: all turned if any is", |v, r, u, a| if r && u && !a { v } else { times(v, -1.0) }),
+            ("2: z turned only where x is not", |[x, y, z], r, u, a| [x * s(r), y * s(u), if r && a { -z } else { z }]),
         ],
-        right: vec![
-            exercise(|v, r, u, a| {
+        &[
+            |v, r, u, a| {
                 let mut out = v;
                 for (at, turned) in [!r, !u, a].into_iter().enumerate() {
                     if turned {
@@ -373,13 +319,13 @@ fn conventions() -> Fresh {
                     }
                 }
                 out
-            }),
-            exercise(|[x, y, z], r, u, a| {
+            },
+            |[x, y, z], r, u, a| {
                 let signed = |plus: bool| f64::from(i8::from(plus) * 2 - 1);
                 [x * signed(r), signed(u) * y, -signed(a) * z]
-            }),
+            },
         ],
-    }
+    )
 }
 
 fn s(plus: bool) -> f64 {
@@ -398,122 +344,113 @@ fn plan() -> Fresh {
         }
         kept
     }
-    Fresh {
-        chapter: 12,
-        wrong: vec![
-            (
-                exercise(|stages, asked| {
-                    let mut wanted = vec![asked.to_owned()];
-                    let mut kept = Vec::new();
-                    for stage in stages {
-                        if stage.needed && stage.writes.iter().any(|column| wanted.contains(column)) {
+    fresh(
+        12,
+        exercise,
+        &[
+            ("forwards", |stages, asked| {
+                let mut wanted = vec![asked.to_owned()];
+                let mut kept = Vec::new();
+                for stage in stages {
+                    if stage.needed && stage.writes.iter().any(|column| wanted.contains(column)) {
+                        wanted.extend(stage.reads.iter().cloned());
+                        kept.push(stage.name.clone());
+                    }
+                }
+                kept
+            }),
+            ("reads of all stages", |stages, asked| {
+                let read = |column: &String| stages.iter().any(|stage| stage.reads.contains(column));
+                let keep = |stage: &&StageWords| {
+                    stage.needed && stage.writes.iter().any(|column| column == asked || read(column))
+                };
+                stages.iter().filter(keep).map(|stage| stage.name.clone()).collect()
+            }),
+            ("all needed", |stages, _| {
+                stages.iter().filter(|stage| stage.needed).map(|stage| stage.name.clone()).collect()
+            }),
+            ("only the last writer", |stages, asked| {
+                let (mut wanted, mut kept) = (vec![asked.to_owned()], Vec::new());
+                for stage in stages.iter().rev().filter(|stage| stage.needed) {
+                    if stage.writes.iter().any(|column| wanted.contains(column)) {
+                        wanted.retain(|column| !stage.writes.contains(column));
+                        wanted.extend(stage.reads.iter().cloned());
+                        kept.insert(0, stage.name.clone());
+                    }
+                }
+                kept
+            }),
+            ("readers too", |stages, asked| {
+                backwards(stages, asked, |stage, wanted| {
+                    stage.writes.iter().chain(&stage.reads).any(|column| wanted.contains(column))
+                })
+            }),
+            ("all that it writes must be wanted", |stages, asked| {
+                backwards(stages, asked, |stage, wanted| stage.writes.iter().all(|column| wanted.contains(column)))
+            }),
+            ("one step back", |stages, asked| {
+                let last: Vec<_> = stages.iter().filter(|stage| stage.writes.iter().any(|c| c == asked)).collect();
+                let keep = |stage: &&StageWords| {
+                    let read = |column: &String| last.iter().any(|last| last.needed && last.reads.contains(column));
+                    stage.needed && stage.writes.iter().any(|column| column == asked || read(column))
+                };
+                stages.iter().filter(keep).map(|stage| stage.name.clone()).collect()
+            }),
+            ("sorted", |stages, asked| {
+                let mut kept =
+                    backwards(stages, asked, |stage, wanted| stage.writes.iter().any(|c| wanted.contains(c)));
+                kept.sort();
+                kept
+            }),
+            ("whatever the order", |stages, asked| {
+                let mut wanted = vec![asked.to_owned()];
+                for _ in stages {
+                    for stage in stages.iter().filter(|stage| stage.needed) {
+                        if stage.writes.iter().any(|column| wanted.contains(column)) {
                             wanted.extend(stage.reads.iter().cloned());
-                            kept.push(stage.name.clone());
+                            wanted.sort();
+                            wanted.dedup();
                         }
                     }
-                    kept
-                }),
-                "forwards",
-            ),
-            (
-                exercise(|stages, asked| {
-                    let read = |column: &String| stages.iter().any(|stage| stage.reads.contains(column));
-                    let keep = |stage: &&StageWords| {
-                        stage.needed && stage.writes.iter().any(|column| column == asked || read(column))
-                    };
-                    stages.iter().filter(keep).map(|stage| stage.name.clone()).collect()
-                }),
-                "reads of all stages",
-            ),
-            (
-                exercise(|stages, _| {
-                    stages.iter().filter(|stage| stage.needed).map(|stage| stage.name.clone()).collect()
-                }),
-                "all needed",
-            ),
-            (
-                exercise(|stages, asked| {
-                    let (mut wanted, mut kept) = (vec![asked.to_owned()], Vec::new());
-                    for stage in stages.iter().rev().filter(|stage| stage.needed) {
-                        if stage.writes.iter().any(|column| wanted.contains(column)) {
-                            wanted.retain(|column| !stage.writes.contains(column));
+                }
+                let keep = |stage: &&StageWords| stage.needed && stage.writes.iter().any(|c| wanted.contains(c));
+                stages.iter().filter(keep).map(|stage| stage.name.clone()).collect()
+            }),
+            ("what a stage that is not needed reads", |stages, asked| {
+                let (mut wanted, mut kept) = (vec![asked.to_owned()], Vec::new());
+                for stage in stages.iter().rev() {
+                    if stage.writes.iter().any(|column| wanted.contains(column)) {
+                        wanted.extend(stage.reads.iter().cloned());
+                        if stage.needed {
+                            kept.insert(0, stage.name.clone());
+                        }
+                    }
+                }
+                kept
+            }),
+            ("2: a stage once for each column", |stages, asked| {
+                let (mut wanted, mut kept) = (vec![asked.to_owned()], Vec::new());
+                for stage in stages.iter().rev().filter(|stage| stage.needed) {
+                    for column in &stage.writes {
+                        if wanted.contains(column) {
                             wanted.extend(stage.reads.iter().cloned());
                             kept.insert(0, stage.name.clone());
                         }
                     }
-                    kept
-                }),
-                "only the last writer",
-            ),
-            (
-                exercise(|stages, asked| {
-                    backwards(stages, asked, |stage, wanted| {
-                        stage.writes.iter().chain(&stage.reads).any(|column| wanted.contains(column))
-                    })
-                }),
-                "readers too",
-            ),
-            (
-                exercise(|stages, asked| {
-                    backwards(stages, asked, |stage, wanted| stage.writes.iter().all(|column| wanted.contains(column)))
-                }),
-                "all that it writes must be wanted",
-            ),
-            (
-                exercise(|stages, asked| {
-                    let last: Vec<_> = stages.iter().filter(|stage| stage.writes.iter().any(|c| c == asked)).collect();
-                    let keep = |stage: &&StageWords| {
-                        let read = |column: &String| last.iter().any(|last| last.needed && last.reads.contains(column));
-                        stage.needed && stage.writes.iter().any(|column| column == asked || read(column))
-                    };
-                    stages.iter().filter(keep).map(|stage| stage.name.clone()).collect()
-                }),
-                "one step back",
-            ),
-            (
-                exercise(|stages, asked| {
-                    let mut kept =
-                        backwards(stages, asked, |stage, wanted| stage.writes.iter().any(|c| wanted.contains(c)));
-                    kept.sort();
-                    kept
-                }),
-                "sorted",
-            ),
-            (
-                exercise(|stages, asked| {
-                    let mut wanted = vec![asked.to_owned()];
-                    for _ in stages {
-                        for stage in stages.iter().filter(|stage| stage.needed) {
-                            if stage.writes.iter().any(|column| wanted.contains(column)) {
-                                wanted.extend(stage.reads.iter().cloned());
-                                wanted.sort();
-                                wanted.dedup();
-                            }
-                        }
-                    }
-                    let keep = |stage: &&StageWords| stage.needed && stage.writes.iter().any(|c| wanted.contains(c));
-                    stages.iter().filter(keep).map(|stage| stage.name.clone()).collect()
-                }),
-                "whatever the order",
-            ),
-            (
-                exercise(|stages, asked| {
-                    let (mut wanted, mut kept) = (vec![asked.to_owned()], Vec::new());
-                    for stage in stages.iter().rev() {
-                        if stage.writes.iter().any(|column| wanted.contains(column)) {
-                            wanted.extend(stage.reads.iter().cloned());
-                            if stage.needed {
-                                kept.insert(0, stage.name.clone());
-                            }
-                        }
-                    }
-                    kept
-                }),
-                "what a stage that is not needed reads",
-            ),
+                }
+                kept
+            }),
+            ("2: at most two", |stages, asked| {
+                let mut kept =
+                    backwards(stages, asked, |stage, wanted| stage.writes.iter().any(|c| wanted.contains(c)));
+                kept.reverse();
+                kept.truncate(2);
+                kept.reverse();
+                kept
+            }),
         ],
-        right: vec![
-            exercise(|stages, asked| {
+        &[
+            |stages, asked| {
                 fn keeps(stages: &[StageWords], at: usize, asked: &str) -> bool {
                     let later = |column: &String| {
                         let mut after = at + 1..stages.len();
@@ -523,8 +460,8 @@ fn plan() -> Fresh {
                 }
                 let kept = (0..stages.len()).filter(|&at| keeps(stages, at, asked));
                 kept.map(|at| stages[at].name.to_string()).collect()
-            }),
-            exercise(|stages, asked| {
+            },
+            |stages, asked| {
                 let mut wanted = std::collections::HashSet::from([asked]);
                 let mut marks = vec![false; stages.len()];
                 let mut at = stages.len();
@@ -537,9 +474,9 @@ fn plan() -> Fresh {
                     }
                 }
                 stages.iter().zip(marks).filter_map(|(stage, mark)| mark.then(|| stage.name.clone())).collect()
-            }),
+            },
         ],
-    }
+    )
 }
 
 /// Where the line is between the faces of one axis.
@@ -569,101 +506,79 @@ fn first(near: f64, far: f64) -> Option<f64> {
 
 fn boxes() -> Fresh {
     use chapter_13_shapes::check::exercise;
-    Fresh {
-        chapter: 13,
-        wrong: vec![
-            (
-                exercise(|o, d, min, max| {
-                    let [x, y, z] = slabs(o, d, min, max);
-                    first(x[0].min(y[0]).min(z[0]), x[1].max(y[1]).max(z[1]))
-                }),
-                "union of the slabs",
-            ),
-            (
-                exercise(|o, d, min, max| {
-                    let [x, y, z] = slabs(o, d, min, max);
-                    first(x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1])).map(|t| t * length(d))
-                }),
-                "distance",
-            ),
-            (
-                exercise(|o, d, min, max| {
-                    let [x, y, _] = slabs(o, d, min, max);
-                    first(x[0].max(y[0]), x[1].min(y[1]))
-                }),
-                "z left out",
-            ),
-            (
-                exercise(|o, d, min, max| {
-                    let [x, y, z] = slabs(o, d, min, max);
-                    let (near, far) = (x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]));
-                    if near < far { first(near, far) } else { None }
-                }),
-                "edges and corners lost",
-            ),
-            (
-                exercise(|o, d, min, max| {
-                    let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
-                    for at in (0..3).filter(|&at| d[at] != 0.0) {
-                        let [a, b] = slab(o[at], d[at], min[at], max[at]);
-                        (near, far) = (near.max(a), far.min(b));
-                    }
-                    first(near, far)
-                }),
-                "parallel faces skipped",
-            ),
-            (
-                exercise(|o, d, min, max| {
-                    let [x, y, z] = slabs(o, d, min, max);
-                    let (near, far) = (x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]));
-                    if near > far || near <= 0.0 { None } else { Some(near) }
-                }),
-                "none from inside",
-            ),
-            (
-                exercise(|o, d, min, max| {
-                    let [x, y, z] = slabs(o, d, min, max);
-                    let (near, far) = (x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]));
-                    if near > far || far < 0.0 { None } else { Some(near.max(0.0)) }
-                }),
-                "0 from inside",
-            ),
-            (
-                exercise(|o, d, min, max| {
-                    if d.contains(&0.0) {
-                        return None;
-                    }
-                    let [x, y, z] = slabs(o, d, min, max);
-                    first(x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]))
-                }),
-                "none for any 0 in the direction",
-            ),
-            (
-                exercise(|o, d, min, max| {
-                    let [x, y, z] = slabs(o, d, min, max);
-                    let (near, far) = (x[0].min(y[0]).min(z[0]), x[1].min(y[1]).min(z[1]));
-                    first(near, far)
-                }),
-                "min of the entries",
-            ),
-            (
-                exercise(|o, d, min, max| {
-                    let [x, y, z] = slabs(o, d, min, add(min, max));
-                    first(x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]))
-                }),
-                "max taken for a size",
-            ),
-            (
-                exercise(|o, d, min, max| {
-                    let [x, y, z] = slabs(o, d, min, max);
-                    let (near, far) = (x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]));
-                    if near > far || far <= 0.0 { None } else { Some(far) }
-                }),
-                "the far face",
-            ),
+    fresh(
+        13,
+        exercise,
+        &[
+            ("union of the slabs", |o, d, min, max| {
+                let [x, y, z] = slabs(o, d, min, max);
+                first(x[0].min(y[0]).min(z[0]), x[1].max(y[1]).max(z[1]))
+            }),
+            ("distance", |o, d, min, max| {
+                let [x, y, z] = slabs(o, d, min, max);
+                first(x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1])).map(|t| t * length(d))
+            }),
+            ("z left out", |o, d, min, max| {
+                let [x, y, _] = slabs(o, d, min, max);
+                first(x[0].max(y[0]), x[1].min(y[1]))
+            }),
+            ("edges and corners lost", |o, d, min, max| {
+                let [x, y, z] = slabs(o, d, min, max);
+                let (near, far) = (x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]));
+                if near < far { first(near, far) } else { None }
+            }),
+            ("parallel faces skipped", |o, d, min, max| {
+                let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
+                for at in (0..3).filter(|&at| d[at] != 0.0) {
+                    let [a, b] = slab(o[at], d[at], min[at], max[at]);
+                    (near, far) = (near.max(a), far.min(b));
+                }
+                first(near, far)
+            }),
+            ("none from inside", |o, d, min, max| {
+                let [x, y, z] = slabs(o, d, min, max);
+                let (near, far) = (x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]));
+                if near > far || near <= 0.0 { None } else { Some(near) }
+            }),
+            ("0 from inside", |o, d, min, max| {
+                let [x, y, z] = slabs(o, d, min, max);
+                let (near, far) = (x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]));
+                if near > far || far < 0.0 { None } else { Some(near.max(0.0)) }
+            }),
+            ("none for any 0 in the direction", |o, d, min, max| {
+                if d.contains(&0.0) {
+                    return None;
+                }
+                let [x, y, z] = slabs(o, d, min, max);
+                first(x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]))
+            }),
+            ("min of the entries", |o, d, min, max| {
+                let [x, y, z] = slabs(o, d, min, max);
+                let (near, far) = (x[0].min(y[0]).min(z[0]), x[1].min(y[1]).min(z[1]));
+                first(near, far)
+            }),
+            ("max taken for a size", |o, d, min, max| {
+                let [x, y, z] = slabs(o, d, min, add(min, max));
+                first(x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]))
+            }),
+            ("the far face", |o, d, min, max| {
+                let [x, y, z] = slabs(o, d, min, max);
+                let (near, far) = (x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]));
+                if near > far || far <= 0.0 { None } else { Some(far) }
+            }),
+            ("2: the direction without its signs", |o, d, min, max| {
+                let [x, y, z] = slabs(o, d.map(f64::abs), min, max);
+                first(x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]))
+            }),
+            ("2: the entry even behind", |o, d, min, max| {
+                let all = slabs(o, d, min, max);
+                let near = all[0][0].max(all[1][0]).max(all[2][0]);
+                let far = all[0][1].min(all[1][1]).min(all[2][1]);
+                if near > far || far < 0.0 { None } else { Some(near) }
+            }),
         ],
-        right: vec![
-            exercise(|o, d, min, max| {
+        &[
+            |o, d, min, max| {
                 let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
                 for at in 0..3 {
                     let to_min = min[at] - o[at];
@@ -691,15 +606,15 @@ fn boxes() -> Fresh {
                     (true, false, true) => Some(far),
                     _ => None,
                 }
-            }),
-            exercise(|o, d, min, max| {
+            },
+            |o, d, min, max| {
                 let all = slabs(o, d, min, max);
                 let crossings = all.iter().flatten().copied().filter(|t| t.is_finite() && *t > 0.0);
                 let in_all = |t: f64| all.iter().all(|[a, b]| *a <= t && t <= *b);
                 crossings.filter(|&t| in_all(t)).min_by(f64::total_cmp)
-            }),
+            },
         ],
-    }
+    )
 }
 
 fn mixed(normals: [[f64; 3]; 3], weights: [f64; 3]) -> [f64; 3] {
@@ -715,56 +630,47 @@ fn lit(geometric: [f64; 3], shading: [f64; 3], eye: [f64; 3], light: [f64; 3]) -
 
 fn transforms() -> Fresh {
     use chapter_14_transforms::check::exercise;
-    Fresh {
-        chapter: 14,
-        wrong: vec![
-            (exercise(|g, n, w, eye, light| lit(g, mixed(n, w), eye, light)), "mixed normal not normalised"),
+    fresh(
+        14,
+        exercise,
+        &[
+            ("mixed normal not normalised", |g, n, w, eye, light| lit(g, mixed(n, w), eye, light)),
+            ("light not normalised", |g, n, w, eye, light| lit(g, unit(mixed(n, w)), eye, light) * length(light)),
+            ("geometric normal", |g, _, _, eye, light| lit(g, g, eye, light)),
+            ("Gouraud", |g, n, w, eye, light| (0..3).map(|at| w[at] * lit(g, n[at], eye, light)).sum()),
             (
-                exercise(|g, n, w, eye, light| lit(g, unit(mixed(n, w)), eye, light) * length(light)),
-                "light not normalised",
-            ),
-            (exercise(|g, _, _, eye, light| lit(g, g, eye, light)), "geometric normal"),
-            (exercise(|g, n, w, eye, light| (0..3).map(|at| w[at] * lit(g, n[at], eye, light)).sum()), "Gouraud"),
-            (
-                exercise(
-                    |g, n, w, _, light| {
-                        if dot(g, light) <= 0.0 { 0.0 } else { dot(unit(mixed(n, w)), unit(light)).max(0.0) }
-                    },
-                ),
                 "never turned",
+                |g, n, w, _, light| {
+                    if dot(g, light) <= 0.0 { 0.0 } else { dot(unit(mixed(n, w)), unit(light)).max(0.0) }
+                },
             ),
-            (exercise(|_, n, w, _, light| dot(unit(mixed(n, w)), unit(light)).abs()), "absolute cosine"),
-            (
-                exercise(|g, n, w, eye, light| {
-                    let g = if dot(g, eye) < 0.0 { times(g, -1.0) } else { g };
-                    let n = unit(mixed(n, w));
-                    let n = if dot(n, g) < 0.0 { times(n, -1.0) } else { n };
-                    dot(n, unit(light)).max(0.0)
-                }),
-                "light below the triangle not looked at",
-            ),
-            (
-                exercise(|g, n, w, eye, light| {
-                    let most = (0..3).max_by(|&a, &b| w[a].total_cmp(&w[b])).unwrap_or(0);
-                    lit(g, n[most], eye, light)
-                }),
-                "nearest corner",
-            ),
-            (exercise(|g, n, _, eye, light| lit(g, unit(mixed(n, [1.0 / 3.0; 3])), eye, light)), "weights left out"),
-            (exercise(|g, n, w, eye, light| lit(g, unit(mixed(n, [w[1], w[2], w[0]])), eye, light)), "weights rotated"),
-            (
-                exercise(|g, n, w, eye, light| {
-                    let n = unit(mixed(n, w));
-                    let n = if dot(n, eye) < 0.0 { times(n, -1.0) } else { n };
-                    let g = if dot(g, eye) < 0.0 { times(g, -1.0) } else { g };
-                    if dot(g, light) <= 0.0 { 0.0 } else { dot(n, unit(light)).max(0.0) }
-                }),
-                "turned by the shading normal",
-            ),
-            (exercise(|g, n, w, _, light| lit(g, unit(mixed(n, w)), light, light)), "turned to the light"),
+            ("absolute cosine", |_, n, w, _, light| dot(unit(mixed(n, w)), unit(light)).abs()),
+            ("light below the triangle not looked at", |g, n, w, eye, light| {
+                let g = if dot(g, eye) < 0.0 { times(g, -1.0) } else { g };
+                let n = unit(mixed(n, w));
+                let n = if dot(n, g) < 0.0 { times(n, -1.0) } else { n };
+                dot(n, unit(light)).max(0.0)
+            }),
+            ("nearest corner", |g, n, w, eye, light| {
+                let most = (0..3).max_by(|&a, &b| w[a].total_cmp(&w[b])).unwrap_or(0);
+                lit(g, n[most], eye, light)
+            }),
+            ("weights left out", |g, n, _, eye, light| lit(g, unit(mixed(n, [1.0 / 3.0; 3])), eye, light)),
+            ("weights rotated", |g, n, w, eye, light| lit(g, unit(mixed(n, [w[1], w[2], w[0]])), eye, light)),
+            ("turned by the shading normal", |g, n, w, eye, light| {
+                let n = unit(mixed(n, w));
+                let n = if dot(n, eye) < 0.0 { times(n, -1.0) } else { n };
+                let g = if dot(g, eye) < 0.0 { times(g, -1.0) } else { g };
+                if dot(g, light) <= 0.0 { 0.0 } else { dot(n, unit(light)).max(0.0) }
+            }),
+            ("turned to the light", |g, n, w, _, light| lit(g, unit(mixed(n, w)), light, light)),
+            ("2: cosine to the eye", |g, n, w, eye, light| {
+                if lit(g, unit(mixed(n, w)), eye, light) > 0.0 { lit(g, unit(mixed(n, w)), eye, eye) } else { 0.0 }
+            }),
+            ("2: half vector", |g, n, w, eye, light| lit(g, unit(mixed(n, w)), eye, add(unit(eye), unit(light)))),
         ],
-        right: vec![
-            exercise(|g, n, w, eye, light| {
+        &[
+            |g, n, w, eye, light| {
                 let side = dot(g, eye).signum();
                 if dot(g, light) * side <= 0.0 {
                     return 0.0;
@@ -778,15 +684,15 @@ fn transforms() -> Fresh {
                 let same = if dot(sum, g) * side < 0.0 { -1.0 } else { 1.0 };
                 let cosine = same * dot(sum, light) / (dot(sum, sum) * dot(light, light)).sqrt();
                 if cosine > 0.0 { cosine } else { 0.0 }
-            }),
-            exercise(|g, n, w, eye, light| {
+            },
+            |g, n, w, eye, light| {
                 let lit_side = (dot(g, eye) > 0.0) == (dot(g, light) > 0.0) && dot(g, light) != 0.0;
                 let flipped = (dot(g, eye) < 0.0) != (dot(n[0], g) < 0.0);
                 let s = unit(add(times(n[2], w[2]), add(times(n[1], w[1]), times(n[0], w[0]))));
                 let l = length(light);
                 let cosine = dot(s, light) / l * if flipped { -1.0 } else { 1.0 };
                 f64::from(u8::from(lit_side)) * cosine.clamp(0.0, 1.0)
-            }),
+            },
         ],
-    }
+    )
 }

@@ -1,13 +1,13 @@
 //! Of chapters 22 to 28.
 
-use super::{Fresh, add, cross, dot, length, over, sub, times, unit};
+use super::{Fresh, add, cross, dot, fresh, length, over, sub, times, unit};
 use pinhole_cli::checks::{
     chapter_22_ambient_occlusion, chapter_23_depth_of_field, chapter_24_motion_blur, chapter_25_path_tracing,
     chapter_26_choosing_samples, chapter_27_caustics, chapter_28_meshes,
 };
 use std::f64::consts::{PI, TAU};
 
-pub fn fresh() -> Vec<Fresh> {
+pub fn all() -> Vec<Fresh> {
     vec![cosines(), lens(), motion(), roulette(), heuristic(), caustics(), meshes()]
 }
 
@@ -18,85 +18,87 @@ fn about_z(r: f64, z: f64, angle: f64) -> [f64; 3] {
 
 fn cosines() -> Fresh {
     use chapter_22_ambient_occlusion::check::exercise;
-    Fresh {
-        chapter: 22,
-        wrong: vec![
-            (exercise(|u, v| about_z(u, (1.0 - u * u).sqrt(), TAU * v)), "radius u"),
-            (exercise(|u, v| about_z((1.0 - u).sqrt(), u.sqrt(), TAU * v)), "radius and height swapped"),
-            (exercise(|u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), v)), "2π missing"),
-            (exercise(|u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), PI * v)), "half a turn"),
-            (exercise(|u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), 360.0 * v)), "degrees"),
-            (exercise(|u, v| about_z((1.0 - u * u).sqrt(), u, TAU * v)), "uniform hemisphere"),
-            (exercise(|u, v| about_z((1.0 - (1.0 - u) * (1.0 - u)).sqrt(), 1.0 - u, TAU * v)), "uniform, 1 - u"),
-            (
-                exercise(|u, v| {
-                    let r = u.sqrt();
-                    [r * (TAU * v).sin(), r * (TAU * v).cos(), (1.0 - u).sqrt()]
-                }),
-                "sine and cosine swapped",
-            ),
-            (exercise(|u, v| about_z(v.sqrt(), (1.0 - v).sqrt(), TAU * u)), "u and v swapped"),
-            (exercise(|u, v| about_z(u.sqrt(), 1.0 - u, TAU * v)), "height without its root"),
-            (
-                exercise(|u, v| {
-                    let theta = u * PI / 2.0;
-                    about_z(theta.sin(), theta.cos(), TAU * v)
-                }),
-                "angle in proportion",
-            ),
-            (exercise(|u, v| about_z(u.sqrt(), -(1.0 - u).sqrt(), TAU * v)), "downwards"),
-            (exercise(|u, v| about_z(u.sqrt(), 0.0, TAU * v)), "left on the disk"),
+    fresh(
+        22,
+        exercise,
+        &[
+            ("radius u", |u, v| about_z(u, (1.0 - u * u).sqrt(), TAU * v)),
+            ("radius and height swapped", |u, v| about_z((1.0 - u).sqrt(), u.sqrt(), TAU * v)),
+            ("2π missing", |u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), v)),
+            ("half a turn", |u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), PI * v)),
+            ("degrees", |u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), 360.0 * v)),
+            ("uniform hemisphere", |u, v| about_z((1.0 - u * u).sqrt(), u, TAU * v)),
+            ("uniform, 1 - u", |u, v| about_z((1.0 - (1.0 - u) * (1.0 - u)).sqrt(), 1.0 - u, TAU * v)),
+            ("sine and cosine swapped", |u, v| {
+                let r = u.sqrt();
+                [r * (TAU * v).sin(), r * (TAU * v).cos(), (1.0 - u).sqrt()]
+            }),
+            ("u and v swapped", |u, v| about_z(v.sqrt(), (1.0 - v).sqrt(), TAU * u)),
+            ("height without its root", |u, v| about_z(u.sqrt(), 1.0 - u, TAU * v)),
+            ("angle in proportion", |u, v| {
+                let theta = u * PI / 2.0;
+                about_z(theta.sin(), theta.cos(), TAU * v)
+            }),
+            ("downwards", |u, v| about_z(u.sqrt(), -(1.0 - u).sqrt(), TAU * v)),
+            ("left on the disk", |u, v| about_z(u.sqrt(), 0.0, TAU * v)),
+            ("2: root of u for both", |u, v| about_z(u.sqrt(), u.sqrt(), TAU * v)),
+            ("2: turn from -x", |u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), TAU * v - PI)),
         ],
-        right: vec![
-            exercise(|u, v| {
+        &[
+            |u, v| {
                 let (sine, cosine) = (v * TAU).sin_cos();
                 let foot = [cosine, sine].map(|part| part * u.powf(0.5));
                 [foot[0], foot[1], (1.0 - foot[0] * foot[0] - foot[1] * foot[1]).max(0.0).sqrt()]
-            }),
-            exercise(|u, v| {
+            },
+            |u, v| {
                 let theta = u.sqrt().asin();
                 let phi = 2.0 * PI * v;
                 [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
-            }),
+            },
         ],
-    }
+    )
 }
 
 fn lens() -> Fresh {
     use chapter_23_depth_of_field::check::exercise;
-    Fresh {
-        chapter: 23,
-        wrong: vec![
-            (exercise(|[x, y], t, [a, b], f| unit([x * t * f + a, y * t * f + b, -f])), "lens added"),
-            (exercise(|[x, y], t, [a, b], f| [x * t * f - a, y * t * f - b, -f]), "not normalised"),
-            (
-                exercise(|[x, y], t, [a, b], f| unit(sub(times(unit([x * t, y * t, -1.0]), f), [a, b, 0.0]))),
-                "distance along the ray",
-            ),
-            (exercise(|[x, y], t, _, _| unit([x * t, y * t, -1.0])), "pinhole's"),
-            (exercise(|[x, y], _, [a, b], f| unit([x * f - a, y * f - b, -f])), "no tangent"),
-            (exercise(|[x, y], t, [a, b], f| unit([x * t * f - a, y * t * f - b, -1.0])), "z not scaled"),
-            (exercise(|[x, y], t, [a, b], f| unit([x * t * f - a, y * t * f - b, f])), "z sign"),
-            (exercise(|[x, y], t, [a, b], f| unit([(x * t - a) * f, (y * t - b) * f, -f])), "lens scaled too"),
-            (exercise(|[x, y], t, [a, b], f| unit([a - x * t * f, b - y * t * f, f])), "backwards"),
-            (exercise(|[x, y], t, [a, b], f| unit([x * t * f - a * t, y * t * f - b * t, -f])), "lens times tangent"),
-            (exercise(|[x, y], t, [a, b], f| unit([x * t * f - b, y * t * f - a, -f])), "lens swapped"),
-            (exercise(|[x, y], t, [a, b], f| unit([x * f - a, y * t * f - b, -f])), "tangent only on y"),
-            (exercise(|[x, y], t, [a, b], f| unit([x * t - a, y * t - b, -f])), "place not scaled"),
+    fresh(
+        23,
+        exercise,
+        &[
+            ("lens added", |[x, y], t, [a, b], f| unit([x * t * f + a, y * t * f + b, -f])),
+            ("not normalised", |[x, y], t, [a, b], f| [x * t * f - a, y * t * f - b, -f]),
+            ("distance along the ray", |[x, y], t, [a, b], f| {
+                unit(sub(times(unit([x * t, y * t, -1.0]), f), [a, b, 0.0]))
+            }),
+            ("pinhole's", |[x, y], t, _, _| unit([x * t, y * t, -1.0])),
+            ("no tangent", |[x, y], _, [a, b], f| unit([x * f - a, y * f - b, -f])),
+            ("z not scaled", |[x, y], t, [a, b], f| unit([x * t * f - a, y * t * f - b, -1.0])),
+            ("z sign", |[x, y], t, [a, b], f| unit([x * t * f - a, y * t * f - b, f])),
+            ("lens scaled too", |[x, y], t, [a, b], f| unit([(x * t - a) * f, (y * t - b) * f, -f])),
+            ("backwards", |[x, y], t, [a, b], f| unit([a - x * t * f, b - y * t * f, f])),
+            ("lens times tangent", |[x, y], t, [a, b], f| unit([x * t * f - a * t, y * t * f - b * t, -f])),
+            ("lens swapped", |[x, y], t, [a, b], f| unit([x * t * f - b, y * t * f - a, -f])),
+            ("tangent only on y", |[x, y], t, [a, b], f| unit([x * f - a, y * t * f - b, -f])),
+            ("place not scaled", |[x, y], t, [a, b], f| unit([x * t - a, y * t - b, -f])),
+            ("2: lens on the image plane", |[x, y], t, [a, b], f| unit([x * t * f - a, y * t * f - b, 1.0 - f])),
+            ("2: unit direction less lens over f", |[x, y], t, [a, b], f| {
+                let d = unit([x * t, y * t, -1.0]);
+                unit([d[0] - a / f, d[1] - b / f, d[2]])
+            }),
         ],
-        right: vec![
-            exercise(|[x, y], t, lens, f| {
+        &[
+            |[x, y], t, lens, f| {
                 let per = 1.0 / f;
                 unit([x * t - lens[0] * per, y * t - lens[1] * per, -1.0])
-            }),
-            exercise(|[x, y], t, [a, b], f| {
+            },
+            |[x, y], t, [a, b], f| {
                 let focus = over([x * t, y * t, -1.0], 1.0 / f);
                 let to = add(focus, [-a, -b, 0.0]);
                 let l = to[0].hypot(to[1]).hypot(to[2]);
                 to.map(|part| part / l)
-            }),
+            },
         ],
-    }
+    )
 }
 
 /// The nearest t of a unit direction, as in chapter 3.
@@ -112,57 +114,53 @@ fn sphere(o: [f64; 3], d: [f64; 3], c: [f64; 3], r: f64) -> Option<f64> {
 
 fn motion() -> Fresh {
     use chapter_24_motion_blur::check::exercise;
-    Fresh {
-        chapter: 24,
-        wrong: vec![
-            (exercise(|o, d, c, r, v, t| sphere(o, d, sub(c, times(v, t)), r)), "minus"),
-            (exercise(|o, d, c, r, _, _| sphere(o, d, c, r)), "at rest"),
-            (exercise(|o, d, c, r, v, t| sphere(sub(o, times(v, t)), d, add(c, times(v, t)), r)), "both moved"),
-            (exercise(|o, d, c, r, v, _| sphere(o, d, add(c, v), r)), "time left out"),
-            (exercise(|o, d, c, r, v, t| sphere(o, d, add(c, times(unit(v), t)), r)), "velocity normalised"),
-            (
-                exercise(|o, d, c, r, v, t| {
-                    let f = sub(o, add(c, times(v, t)));
-                    let b = dot(f, d);
-                    let under = b * b - dot(f, f) + r * r;
-                    if under < 0.0 || b > 0.0 { None } else { Some(-b + under.sqrt()) }
-                }),
-                "far root",
-            ),
-            (exercise(|o, d, c, r, v, t| sphere(o, d, add(c, times(v, t * t)), r)), "time squared"),
-            (exercise(|o, d, c, r, v, t| sphere(o, d, add(c, times(v, t / 2.0)), r)), "half the time"),
-            (
-                exercise(|o, d, c, r, v, t| {
-                    let c = add(c, times(v, t));
-                    Some(sphere(o, d, c, r)? + t)
-                }),
-                "time added to t",
-            ),
-            (
-                exercise(|o, d, c, r, v, t| {
-                    let (f, d) = (sub(o, add(c, times(v, t))), sub(d, v));
-                    let (a, b) = (dot(d, d), dot(f, d));
-                    let under = b * b - a * (dot(f, f) - r * r);
-                    if under < 0.0 {
-                        return None;
-                    }
-                    [(-b - under.sqrt()) / a, (-b + under.sqrt()) / a].into_iter().find(|t| *t > 0.0)
-                }),
-                "as if light took time",
-            ),
-            (exercise(|o, d, c, r, v, t| sphere(o, unit(sub(d, times(v, t))), c, r)), "direction moved"),
-            (exercise(|o, d, c, r, v, t| sphere(o, d, add(c, [v[0] * t, 0.0, 0.0]), r)), "x only"),
-            (exercise(|o, d, c, r, v, t| sphere(o, d, add(c, times(v, t)), r * r)), "radius squared twice"),
+    fresh(
+        24,
+        exercise,
+        &[
+            ("minus", |o, d, c, r, v, t| sphere(o, d, sub(c, times(v, t)), r)),
+            ("at rest", |o, d, c, r, _, _| sphere(o, d, c, r)),
+            ("both moved", |o, d, c, r, v, t| sphere(sub(o, times(v, t)), d, add(c, times(v, t)), r)),
+            ("time left out", |o, d, c, r, v, _| sphere(o, d, add(c, v), r)),
+            ("velocity normalised", |o, d, c, r, v, t| sphere(o, d, add(c, times(unit(v), t)), r)),
+            ("far root", |o, d, c, r, v, t| {
+                let f = sub(o, add(c, times(v, t)));
+                let b = dot(f, d);
+                let under = b * b - dot(f, f) + r * r;
+                if under < 0.0 || b > 0.0 { None } else { Some(-b + under.sqrt()) }
+            }),
+            ("time squared", |o, d, c, r, v, t| sphere(o, d, add(c, times(v, t * t)), r)),
+            ("half the time", |o, d, c, r, v, t| sphere(o, d, add(c, times(v, t / 2.0)), r)),
+            ("time added to t", |o, d, c, r, v, t| {
+                let c = add(c, times(v, t));
+                Some(sphere(o, d, c, r)? + t)
+            }),
+            ("as if light took time", |o, d, c, r, v, t| {
+                let (f, d) = (sub(o, add(c, times(v, t))), sub(d, v));
+                let (a, b) = (dot(d, d), dot(f, d));
+                let under = b * b - a * (dot(f, f) - r * r);
+                if under < 0.0 {
+                    return None;
+                }
+                [(-b - under.sqrt()) / a, (-b + under.sqrt()) / a].into_iter().find(|t| *t > 0.0)
+            }),
+            ("direction moved", |o, d, c, r, v, t| sphere(o, unit(sub(d, times(v, t))), c, r)),
+            ("x only", |o, d, c, r, v, t| sphere(o, d, add(c, [v[0] * t, 0.0, 0.0]), r)),
+            ("radius squared twice", |o, d, c, r, v, t| sphere(o, d, add(c, times(v, t)), r * r)),
+            ("2: the sphere grows along its way", |o, d, c, r, v, t| {
+                sphere(o, d, add(c, times(v, t)), r + length(v) * t)
+            }),
+            ("2: time from the end", |o, d, c, r, v, t| sphere(o, d, add(c, times(v, 1.0 - t)), r)),
         ],
-        right: vec![
-            exercise(|o, d, c, r, v, t| {
+        &[
+            |o, d, c, r, v, t| {
                 let now = [c[0] + v[0] * t, c[1] + v[1] * t, c[2] + v[2] * t];
                 let to = sub(now, o);
                 let along = dot(to, d);
                 let beside = length(cross(to, d));
                 if beside > r || along < 0.0 { None } else { Some(along - ((r - beside) * (r + beside)).sqrt()) }
-            }),
-            exercise(|o, d, c, r, v, t| {
+            },
+            |o, d, c, r, v, t| {
                 let f = sub(sub(o, times(v, t)), c);
                 let h = -dot(f, d);
                 let near = add(f, times(d, h));
@@ -171,9 +169,9 @@ fn motion() -> Fresh {
                     return None;
                 }
                 Some((dot(f, f) - r * r) / (h + under.sqrt()))
-            }),
+            },
         ],
-    }
+    )
 }
 
 fn most(t: [f64; 3]) -> f64 {
@@ -187,59 +185,51 @@ fn go(t: [f64; 3], u: f64, q: f64) -> [f64; 3] {
 
 fn roulette() -> Fresh {
     use chapter_25_path_tracing::check::exercise;
-    Fresh {
-        chapter: 25,
-        wrong: vec![
-            (exercise(|t, u| go(t, u, t[0].min(t[1]).min(t[2]).min(1.0))), "smallest"),
-            (exercise(|t, u| go(t, u, (0.2126 * t[0] + 0.7152 * t[1] + 0.0722 * t[2]).min(1.0))), "luminance"),
-            (
-                exercise(|t, u| {
-                    let q = most(t).min(1.0);
-                    if u > q { over(t, q) } else { [0.0; 3] }
-                }),
-                "the wrong way",
-            ),
-            (
-                exercise(|t, u| {
-                    let q = most(t).min(1.0);
-                    if u < q { over(t, 1.0 - q) } else { [0.0; 3] }
-                }),
-                "1 - q",
-            ),
-            (
-                exercise(|t, u| {
-                    let q = most(t).min(1.0);
-                    if u < q { times(t, q) } else { [0.0; 3] }
-                }),
-                "times q",
-            ),
-            (exercise(|t, u| go(t, u, most(t).min(0.95))), "at most 0.95"),
-            (
-                exercise(|t, u| t.map(|part| if u < part.min(1.0) { part / part.min(1.0) } else { 0.0 })),
-                "each by itself",
-            ),
-            (exercise(|t, u| go(t, u, t[0].min(1.0))), "red"),
-            (exercise(|t, u| go(t, u, (t[0] + t[1] + t[2]).min(1.0))), "sum"),
-            (
-                exercise(|t, u| {
-                    let q = most(t).min(1.0);
-                    if u < q { over(t, q) } else { t }
-                }),
-                "one that ends is left as it is",
-            ),
-            (exercise(|t, u| go(t, u, most(t).clamp(0.05, 1.0))), "at least 0.05"),
-            (exercise(|t, u| go(t, u, length(t).min(1.0))), "length"),
-            (
-                exercise(|t, u| {
-                    let q = most(t).min(1.0);
-                    if u < 1.0 - q { over(t, q) } else { [0.0; 3] }
-                }),
-                "probability of ending for that of going on",
-            ),
-            (exercise(|t, u| if u < most(t).min(1.0) { [1.0; 3] } else { [0.0; 3] }), "colour lost"),
+    fresh(
+        25,
+        exercise,
+        &[
+            ("smallest", |t, u| go(t, u, t[0].min(t[1]).min(t[2]).min(1.0))),
+            ("luminance", |t, u| go(t, u, (0.2126 * t[0] + 0.7152 * t[1] + 0.0722 * t[2]).min(1.0))),
+            ("the wrong way", |t, u| {
+                let q = most(t).min(1.0);
+                if u > q { over(t, q) } else { [0.0; 3] }
+            }),
+            ("1 - q", |t, u| {
+                let q = most(t).min(1.0);
+                if u < q { over(t, 1.0 - q) } else { [0.0; 3] }
+            }),
+            ("times q", |t, u| {
+                let q = most(t).min(1.0);
+                if u < q { times(t, q) } else { [0.0; 3] }
+            }),
+            ("at most 0.95", |t, u| go(t, u, most(t).min(0.95))),
+            ("each by itself", |t, u| t.map(|part| if u < part.min(1.0) { part / part.min(1.0) } else { 0.0 })),
+            ("red", |t, u| go(t, u, t[0].min(1.0))),
+            ("sum", |t, u| go(t, u, (t[0] + t[1] + t[2]).min(1.0))),
+            ("one that ends is left as it is", |t, u| {
+                let q = most(t).min(1.0);
+                if u < q { over(t, q) } else { t }
+            }),
+            ("at least 0.05", |t, u| go(t, u, most(t).clamp(0.05, 1.0))),
+            ("length", |t, u| go(t, u, length(t).min(1.0))),
+            ("probability of ending for that of going on", |t, u| {
+                let q = most(t).min(1.0);
+                if u < 1.0 - q { over(t, q) } else { [0.0; 3] }
+            }),
+            ("colour lost", |t, u| if u < most(t).min(1.0) { [1.0; 3] } else { [0.0; 3] }),
+            ("2: the upper end of the numbers", |t, u| {
+                let q = most(t).min(1.0);
+                if u > 1.0 - q { over(t, q) } else { [0.0; 3] }
+            }),
+            ("2: the middle one", |t, u| {
+                let mut sorted = t;
+                sorted.sort_by(f64::total_cmp);
+                go(t, u, sorted[1].min(1.0))
+            }),
         ],
-        right: vec![
-            exercise(|t, u| {
+        &[
+            |t, u| {
                 let most = t.into_iter().fold(0.0, f64::max);
                 if most >= 1.0 {
                     t
@@ -248,8 +238,8 @@ fn roulette() -> Fresh {
                 } else {
                     t.map(|part| part * most.recip())
                 }
-            }),
-            exercise(|[r, g, b], u| {
+            },
+            |[r, g, b], u| {
                 let mut q = r;
                 if g > q {
                     q = g;
@@ -262,9 +252,9 @@ fn roulette() -> Fresh {
                 }
                 let kept = f64::from(u8::from(u < q));
                 if kept == 0.0 { [0.0; 3] } else { [kept * r / q, kept * g / q, kept * b / q] }
-            }),
+            },
         ],
-    }
+    )
 }
 
 /// The power heuristic by ratio.
@@ -274,51 +264,51 @@ fn power(own: f64, other: f64) -> f64 {
 
 fn heuristic() -> Fresh {
     use chapter_26_choosing_samples::check::exercise;
-    Fresh {
-        chapter: 26,
-        wrong: vec![
-            (exercise(|own, other| own / (own * own + other * other)), "numerator not squared"),
-            (
-                exercise(|own, other| if own == 0.0 { 0.0 } else { 1.0 / (1.0 + (other / own).abs().powf(3.0)) }),
-                "cubed",
-            ),
-            (exercise(|own, other| power(own, other).sqrt()), "root"),
-            (exercise(|own, other| if own > other { 1.0 } else { 0.0 }), "maximum heuristic"),
-            (
-                exercise(|own, other| {
-                    let (own, other) = (own as f32, other as f32);
-                    f64::from(own * own / (own * own + other * other))
-                }),
-                "f32",
-            ),
-            (exercise(|own, other| own * own / (other * other)), "ratio of squares"),
-            (exercise(|own, other| own * own / (own + other)), "denominator not squared"),
-            (exercise(|own, other| 1.0 - power(own, other)), "the other's"),
-            (exercise(|own, other| own * own + other * other), "only the denominator"),
-            (exercise(|own, other| 1.0 / (own * own + other * other)), "1 over"),
-            (exercise(|own, other| 2.0 * power(own, other)), "twice"),
-            (exercise(|own, other| if own > 0.0 && other > 0.0 { power(own, other) } else { 0.0 }), "0 for other 0"),
-            (exercise(|_, _| 0.5), "half"),
-            (exercise(|own, other| (own - other) * (own - other) / (own * own + other * other)), "difference"),
+    fresh(
+        26,
+        exercise,
+        &[
+            ("numerator not squared", |own, other| own / (own * own + other * other)),
+            ("cubed", |own, other| if own == 0.0 { 0.0 } else { 1.0 / (1.0 + (other / own).abs().powf(3.0)) }),
+            ("root", |own, other| power(own, other).sqrt()),
+            ("maximum heuristic", |own, other| if own > other { 1.0 } else { 0.0 }),
+            ("f32", |own, other| {
+                let (own, other) = (own as f32, other as f32);
+                f64::from(own * own / (own * own + other * other))
+            }),
+            ("ratio of squares", |own, other| own * own / (other * other)),
+            ("denominator not squared", |own, other| own * own / (own + other)),
+            ("the other's", |own, other| 1.0 - power(own, other)),
+            ("only the denominator", |own, other| own * own + other * other),
+            ("1 over", |own, other| 1.0 / (own * own + other * other)),
+            ("twice", |own, other| 2.0 * power(own, other)),
+            ("0 for other 0", |own, other| if own > 0.0 && other > 0.0 { power(own, other) } else { 0.0 }),
+            ("half", |_, _| 0.5),
+            ("difference", |own, other| (own - other) * (own - other) / (own * own + other * other)),
+            ("2: over the larger square", |own, other| {
+                let most = own.max(other);
+                if most > 0.0 { (own / most) * (own / most) } else { 0.0 }
+            }),
+            ("2: rounded", |own, other| (power(own, other) + 0.5).floor()),
         ],
-        right: vec![
-            exercise(|own, other| {
+        &[
+            |own, other| {
                 if own <= 0.0 {
                     return 0.0;
                 }
                 let sine = own / own.hypot(other);
                 sine * sine
-            }),
-            exercise(|own, other| {
+            },
+            |own, other| {
                 let scale = own.max(other);
                 if scale == 0.0 {
                     return 0.0;
                 }
                 let (a, b) = ((own / scale).powf(2.0), (other / scale).powf(2.0));
                 a / (a + b)
-            }),
+            },
         ],
-    }
+    )
 }
 
 fn caustics() -> Fresh {
@@ -327,52 +317,54 @@ fn caustics() -> Fresh {
         let d = length(p);
         if p[2] < 0.0 { of(2.0 * t / h * (2.0 * t / h), d, -p[2] / d) } else { 0.0 }
     }
-    Fresh {
-        chapter: 27,
-        wrong: vec![
-            (exercise(|p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * d * (1.0 - c * c).sqrt().powf(3.0)))), "sine"),
-            (exercise(|p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * c * c * c))), "distance not squared"),
-            (exercise(|p, t, h| by(p, t, h, |a, d, c| 1.0 / (a.sqrt() * d * d * c * c * c))), "area not squared"),
-            (exercise(|p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * d * c * c))), "cos²"),
-            (exercise(|p, t, h| by(p, t, h, |a, d, c| a / (d * d * c * c * c))), "times the area"),
-            (
-                exercise(|p, t, h| {
-                    let (d, a) = (length(p), 2.0 * t / h * (2.0 * t / h));
-                    let c = p[2] / d;
-                    if c > 0.0 { 1.0 / (a * d * d * c * c * c) } else { 0.0 }
-                }),
-                "looking down +z",
-            ),
-            (
-                exercise(|p, t, h| {
-                    let (d, a) = (length(p), 2.0 * t / h * (2.0 * t / h));
-                    let c = p[2] / d;
+    fresh(
+        27,
+        exercise,
+        &[
+            ("sine", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * d * (1.0 - c * c).sqrt().powf(3.0)))),
+            ("distance not squared", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * c * c * c))),
+            ("area not squared", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (a.sqrt() * d * d * c * c * c))),
+            ("cos²", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * d * c * c))),
+            ("times the area", |p, t, h| by(p, t, h, |a, d, c| a / (d * d * c * c * c))),
+            ("looking down +z", |p, t, h| {
+                let (d, a) = (length(p), 2.0 * t / h * (2.0 * t / h));
+                let c = p[2] / d;
+                if c > 0.0 { 1.0 / (a * d * d * c * c * c) } else { 0.0 }
+            }),
+            ("negative cosine", |p, t, h| {
+                let (d, a) = (length(p), 2.0 * t / h * (2.0 * t / h));
+                let c = p[2] / d;
+                1.0 / (a * d * d * c * c * c)
+            }),
+            ("depth for distance", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * c * d * c * c * c * c))),
+            ("times cos³", |p, t, h| by(p, t, h, |a, d, c| c * c * c / (a * d * d))),
+            ("4π", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (4.0 * PI * a * d * d * c * c * c))),
+            ("no cosine", |p, t, h| by(p, t, h, |a, d, _| 1.0 / (a * d * d))),
+            ("not inverted", |p, t, h| by(p, t, h, |a, d, c| a * d * d * c * c * c)),
+            ("angle", |p, t, h| by(p, 2.0 * t.atan(), h, |a, d, c| 1.0 / (a * d * d * c * c * c))),
+            ("2: only the vertical angle", |p, t, h| {
+                by(p, t, h, |a, d, _| {
+                    let c = -p[2] / p[1].hypot(p[2]);
                     1.0 / (a * d * d * c * c * c)
-                }),
-                "negative cosine",
-            ),
-            (exercise(|p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * c * d * c * c * c * c))), "depth for distance"),
-            (exercise(|p, t, h| by(p, t, h, |a, d, c| c * c * c / (a * d * d))), "times cos³"),
-            (exercise(|p, t, h| by(p, t, h, |a, d, c| 1.0 / (4.0 * PI * a * d * d * c * c * c))), "4π"),
-            (exercise(|p, t, h| by(p, t, h, |a, d, _| 1.0 / (a * d * d))), "no cosine"),
-            (exercise(|p, t, h| by(p, t, h, |a, d, c| a * d * d * c * c * c)), "not inverted"),
-            (exercise(|p, t, h| by(p, 2.0 * t.atan(), h, |a, d, c| 1.0 / (a * d * d * c * c * c))), "angle"),
+                })
+            }),
+            ("2: height - 1", |p, t, h| by(p, t, h - 1.0, |a, d, c| 1.0 / (a * d * d * c * c * c))),
         ],
-        right: vec![
-            exercise(|p, t, h| {
+        &[
+            |p, t, h| {
                 let (z, d) = (-p[2], length(p));
                 if z <= 0.0 { 0.0 } else { d * h * h / (4.0 * t * t * z * z * z) }
-            }),
-            exercise(|[x, y, z], t, h| {
+            },
+            |[x, y, z], t, h| {
                 if z >= 0.0 {
                     return 0.0;
                 }
                 let per = h / (2.0 * t);
                 let slant = (1.0 + (x / z) * (x / z) + (y / z) * (y / z)).sqrt();
                 per * per * slant / (z * z)
-            }),
+            },
         ],
-    }
+    )
 }
 
 fn meshes() -> Fresh {
@@ -389,48 +381,44 @@ fn meshes() -> Fresh {
     fn across(v: [f64; 3], axes: [[f64; 3]; 3]) -> [f64; 3] {
         add(add(times(axes[0], v[0]), times(axes[1], v[1])), times(axes[2], v[2]))
     }
-    Fresh {
-        chapter: 28,
-        wrong: vec![
-            (exercise(|o, d, p, a, s| [grown(turned(sub(o, p), a), s), grown(turned(d, a), s)]), "multiplied by scale"),
-            (exercise(|o, d, p, a, s| [shrunk(across(sub(o, p), a), s), shrunk(across(d, a), s)]), "transposed"),
-            (exercise(|o, d, p, a, s| [shrunk(turned(sub(o, p), a), s), unit(shrunk(turned(d, a), s))]), "normalised"),
-            (exercise(|o, d, _, a, s| [shrunk(turned(o, a), s), shrunk(turned(d, a), s)]), "position left out"),
-            (exercise(|o, d, p, a, s| [shrunk(turned(add(o, p), a), s), shrunk(turned(d, a), s)]), "position added"),
-            (
-                exercise(|o, d, p, a, s| [shrunk(turned(sub(o, p), a), s), shrunk(turned(sub(d, p), a), s)]),
-                "direction moved",
-            ),
-            (
-                exercise(|o, d, p, a, s| [turned(shrunk(sub(o, p), s), a), turned(shrunk(d, s), a)]),
-                "scale before the turn",
-            ),
-            (exercise(|o, d, p, a, s| [shrunk(turned(sub(o, p), a), s), turned(d, a)]), "direction not scaled"),
-            (
-                exercise(|o, d, p, a, s| [over(turned(sub(o, p), a), s[0]), over(turned(d, a), s[0])]),
-                "x's factor for all",
-            ),
-            (exercise(|o, d, p, a, s| [sub(shrunk(turned(o, a), s), p), shrunk(turned(d, a), s)]), "position last"),
-            (exercise(|o, d, p, a, s| [shrunk(turned(d, a), s), shrunk(turned(sub(o, p), a), s)]), "swapped"),
-            (exercise(|o, d, p, a, s| [shrunk(turned(sub(o, p), a), s), d]), "direction untouched"),
-            (
-                exercise(|o, d, p, a, s| {
-                    [shrunk(turned(sub(o, p), a), s.map(f64::abs)), shrunk(turned(d, a), s.map(f64::abs))]
-                }),
-                "absolute scale",
-            ),
-            (exercise(|o, d, p, _, s| [shrunk(sub(o, p), s), shrunk(d, s)]), "turn left out"),
+    fresh(
+        28,
+        exercise,
+        &[
+            ("multiplied by scale", |o, d, p, a, s| [grown(turned(sub(o, p), a), s), grown(turned(d, a), s)]),
+            ("transposed", |o, d, p, a, s| [shrunk(across(sub(o, p), a), s), shrunk(across(d, a), s)]),
+            ("normalised", |o, d, p, a, s| [shrunk(turned(sub(o, p), a), s), unit(shrunk(turned(d, a), s))]),
+            ("position left out", |o, d, _, a, s| [shrunk(turned(o, a), s), shrunk(turned(d, a), s)]),
+            ("position added", |o, d, p, a, s| [shrunk(turned(add(o, p), a), s), shrunk(turned(d, a), s)]),
+            ("direction moved", |o, d, p, a, s| [shrunk(turned(sub(o, p), a), s), shrunk(turned(sub(d, p), a), s)]),
+            ("scale before the turn", |o, d, p, a, s| [turned(shrunk(sub(o, p), s), a), turned(shrunk(d, s), a)]),
+            ("direction not scaled", |o, d, p, a, s| [shrunk(turned(sub(o, p), a), s), turned(d, a)]),
+            ("x's factor for all", |o, d, p, a, s| [over(turned(sub(o, p), a), s[0]), over(turned(d, a), s[0])]),
+            ("position last", |o, d, p, a, s| [sub(shrunk(turned(o, a), s), p), shrunk(turned(d, a), s)]),
+            ("swapped", |o, d, p, a, s| [shrunk(turned(d, a), s), shrunk(turned(sub(o, p), a), s)]),
+            ("direction untouched", |o, d, p, a, s| [shrunk(turned(sub(o, p), a), s), d]),
+            ("absolute scale", |o, d, p, a, s| {
+                [shrunk(turned(sub(o, p), a), s.map(f64::abs)), shrunk(turned(d, a), s.map(f64::abs))]
+            }),
+            ("turn left out", |o, d, p, _, s| [shrunk(sub(o, p), s), shrunk(d, s)]),
+            ("2: the end of the ray for its direction", |o, d, p, a, s| {
+                [shrunk(turned(sub(o, p), a), s), shrunk(turned(sub(add(o, d), p), a), s)]
+            }),
+            ("2: y and z axes mixed up", |o, d, p, a, s| {
+                let a = [a[0], a[2], a[1]];
+                [shrunk(turned(sub(o, p), a), s), shrunk(turned(d, a), s)]
+            }),
         ],
-        right: vec![
-            exercise(|o, d, p, [x, y, z], s| {
+        &[
+            |o, d, p, [x, y, z], s| {
                 let m = [times(x, s[0]), times(y, s[1]), times(z, s[2])];
                 let volume = dot(m[0], cross(m[1], m[2]));
                 [sub(o, p), d].map(|v| {
                     let solved = [dot(v, cross(m[1], m[2])), dot(m[0], cross(v, m[2])), dot(m[0], cross(m[1], v))];
                     over(solved, volume)
                 })
-            }),
-            exercise(|o, d, p, axes, s| {
+            },
+            |o, d, p, axes, s| {
                 let (mut from, mut to) = ([0.0; 3], [0.0; 3]);
                 for at in 0..3 {
                     for part in 0..3 {
@@ -441,7 +429,7 @@ fn meshes() -> Fresh {
                     to[at] *= s[at].recip();
                 }
                 [from, to]
-            }),
+            },
         ],
-    }
+    )
 }

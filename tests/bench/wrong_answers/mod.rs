@@ -21,10 +21,12 @@ pub struct Fresh {
 
 /// Of all chapters.
 pub fn all() -> Vec<Fresh> {
-    [from_01::fresh(), from_08::fresh(), from_15::fresh(), from_22::fresh(), from_29::fresh()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [from_01::all(), from_08::all(), from_15::all(), from_22::all(), from_29::all()].into_iter().flatten().collect()
+}
+
+fn fresh<F: Copy>(chapter: usize, exercise: fn(F) -> Exercise, wrong: &[(&'static str, F)], right: &[F]) -> Fresh {
+    let wrong = wrong.iter().map(|&(words, answer)| (exercise(answer), words)).collect();
+    Fresh { chapter, wrong, right: right.iter().map(|&answer| exercise(answer)).collect() }
 }
 
 type Vector = [f64; 3];
