@@ -91,6 +91,13 @@ fn mistakes() -> Mistakes<Input, [f64; 2]> {
         .when(|&[x, _]| [x; 2])
         .when(|&[_, y]| [y; 2]);
     Mistakes::<Input, [f64; 2]>::new()
+        .say("width is taken for a power of two; any width is to be divided by")
+        .when(|&(i, w)| [(i & (u64::from(w) - 1)) as f64 + 0.5, (i >> w.ilog2()) as f64 + 0.5])
+        .say("x is counted from the right; a row starts at the left")
+        .when(|i| {
+            let [x, y] = moved(i, 0.0, 0.0);
+            [f64::from(i.1) - x, y]
+        })
         .say("every other row runs backwards; all run from left to right")
         .when(|i| {
             let [x, y] = moved(i, 0.0, 0.0);

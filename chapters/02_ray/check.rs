@@ -54,6 +54,15 @@ fn question() -> Question<Vector, Option<Vector>> {
         allowed: 1e-15,
         measured: "in a part",
         mistakes: Mistakes::<Vector, Option<Vector>>::new()
+            .say("each part is brought to 1 by itself; all are divided by the same length")
+            .when(|&v| Some(v.map(|part| part / (part * part).sqrt())))
+            .say("a small number is added to the length, which makes the answer too short; ask for 0 instead")
+            .when(|&v| unit(v).map(|_| divided(v, length(v) + 1e-8)))
+            .when(|&v| unit(v).map(|_| divided(v, length(v) + 1e-6)))
+            .say("the vector is multiplied by its length; divide by it")
+            .when(|&v| unit(v).map(|_| v.map(|part| part * length(v))))
+            .say("f32 is computed in, which has seven digits")
+            .when(|&v| unit(v).map(|_| divided(v, f64::from(((length(v) * length(v)) as f32).sqrt()))))
             .say("one part is left out of the length; it is √(x² + y² + z²)")
             .when(|&v @ [x, y, _]| unit(v).map(|_| divided(v, length([x, y, 0.0]))))
             .when(|&v @ [x, _, z]| unit(v).map(|_| divided(v, length([x, 0.0, z]))))

@@ -169,10 +169,16 @@ fn mistakes() -> Mistakes<Input, Answer> {
         .when(|&[roots]| roots.map_or(Some(f64::NAN), |roots| ahead(Some(roots))))
         .say("this is where the ray comes closest to the centre; it hits the sphere half a chord before")
         .when(|&[roots]| roots.map(|[near, far]| (near + far) / 2.0).filter(|&t| t > 0.0));
-    Mistakes::<Input, Answer>::new().asked_as_given()
+    Mistakes::<Input, Answer>::new()
+        .asked_as_given()
         .say("the square root is missing: it is −b ± √(b² − 4ac)")
         .when(|i| ahead(unrooted(doubled(i), 4.0)))
         .when(|i| ahead(unrooted(coefficients(i), 1.0)))
+        .say("c is of the origin alone; it is of the origin as seen from the centre: f·f − r²")
+        .when(|i| {
+            let ([b, a, _], c) = (coefficients(i), DVec3::from(i.0).length_squared() - i.3 * i.3);
+            ahead(solved([b, a, c], right_discriminant, 1.0))
+        })
         .say(
             "the direction is brought to length 1 and t is left so; t counts in lengths of the direction as it \
                  was given",

@@ -134,7 +134,8 @@ fn mistakes() -> Mistakes<Input, Answer> {
         .when(|&[span]| span.map(|[_, leaves]| leaves).filter(|&t| t > 0.0))
         .say("t = 0 counts as a hit; only t above 0 does")
         .when(|&[span]| span?.into_iter().find(|&t| t >= 0.0));
-    Mistakes::<Input, Answer>::new().asked_as_given()
+    Mistakes::<Input, Answer>::new()
+        .asked_as_given()
         .say("only two of the three slabs are looked at; the ray must be in all of them at once")
         .when(|i| ahead(span(&without(i, 0))))
         .when(|i| ahead(span(&without(i, 1))))

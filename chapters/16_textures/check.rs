@@ -23,6 +23,8 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, f64> {
     let mistakes = Mistakes::<Input, f64>::new()
+        .say("the mean is rounded to the stripe that there is more of; it lies anywhere from −1 to 1")
+        .when(|&(x, w)| if wave_mean(x, w) >= 0.0 { 1.0 } else { -1.0 })
         .say("a stripe is taken to be half as wide; each is 1 wide, and the pattern repeats after 2")
         .when(|&(x, w)| wave_mean(2.0 * x, 2.0 * w))
         .say("this is the stripe at x itself; asked for is the mean of all that the range covers")

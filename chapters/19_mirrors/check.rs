@@ -34,6 +34,13 @@ fn question() -> Question<Input, Vector> {
         allowed: 1e-12,
         measured: "in a part",
         mistakes: Mistakes::<Input, Vector>::new()
+.say("only the component along which the normal is longest is turned round; the normal may point anywhere")
+.when(|&(mut direction, normal)| {
+    let most = normal.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+    let at = normal.iter().position(|part| part.abs() == most).unwrap_or(0);
+    direction[at] = -direction[at];
+    direction
+})
 .say("it is the normal that comes out; the direction is to be turned round along it")
 .when(|input| unit(input).into())
 .say("a cross product stands at a right angle to both; what comes out lies in the plane of direction and normal")

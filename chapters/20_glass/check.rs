@@ -37,6 +37,8 @@ fn question() -> Question<Input, Option<Vector>> {
         allowed: 1e-9,
         measured: "in a part",
         mistakes: Mistakes::<Input, Option<Vector>>::new()
+            .say("direction and normal are swapped")
+            .when(|i| refract(i.1.into(), i.0.into(), i.2).map(Into::into))
             .say("only d is divided by η, and (c − g) n is not; the whole sum is")
             .when(|i| Some((DVec3::from(i.0) / i.2 + (cosine(i) - root(squared(i))?) * DVec3::from(i.1)).into()))
             .say("only (c − g) n is divided by η, and d is not; the whole sum is")

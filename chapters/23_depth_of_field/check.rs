@@ -109,6 +109,8 @@ fn mistakes() -> Mistakes<Input, [f64; 3]> {
         .when(|of| DVec3 { z: -1.0, ..to_focus(of) }.normalize().into())
         .say("the direction goes from the focus to the lens: it is P − L, not L − P")
         .when(|of| (-to_focus(of).normalize()).into())
+        .say("the lens stands at z = 0, not on the image plane at z = −1")
+        .when(|of| DVec3 { z: 1.0 - of[5], ..to_focus(of) }.normalize().into())
         .say("the plane in focus stands at z = +f; the camera looks down −z")
         .when(|of| DVec3 { z: of[5], ..to_focus(of) }.normalize().into());
     Mistakes::<Input, [f64; 3]>::new()

@@ -58,6 +58,12 @@ fn question() -> Question<Input, [f64; 3]> {
         allowed: 1e-12,
         measured: "of each part",
         mistakes: Mistakes::<Input, [f64; 3]>::new()
+            .say("the probability is the middle one of the three; asked is the largest")
+            .when(|input| {
+                let mut sorted = input.0;
+                sorted.sort_by(f64::total_cmp);
+                by(input, sorted[1])
+            })
             .say("the probability is kept above a smallest one; asked is the largest of the three, however small")
             .when(|input| by(input, largest(input.0).max(0.05)))
             .when(|input| by(input, largest(input.0).max(0.1)))

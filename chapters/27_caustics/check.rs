@@ -76,6 +76,8 @@ fn mistakes() -> Mistakes<Input, f64> {
         .when(|i| side(&(i.0, 2.0 * libm::atan(i.1), i.2)).powi(2))
         .when(|i| side(&(i.0, libm::atan(i.1), i.2)).powi(2))
         .when(|i| side(&(i.0, libm::tan(i.1), i.2)).powi(2))
+        .say("height − 1 pixels are taken for height; the plane holds all of them")
+        .when(|i| side(&(i.0, i.1, i.2 - 1.0)).powi(2))
         .say("the plane at distance 1 is 2 tan_half high, not tan_half")
         .when(|i| side(i) * side(i) / 4.0)
         .say("the plane at distance 1 is 2 tan_half high, not 4 tan_half")

@@ -38,6 +38,15 @@ fn question() -> Question<Input, u32> {
         allowed: 0.0,
         measured: "wrong bits",
         mistakes: Mistakes::<Input, u32>::new()
+            .say("only the last box is in the mask; all that the ray enters are to be")
+            .when(|&(enters, leaves, closest)| {
+                entered(enters, leaves, closest).checked_ilog2().map_or(0, |bit| 1 << bit)
+            })
+            .say("nothing is asked after the first box behind the closest hit; the boxes are not sorted")
+            .when(|&(enters, leaves, closest)| {
+                let end = enters.iter().position(|&t| t > closest).unwrap_or(8);
+                entered(enters, leaves, closest) & ((1 << end) - 1)
+            })
             .say("only some of the boxes are asked; there are eight")
             .when(|&(enters, leaves, closest)| entered(enters, leaves, closest) & 15)
             .when(|&(enters, leaves, closest)| entered(enters, leaves, closest) & 127)

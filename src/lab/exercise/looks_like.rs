@@ -6,6 +6,9 @@ use super::shown::Shown;
 /// How many of the answers of which it says something a general explanation must explain.
 const GENERAL: f64 = 0.97;
 
+/// How many of those one of the chapter's own must explain, or else it agrees by chance.
+const LEAST: f64 = 0.08;
+
 /// What is said of the mistakes that explain the first wrong answer and those about it best; of those that explain it
 /// alike, the fewest, and the chapter's own before the general ones.
 pub fn looks_like<I: 'static, A: Shown + 'static>(
@@ -33,12 +36,12 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
         let changes = |at: usize| !question.same(&made[at], &right[at]);
         let agrees = |at: usize| agrees(question, &given[at], &made[at], &right[at]);
         let of_all = fraction(given.len(), &changes, &agrees);
-        if fraction(near, &changes, &agrees) >= 0.9 && best.as_ref().is_none_or(|(max, _)| of_all > *max) {
+        if of_all >= LEAST
+            && fraction(near, &changes, &agrees) >= 0.9
+            && best.as_ref().is_none_or(|(max, _)| of_all > *max)
+        {
             best = Some((of_all, told.to_owned()));
         }
-    }
-    if let Some((of_all, told)) = &best {
-        eprintln!("OF_ALL {of_all:.3} {told}");
     }
     let Some((misread, numbers)) = question.mistakes.argument else { return best.map(|(_, told)| told) };
     if best.as_ref().is_some_and(|(of_all, _)| *of_all >= GENERAL) {
@@ -80,7 +83,8 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
     let known: Vec<Known> = (0..given.len())
         .map(|at| Known { given: given[at].numbers(), right: right[at].numbers(), asked: asked[at].clone() })
         .collect();
-    for (told, makes) in relations(&known[first], &named) {
+    let related = if known[first].right.is_empty() { Vec::new() } else { relations(&known[first], &named) };
+    for (told, makes) in related {
         let made: Vec<Option<Vec<f64>>> = known.iter().map(|known| makes(known)).collect();
         let alike = |at: usize, numbers: &[f64]| made[at].as_deref().is_some_and(|made| is_near(made, numbers, 1e-9));
         let of_all = fraction(given.len(), &|at| !alike(at, &known[at].right), &|at| alike(at, &known[at].given));
@@ -100,9 +104,6 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
         if best.is_none() && !known[first].given.is_empty() && wrong().all(is_so) {
             best = Some((1.0, told.into()));
         }
-    }
-    if let Some((of_all, told)) = &best {
-        eprintln!("GENERAL {of_all:.3} {told}");
     }
     best.map(|(_, told)| told)
 }

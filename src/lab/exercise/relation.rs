@@ -52,6 +52,13 @@ pub fn relations(first: &Known, named: &NamedNumbers) -> Vec<(String, Makes)> {
                 made.swap(other, last);
                 Some(made)
             };
+            let back = move |known: &Known| {
+                let mut made = known.right.clone();
+                (made[other], made[last]) = (-made[other], -made[last]);
+                Some(made)
+            };
+            let both = format!("{} and {} of the answer have", part_of(other, count), part_of(last, count));
+            say(format!("{both} the opposite sign"), guarded(count, back));
             let told = format!("{} and {} of the answer are swapped", part_of(other, count), part_of(last, count));
             say(told, guarded(count, makes));
         }
@@ -178,12 +185,15 @@ impl NamedNumbers {
     }
 
     /// Whether numbers are such as the inputs have, so that no function is asked what it is not made for: none is
-    /// smaller or larger than all that are asked in its place, and no vector is 0 that never is.
+    /// much smaller or larger than all that are asked in its place or of another sign, and no vector is 0 that never is.
     pub fn is_like(&self, numbers: &[f64], asked: &[Vec<f64>]) -> bool {
         let within = |(at, number): (usize, &f64)| {
-            let of = || asked.iter().filter_map(|asked| asked.get(at));
-            number.is_nan() == of().all(|asked| asked.is_nan())
-                && (number.is_nan() || (of().any(|asked| asked <= number) && of().any(|asked| asked >= number)))
+            let of = || asked.iter().filter_map(|asked| asked.get(at).copied());
+            let (low, high) = (of().fold(f64::INFINITY, f64::min), of().fold(f64::NEG_INFINITY, f64::max));
+            let more = if high - low < f64::INFINITY { (high - low) / 10.0 } else { 0.0 };
+            number.is_nan() == of().all(f64::is_nan)
+                && !(*number < low - more || *number > high + more)
+                && !(low > 0.0 && *number <= 0.0 || low >= 0.0 && *number < 0.0)
         };
         let is_zero = |[from, size]: [usize; 2], of: &[f64]| of[from..from + size].iter().all(|part| *part == 0.0);
         let is_vector_like =
