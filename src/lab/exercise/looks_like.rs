@@ -85,7 +85,7 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
         .collect();
     let related = if known[first].right.is_empty() { Vec::new() } else { relations(&known[first], &named) };
     for (told, makes) in related {
-        let made: Vec<Option<Vec<f64>>> = known.iter().map(|known| makes(known)).collect();
+        let made: Vec<Option<Vec<f64>>> = known.iter().map(makes).collect();
         let alike = |at: usize, numbers: &[f64]| made[at].as_deref().is_some_and(|made| is_near(made, numbers, 1e-9));
         let of_all = fraction(given.len(), &|at| !alike(at, &known[at].right), &|at| alike(at, &known[at].given));
         if of_all >= GENERAL && best.as_ref().is_none_or(|(max, _)| of_all > *max) {
@@ -119,4 +119,46 @@ fn agrees<I, A: Shown>(question: &Question<I, A>, given: &A, made: &A, right: &A
 fn is_near(a: &[f64], b: &[f64], within: f64) -> bool {
     let size = a.iter().chain(b).fold(0.0_f64, |size, part| size.max(part.abs()));
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a == b || (size.is_finite() && (a - b).abs() <= within * size))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exercise::apart::absolute;
+    use crate::exercise::{Mistakes, probes};
+    use std::f64::consts::PI;
+
+    type Input = ([f64; 2], f64);
+
+    /// Of a place whose x is multiplied by a factor.
+    fn said_of(yours: fn(&Input) -> [f64; 2]) -> String {
+        let input = |at: f64| ([at - 8.5, (7.0 * at) % 11.0 - 5.3], 0.25 + at / 7.0);
+        let question = Question {
+            pinhole_has: ("", ""),
+            probes: probes("any", (1..20).map(|at| input(f64::from(at)))).collect(),
+            tell: |([x, y], factor)| format!("place ({x:?}, {y:?}), factor {factor:?}"),
+            right: |&([x, y], factor)| [x * factor, y],
+            apart: |yours: &[f64; 2], right: &[f64; 2]| absolute(yours, right),
+            allowed: 1e-12,
+            measured: "",
+            mistakes: Mistakes::<Input, [f64; 2]>::new(),
+            hints: &[],
+        };
+        let answers = |function: fn(&Input) -> [f64; 2]| -> Vec<[f64; 2]> {
+            question.probes.iter().map(|probe| function(&probe.input)).collect()
+        };
+        looks_like(&question, &answers(yours), &answers(question.right), 0).unwrap_or_default()
+    }
+
+    #[test]
+    fn any_exercise_knows_misread_arguments_and_what_is_made_of_the_right_answer() {
+        assert_eq!(said_of(|&([x, y], f)| [x / f, y]), "`factor` is inverted: it is 1 over it that is used");
+        assert_eq!(said_of(|&([x, y], f)| [y * f, x]), "x of `place` and y of `place` are swapped");
+        assert_eq!(said_of(|&([x, y], f)| [y, x * f]), "x and y of the answer are swapped");
+        assert_eq!(said_of(|&([x, y], f)| [PI * x * f, PI * y]), "the answer is π times what it should be");
+        assert_eq!(said_of(|&([x, y], f)| [x * f * f, y * f]), "the answer is multiplied by `factor`, once too often");
+        assert!(said_of(|&([x, y], f)| [x * f, y].map(|part| f64::from(part as f32))).contains("seven digits"));
+        assert!(said_of(|&([x, y], f)| [x * f, y * f64::NAN]).contains("NaN"));
+        assert_eq!(said_of(|&([x, y], f)| [x + f * f * y, 0.3]), "");
+    }
 }

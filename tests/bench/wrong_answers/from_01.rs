@@ -16,35 +16,35 @@ fn image() -> Fresh {
         1,
         exercise,
         &[
-            ("adds 1", |i, w| [(i % u64::from(w)) as f64 + 1.0, (i / u64::from(w)) as f64 + 1.0]),
-            ("f32", |i, w| {
+            ("1 is added instead of a half", |i, w| [(i % u64::from(w)) as f64 + 1.0, (i / u64::from(w)) as f64 + 1.0]),
+            ("f32 is computed in, which has too few digits", |i, w| {
                 let (i, w) = (i as f32, w as f32);
                 [f64::from(i % w + 0.5), f64::from((i / w).floor() + 0.5)]
             }),
-            ("width - 1", |i, w| {
+            ("rows are taken to be one pixel shorter", |i, w| {
                 let w = u64::from(w - 1).max(1);
                 [(i % w) as f64 + 0.5, (i / w) as f64 + 0.5]
             }),
-            ("every other row backwards", |i, w| {
+            ("every other row runs backwards", |i, w| {
                 let (x, y) = (i % u64::from(w), i / u64::from(w));
                 let x = if y % 2 == 1 { u64::from(w) - 1 - x } else { x };
                 [x as f64 + 0.5, y as f64 + 0.5]
             }),
-            ("half only in x", |i, w| [(i % u64::from(w)) as f64 + 0.5, (i / u64::from(w)) as f64]),
-            ("divided by width", |i, w| {
+            ("the half is missing in y", |i, w| [(i % u64::from(w)) as f64 + 0.5, (i / u64::from(w)) as f64]),
+            ("the place is divided by the width, which gives NDC", |i, w| {
                 [(i % u64::from(w)) as f64 + 0.5, (i / u64::from(w)) as f64 + 0.5].map(|part| part / f64::from(w))
             }),
-            ("y not divided by width", |i, w| {
+            ("what is left after the column is not divided by the width", |i, w| {
                 let x = i % u64::from(w);
                 [x as f64 + 0.5, (i - x) as f64 + 0.5]
             }),
-            ("y rounded", |i, w| [(i % u64::from(w)) as f64 + 0.5, (i as f64 / f64::from(w)).round() + 0.5]),
-            ("half subtracted", |i, w| [(i % u64::from(w)) as f64 - 0.5, (i / u64::from(w)) as f64 - 0.5]),
-            ("2: as if width were a power of two", |i, w| {
+            ("the row is rounded", |i, w| [(i % u64::from(w)) as f64 + 0.5, (i as f64 / f64::from(w)).round() + 0.5]),
+            ("the half is taken off", |i, w| [(i % u64::from(w)) as f64 - 0.5, (i / u64::from(w)) as f64 - 0.5]),
+            ("width is taken for a power of two", |i, w| {
                 let w = u64::from(w);
                 [(i & (w - 1)) as f64 + 0.5, (i >> w.ilog2()) as f64 + 0.5]
             }),
-            ("2: from the right", |i, w| {
+            ("x is counted from the right", |i, w| {
                 let w = u64::from(w);
                 [(w - i % w) as f64 - 0.5, (i / w) as f64 + 0.5]
             }),
@@ -66,30 +66,40 @@ fn ray() -> Fresh {
         2,
         exercise,
         &[
-            ("divided by squared length", |v| Some(over(v, dot(v, v))).filter(|_| v != [0.0; 3])),
-            ("max", |v| Some(over(v, v[0].abs().max(v[1].abs()).max(v[2].abs()))).filter(|_| v != [0.0; 3])),
-            ("epsilon", |v| if length(v) < 1e-6 { None } else { Some(unit(v)) }),
-            ("f32", |v| {
+            ("the vector is divided by its squared length", |v| Some(over(v, dot(v, v))).filter(|_| v != [0.0; 3])),
+            ("the vector is divided by its largest part, which makes that part 1, no", |v| {
+                Some(over(v, v[0].abs().max(v[1].abs()).max(v[2].abs()))).filter(|_| v != [0.0; 3])
+            }),
+            (/* epsilon */ "", |v| if length(v) < 1e-6 { None } else { Some(unit(v)) }),
+            ("f32 is computed in, which has seven digits", |v| {
                 let l = f64::from((dot(v, v) as f32).sqrt());
                 if l > 0.0 { Some(over(v, l)) } else { None }
             }),
-            ("z left out of the length", |v| {
+            (/* z left out of the length */ "", |v| {
                 let l = v[0].hypot(v[1]);
                 if l > 0.0 { Some(over(v, l)) } else { None }
             }),
-            ("turned round", |v| if length(v) > 0.0 { Some(over(v, -length(v))) } else { None }),
-            ("absolute", |v| {
+            ("the direction is turned about", |v| if length(v) > 0.0 { Some(over(v, -length(v))) } else { None }),
+            ("the signs are lost", |v| {
                 let l = length(v);
                 if l > 0.0 { Some(v.map(|part| part.abs() / l)) } else { None }
             }),
-            ("multiplied", |v| if v == [0.0; 3] { None } else { Some(times(v, length(v))) }),
-            ("none where any part is 0", |v| if v.contains(&0.0) { None } else { Some(unit(v)) }),
-            ("0 not looked at", |v| Some(unit(v))),
-            ("sum of parts", |v| if dot(v, v) > 0.0 { Some(over(v, dot(v, [1.0; 3]))) } else { None }),
-            ("2: each part by itself", |v| {
+            (
+                "the vector is multiplied by its length",
+                |v| if v == [0.0; 3] { None } else { Some(times(v, length(v))) },
+            ),
+            ("one part that is 0 is taken for the vector 0, which has three", |v| {
+                if v.contains(&0.0) { None } else { Some(unit(v)) }
+            }),
+            ("the vector is divided by its length whatever that is", |v| Some(unit(v))),
+            (
+                "the length is taken for x + y + z",
+                |v| if dot(v, v) > 0.0 { Some(over(v, dot(v, [1.0; 3]))) } else { None },
+            ),
+            ("each part is brought to 1 by itself", |v| {
                 if dot(v, v) > 0.0 { Some(v.map(|part| part / (part * part).sqrt())) } else { None }
             }),
-            ("2: a small number is added to the length", |v| {
+            ("a small number is added to the length, which makes the answer too shor", |v| {
                 if v == [0.0; 3] { None } else { Some(over(v, length(v) + 1e-8)) }
             }),
         ],
@@ -121,36 +131,36 @@ fn hit() -> Fresh {
         3,
         exercise,
         &[
-            ("b without its 2", |o, d, c, r| {
+            ("the formula with b and that with half of b are mixed", |o, d, c, r| {
                 let f = sub(o, c);
                 nearest(dot(d, d), dot(f, d), dot(f, f) - r * r)
             }),
-            ("centre - origin", |o, d, c, r| {
+            ("b has the wrong sign, so that what is behind comes ahead", |o, d, c, r| {
                 let f = sub(c, o);
                 nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r)
             }),
-            ("radius not squared", |o, d, c, r| {
+            ("the radius is not squared", |o, d, c, r| {
                 let f = sub(o, c);
                 nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - r)
             }),
-            ("none from inside", |o, d, c, r| {
+            ("Second, from inside, nothing is hit", |o, d, c, r| {
                 let f = sub(o, c);
                 if dot(f, f) < r * r {
                     return None;
                 }
                 nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r)
             }),
-            ("distance instead of t", |o, d, c, r| {
+            ("the direction is brought to length 1 and t is left so", |o, d, c, r| {
                 let f = sub(o, c);
                 Some(nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r)? * length(d))
             }),
-            ("/ 2 * a", |o, d, c, r| {
+            ("the quotient is multiplied by R·R", |o, d, c, r| {
                 let f = sub(o, c);
                 let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
                 let root = (b * b - 4.0 * a * c).sqrt();
                 [(-b - root) / 2.0 * a, (-b + root) / 2.0 * a].into_iter().find(|t| *t > 0.0)
             }),
-            ("root forgotten", |o, d, c, r| {
+            ("the square root is missing", |o, d, c, r| {
                 let f = sub(o, c);
                 let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
                 let under = b * b - 4.0 * a * c;
@@ -159,19 +169,19 @@ fn hit() -> Fresh {
                 }
                 [(-b - under) / (2.0 * a), (-b + under) / (2.0 * a)].into_iter().find(|t| *t > 0.0)
             }),
-            ("closest approach instead of the hit", |o, d, c, r| {
+            ("this is where the ray comes closest to the centre", |o, d, c, r| {
                 let f = sub(c, o);
                 let t = dot(f, d) / dot(d, d);
                 let near = sub(f, times(d, t));
                 if dot(near, near) <= r * r && t > 0.0 { Some(t) } else { None }
             }),
-            ("epsilon", |o, d, c, r| {
+            ("Second, hits close to the origin are skipped", |o, d, c, r| {
                 let f = sub(o, c);
                 let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
                 let root = (b * b - 4.0 * a * c).sqrt();
                 [(-b - root) / (2.0 * a), (-b + root) / (2.0 * a)].into_iter().find(|t| *t > 0.001)
             }),
-            ("absolute of the near root", |o, d, c, r| {
+            ("Second, what lies behind the origin is hit too", |o, d, c, r| {
                 let f = sub(o, c);
                 let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
                 let under = b * b - 4.0 * a * c;
@@ -180,17 +190,17 @@ fn hit() -> Fresh {
                 }
                 Some(((-b - under.sqrt()) / (2.0 * a)).abs())
             }),
-            ("radius taken as a diameter", |o, d, c, r| {
+            ("the radius is halved", |o, d, c, r| {
                 let f = sub(o, c);
                 nearest(dot(d, d), 2.0 * dot(f, d), dot(f, f) - (r / 2.0) * (r / 2.0))
             }),
-            ("2: -b - root / 2a without brackets", |o, d, c, r| {
+            ("brackets are missing", |o, d, c, r| {
                 let f = sub(o, c);
                 let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - r * r);
                 let root = (b * b - 4.0 * a * c).sqrt();
                 [-b - root / (2.0 * a), -b + root / (2.0 * a)].into_iter().find(|t| *t > 0.0)
             }),
-            ("2: centre left out of c", |o, d, c, r| {
+            ("c is of the origin alone", |o, d, c, r| {
                 let f = sub(o, c);
                 nearest(dot(d, d), 2.0 * dot(f, d), dot(o, o) - r * r)
             }),
@@ -241,22 +251,24 @@ fn orthographic() -> Fresh {
         4,
         exercise,
         &[
-            ("not halved", |[x, y], h| ([x * h, y * h, 0.0], AHEAD)),
-            ("+z", |[x, y], h| ([x * h / 2.0, y * h / 2.0, 0.0], [0.0, 0.0, 1.0])),
-            ("perspective direction", |[x, y], h| {
+            ("the origin is twice as far out", |[x, y], h| ([x * h, y * h, 0.0], AHEAD)),
+            ("the direction is +z", |[x, y], h| ([x * h / 2.0, y * h / 2.0, 0.0], [0.0, 0.0, 1.0])),
+            ("the rays spread", |[x, y], h| {
                 let at = [x * h / 2.0, y * h / 2.0, 0.0];
                 (at, unit([at[0], at[1], -1.0]))
             }),
-            ("origin at z -1", |[x, y], h| ([x * h / 2.0, y * h / 2.0, -1.0], AHEAD)),
-            ("x not scaled", |[x, y], h| ([x, y * h / 2.0, 0.0], AHEAD)),
-            ("y down", |[x, y], h| ([x * h / 2.0, -y * h / 2.0, 0.0], AHEAD)),
-            ("pinhole", |[x, y], h| ([0.0; 3], unit([x * h / 2.0, y * h / 2.0, -1.0]))),
-            ("swapped", |[x, y], h| (AHEAD, [x * h / 2.0, y * h / 2.0, 0.0])),
-            ("divided by half the height", |[x, y], h| ([x / h * 2.0, y / h * 2.0, 0.0], AHEAD)),
-            ("added", |[x, y], h| ([x + h / 2.0, y + h / 2.0, 0.0], AHEAD)),
-            ("x, y swapped", |[x, y], h| ([y * h / 2.0, x * h / 2.0, 0.0], AHEAD)),
-            ("2: from the corner", |[x, y], h| ([(x + 1.0) * h / 2.0, (y + 1.0) * h / 2.0, 0.0], AHEAD)),
-            ("2: direction is the origin normalised", |[x, y], h| {
+            ("the rectangle stands at z = −1", |[x, y], h| ([x * h / 2.0, y * h / 2.0, -1.0], AHEAD)),
+            ("only y is scaled by half the height", |[x, y], h| ([x, y * h / 2.0, 0.0], AHEAD)),
+            ("y points down", |[x, y], h| ([x * h / 2.0, -y * h / 2.0, 0.0], AHEAD)),
+            ("Second, the rays spread", |[x, y], h| ([0.0; 3], unit([x * h / 2.0, y * h / 2.0, -1.0]))),
+            ("origin and direction are swapped", |[x, y], h| (AHEAD, [x * h / 2.0, y * h / 2.0, 0.0])),
+            ("the screen point is divided by the height", |[x, y], h| ([x / h * 2.0, y / h * 2.0, 0.0], AHEAD)),
+            ("half the height is added to the screen point", |[x, y], h| ([x + h / 2.0, y + h / 2.0, 0.0], AHEAD)),
+            ("x and y are swapped", |[x, y], h| ([y * h / 2.0, x * h / 2.0, 0.0], AHEAD)),
+            ("the screen point is counted from a corner", |[x, y], h| {
+                ([(x + 1.0) * h / 2.0, (y + 1.0) * h / 2.0, 0.0], AHEAD)
+            }),
+            ("the direction is that from the centre to the place on the rectangle", |[x, y], h| {
                 let at = [x * h / 2.0, y * h / 2.0, 0.0];
                 (at, unit(at))
             }),
@@ -280,34 +292,36 @@ fn pinhole() -> Fresh {
         5,
         exercise,
         &[
-            ("tangent only on y", |[x, y], t| unit([x, y * t, -1.0])),
-            ("tangent of the tangent", |[x, y], t| unit([x * t.tan(), y * t.tan(), -1.0])),
-            ("halved again", |[x, y], t| unit([x * t / 2.0, y * t / 2.0, -1.0])),
-            ("divided by the squared length", |[x, y], t| {
+            ("only y is scaled by the tangent", |[x, y], t| unit([x, y * t, -1.0])),
+            ("a tangent is taken of the tangent, which is one already", |[x, y], t| {
+                unit([x * t.tan(), y * t.tan(), -1.0])
+            }),
+            ("the tangent is halved", |[x, y], t| unit([x * t / 2.0, y * t / 2.0, -1.0])),
+            ("the direction is divided by its squared length", |[x, y], t| {
                 let v = [x * t, y * t, -1.0];
                 over(v, dot(v, v))
             }),
-            ("y down", |[x, y], t| unit([x * t, -y * t, -1.0])),
-            ("z not divided", |[x, y], t| {
+            ("y points down", |[x, y], t| unit([x * t, -y * t, -1.0])),
+            ("only x and y are divided by the length", |[x, y], t| {
                 let v = [x * t, y * t, -1.0];
                 [v[0] / length(v), v[1] / length(v), -1.0]
             }),
-            ("z left out of the length", |[x, y], t| {
+            ("the length is that of x and y alone", |[x, y], t| {
                 let v = [x * t, y * t, -1.0];
                 over(v, v[0].hypot(v[1]))
             }),
-            ("angles", |[x, y], t| {
+            ("angles are taken to be in proportion to the screen", |[x, y], t| {
                 let [a, b] = [x * t.atan(), y * t.atan()];
                 [a.sin() * b.cos(), b.sin(), -a.cos() * b.cos()]
             }),
-            ("z times tangent too", |[x, y], t| unit([x * t, y * t, -t])),
-            ("x and y swapped", |[x, y], t| unit([y * t, x * t, -1.0])),
-            ("tangent squared", |[x, y], t| unit([x * t * t, y * t * t, -1.0])),
-            ("2: normalised too early", |[x, y], t| {
+            ("the tangent is left out", |[x, y], t| unit([x * t, y * t, -t])),
+            ("x and y are swapped", |[x, y], t| unit([y * t, x * t, -1.0])),
+            ("the tangent is a factor twice", |[x, y], t| unit([x * t * t, y * t * t, -1.0])),
+            ("the direction is brought to length 1 before the tangent widens it", |[x, y], t| {
                 let v = unit([x, y, -1.0]);
                 [v[0] * t, v[1] * t, v[2]]
             }),
-            ("2: tangent turned to radians", |[x, y], t| unit([x * t.to_radians(), y * t.to_radians(), -1.0])),
+            ("`screen` is turned into radians", |[x, y], t| unit([x * t.to_radians(), y * t.to_radians(), -1.0])),
         ],
         &[
             |[x, y], t| {
@@ -329,42 +343,44 @@ fn ndc() -> Fresh {
         6,
         exercise,
         &[
-            ("rounds", |p, w, h| {
+            ("the product is rounded to the nearest", |p, w, h| {
                 in_image(p).then(|| [(p[0] * f64::from(w)).round() as u32, (p[1] * f64::from(h)).round() as u32])
             }),
-            ("width - 1", |p, w, h| {
+            ("the point is scaled by the size less 1", |p, w, h| {
                 in_image(p).then(|| [(p[0] * f64::from(w - 1)) as u32, (p[1] * f64::from(h - 1)) as u32])
             }),
-            ("outside is clamped", |[x, y], w, h| {
+            ("what lies outside is put into the nearest pixel", |[x, y], w, h| {
                 let at = |part: f64, size: u32| ((part * f64::from(size)) as u32).min(size - 1);
                 Some([at(x, w), at(y, h)])
             }),
-            ("1 inside", |p, w, h| {
+            ("1 counts as inside, and gives a pixel that the image does not have", |p, w, h| {
                 let inside = p.iter().all(|part| (0.0..=1.0).contains(part));
                 inside.then(|| [(p[0] * f64::from(w)) as u32, (p[1] * f64::from(h)) as u32])
             }),
-            ("width for both", |p, w, _| in_image(p).then(|| p.map(|part| (part * f64::from(w)) as u32))),
-            ("y up", |p, w, h| {
+            ("both are scaled by the width", |p, w, _| in_image(p).then(|| p.map(|part| (part * f64::from(w)) as u32))),
+            ("y is counted from the bottom", |p, w, h| {
                 in_image(p).then(|| [(p[0] * f64::from(w)) as u32, ((1.0 - p[1]) * f64::from(h)) as u32])
             }),
-            ("swapped", |p, w, h| in_image(p).then(|| [(p[1] * f64::from(h)) as u32, (p[0] * f64::from(w)) as u32])),
-            ("negative gets pixel 0", |[x, y], w, h| {
+            ("x and y are swapped", |p, w, h| {
+                in_image(p).then(|| [(p[1] * f64::from(h)) as u32, (p[0] * f64::from(w)) as u32])
+            }),
+            ("what is below 0 is given pixel 0", |[x, y], w, h| {
                 (x < 1.0 && y < 1.0).then(|| [(x * f64::from(w)) as u32, (y * f64::from(h)) as u32])
             }),
-            ("NaN gets pixel 0", |[x, y], w, h| {
+            ("NaN passes for inside", |[x, y], w, h| {
                 if x < 0.0 || y < 0.0 || x >= 1.0 || y >= 1.0 {
                     return None;
                 }
                 Some([(x * f64::from(w)) as u32, (y * f64::from(h)) as u32])
             }),
-            ("from 1", |p, w, h| {
+            ("pixels are counted from 1", |p, w, h| {
                 in_image(p).then(|| [(p[0] * f64::from(w) + 1.0) as u32, (p[1] * f64::from(h) + 1.0) as u32])
             }),
-            ("minus a half", |p, w, h| {
+            ("a half is put in or taken off", |p, w, h| {
                 in_image(p).then(|| [(p[0] * f64::from(w) - 0.5) as u32, (p[1] * f64::from(h) - 0.5) as u32])
             }),
-            ("2: cast before multiplying", |p, w, h| in_image(p).then(|| [p[0] as u32 * w, p[1] as u32 * h])),
-            ("2: negative wraps round", |p, w, h| {
+            ("the answer is left at 0", |p, w, h| in_image(p).then(|| [p[0] as u32 * w, p[1] as u32 * h])),
+            (/* negative wraps round */ "", |p, w, h| {
                 let at = |part: f64, size: u32| {
                     (part < 1.0).then(|| ((part.rem_euclid(1.0) * f64::from(size)) as u32).min(size - 1))
                 };
@@ -403,20 +419,28 @@ fn screen() -> Fresh {
         7,
         exercise,
         &[
-            ("aspect on y too", |[x, y], w, h| [(x / aspect(w, h) + 1.0) / 2.0, (1.0 - y / aspect(w, h)) / 2.0]),
-            ("not divided by the width", |[x, y], w, h| [(x + aspect(w, h)) / 2.0, (1.0 - y) / 2.0]),
-            ("not halved", |[x, y], w, h| [x / aspect(w, h) + 1.0, 1.0 - y]),
-            ("raster", |[x, y], w, h| [(x / aspect(w, h) + 1.0) / 2.0 * f64::from(w), (1.0 - y) / 2.0 * f64::from(h)]),
-            ("the other way", |[x, y], w, h| [(2.0 * x - 1.0) * aspect(w, h), 1.0 - 2.0 * y]),
-            ("x mirrored", |[x, y], w, h| [(1.0 - x / aspect(w, h)) / 2.0, (1.0 - y) / 2.0]),
-            ("half added, not halved", |[x, y], w, h| [x / aspect(w, h) + 0.5, 0.5 - y]),
-            ("swapped", |[x, y], w, h| [(1.0 - y) / 2.0, (x / aspect(w, h) + 1.0) / 2.0]),
-            ("aspect of size - 1", |[x, y], w, h| {
+            ("the aspect is taken off y, too", |[x, y], w, h| {
+                [(x / aspect(w, h) + 1.0) / 2.0, (1.0 - y / aspect(w, h)) / 2.0]
+            }),
+            ("1 is added where the aspect belongs", |[x, y], w, h| [(x + aspect(w, h)) / 2.0, (1.0 - y) / 2.0]),
+            ("a part runs from 0 to 2", |[x, y], w, h| [x / aspect(w, h) + 1.0, 1.0 - y]),
+            ("this is the raster point", |[x, y], w, h| {
+                [(x / aspect(w, h) + 1.0) / 2.0 * f64::from(w), (1.0 - y) / 2.0 * f64::from(h)]
+            }),
+            ("this is screen_from_ndc itself, not what undoes it", |[x, y], w, h| {
+                [(2.0 * x - 1.0) * aspect(w, h), 1.0 - 2.0 * y]
+            }),
+            ("x is turned over", |[x, y], w, h| [(1.0 - x / aspect(w, h)) / 2.0, (1.0 - y) / 2.0]),
+            ("the brackets are missing", |[x, y], w, h| [x / aspect(w, h) + 0.5, 0.5 - y]),
+            ("x and y are swapped", |[x, y], w, h| [(1.0 - y) / 2.0, (x / aspect(w, h) + 1.0) / 2.0]),
+            ("the aspect is taken of width − 1 and height − 1", |[x, y], w, h| {
                 [(x / aspect(w - 1, h.max(2) - 1).max(1e-9) + 1.0) / 2.0, (1.0 - y) / 2.0]
             }),
-            ("brackets missing", |[x, y], w, h| [x / aspect(w, h) + 1.0 / 2.0, 1.0 - y / 2.0]),
-            ("2: aspect divided after adding", |[x, y], w, h| [(x + 1.0) / 2.0 / aspect(w, h), (1.0 - y) / 2.0]),
-            ("2: y over the other aspect", |[x, y], w, h| {
+            ("the brackets are missing", |[x, y], w, h| [x / aspect(w, h) + 1.0 / 2.0, 1.0 - y / 2.0]),
+            ("1 is added before the aspect is taken off", |[x, y], w, h| {
+                [(x + 1.0) / 2.0 / aspect(w, h), (1.0 - y) / 2.0]
+            }),
+            ("the aspect is taken off y, too", |[x, y], w, h| {
                 [(x / aspect(w, h) + 1.0) / 2.0, 1.0 - (y / aspect(h, w) + 1.0) / 2.0]
             }),
         ],

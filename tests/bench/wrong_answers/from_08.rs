@@ -34,16 +34,18 @@ fn field_of_view() -> Fresh {
         8,
         exercise,
         &[
-            ("angles in proportion", |a, axis, w, h| a * f64::from(h) / spanned(axis, w, h)),
-            ("not halved", |a, axis, w, h| {
+            ("the angle itself is divided by the aspect", |a, axis, w, h| a * f64::from(h) / spanned(axis, w, h)),
+            ("the tangent is taken of the full angle", |a, axis, w, h| {
                 (a.to_radians().tan() * f64::from(h) / spanned(axis, w, h)).atan().to_degrees()
             }),
-            ("answer in radians", |a, axis, w, h| angle_of(a, f64::from(h) / spanned(axis, w, h)).to_radians()),
-            ("degrees taken for radians", |a, axis, w, h| {
+            ("the answer is in radians", |a, axis, w, h| angle_of(a, f64::from(h) / spanned(axis, w, h)).to_radians()),
+            ("tan takes the degrees for radians", |a, axis, w, h| {
                 2.0 * ((a / 2.0).tan() * f64::from(h) / spanned(axis, w, h)).atan().to_degrees()
             }),
-            ("ratio inverted", |a, axis, w, h| angle_of(a, spanned(axis, w, h) / f64::from(h))),
-            ("smaller and larger swapped", |a, axis, w, h| {
+            ("the tangent is multiplied by the aspect", |a, axis, w, h| {
+                angle_of(a, spanned(axis, w, h) / f64::from(h))
+            }),
+            ("the smaller and the larger side are swapped", |a, axis, w, h| {
                 let axis = match axis {
                     FovAxis::Smaller => FovAxis::Larger,
                     FovAxis::Larger => FovAxis::Smaller,
@@ -51,26 +53,26 @@ fn field_of_view() -> Fresh {
                 };
                 angle_of(a, f64::from(h) / spanned(axis, w, h))
             }),
-            ("diagonal is the sum of the sides", |a, axis, w, h| {
+            ("the diagonal is taken for something else", |a, axis, w, h| {
                 let spanned = if axis == FovAxis::Diagonal { f64::from(w + h) } else { spanned(axis, w, h) };
                 angle_of(a, f64::from(h) / spanned)
             }),
-            ("half the answer", |a, axis, w, h| angle_of(a, f64::from(h) / spanned(axis, w, h)) / 2.0),
-            ("diagonal not converted", |a, axis, w, h| {
+            ("the answer is half the angle", |a, axis, w, h| angle_of(a, f64::from(h) / spanned(axis, w, h)) / 2.0),
+            ("the diagonal is taken for something else", |a, axis, w, h| {
                 if axis == FovAxis::Diagonal { a } else { angle_of(a, f64::from(h) / spanned(axis, w, h)) }
             }),
-            ("sine for tangent", |a, axis, w, h| {
+            ("sines are taken to be in proportion to the sides", |a, axis, w, h| {
                 let sine = (a.to_radians() / 2.0).sin() * f64::from(h) / spanned(axis, w, h);
                 2.0 * sine.asin().to_degrees()
             }),
-            ("vertical taken for horizontal", |a, axis, w, h| {
+            ("the vertical angle is changed", |a, axis, w, h| {
                 let axis = if axis == FovAxis::Vertical { FovAxis::Horizontal } else { axis };
                 angle_of(a, f64::from(h) / spanned(axis, w, h))
             }),
-            ("2: atan2 with its arguments swapped", |a, axis, w, h| {
+            (/* atan2 with its arguments swapped */ "", |a, axis, w, h| {
                 2.0 * spanned(axis, w, h).atan2((a.to_radians() / 2.0).tan() * f64::from(h)).to_degrees()
             }),
-            ("2: smaller is always the height", |a, axis, w, h| {
+            ("the smaller and the larger side are taken to be the height and the wid", |a, axis, w, h| {
                 let spanned = match axis {
                     FovAxis::Smaller => f64::from(h),
                     FovAxis::Larger => f64::from(w),
@@ -135,30 +137,32 @@ fn normals() -> Fresh {
         9,
         exercise,
         &[
-            ("inverse not transposed", |m, n| unit(over(mapped(transposed(cofactors(m)), n), determinant(m)))),
-            ("not normalised", |m, n| over(mapped(cofactors(m), n), determinant(m))),
-            ("transposed, not inverted", |m, n| unit(mapped(transposed(m), n))),
-            ("absolute", |m, n| unit(over(mapped(cofactors(m), n), determinant(m))).map(f64::abs)),
-            ("inward", |m, n| times(unit(over(mapped(cofactors(m), n), determinant(m))), -1.0)),
-            ("columns over their squared length", |m, n| {
+            ("the inverse is not transposed, or the columns are taken for rows", |m, n| {
+                unit(over(mapped(transposed(cofactors(m)), n), determinant(m)))
+            }),
+            ("the normal is not of length 1", |m, n| over(mapped(cofactors(m), n), determinant(m))),
+            ("the normal is multiplied by the transpose", |m, n| unit(mapped(transposed(m), n))),
+            ("the answer has lost its sign", |m, n| unit(over(mapped(cofactors(m), n), determinant(m))).map(f64::abs)),
+            ("the normal points inward", |m, n| times(unit(over(mapped(cofactors(m), n), determinant(m))), -1.0)),
+            ("the normal is divided by the length of each column", |m, n| {
                 unit(mapped(m.map(|column| over(column, dot(column, column))), n))
             }),
-            ("divided by the squared length", |m, n| {
+            ("the normal is divided by its squared length", |m, n| {
                 let v = over(mapped(cofactors(m), n), determinant(m));
                 over(v, dot(v, v))
             }),
-            ("as it is", |_, n| n),
-            ("columns normalised, then as a direction", |m, n| mapped(m.map(unit), n)),
-            ("turned to the object's normal", |m, n| {
+            ("the normal is handed back as it is", |_, n| n),
+            ("Second, the normal is not of length 1", |m, n| mapped(m.map(unit), n)),
+            ("the normal is turned to the side of the old one", |m, n| {
                 let v = unit(mapped(cofactors(m), n));
                 if dot(v, n) < 0.0 { times(v, -1.0) } else { v }
             }),
-            ("one cross product the wrong way round", |[a, b, c], n| {
+            ("a cross product is in the wrong order", |[a, b, c], n| {
                 let m = [cross(b, c), cross(a, c), cross(a, b)];
                 unit(over(mapped(m, n), determinant([a, b, c])))
             }),
-            ("2: only the diagonal", |m, n| unit([n[0] / m[0][0], n[1] / m[1][1], n[2] / m[2][2]])),
-            ("2: columns normalised first", |m, n| {
+            ("only the numbers on the diagonal count", |m, n| unit([n[0] / m[0][0], n[1] / m[1][1], n[2] / m[2][2]])),
+            ("the scale is left out, as if the map only turned", |m, n| {
                 let m = m.map(unit);
                 unit(over(mapped(cofactors(m), n), determinant(m)))
             }),
@@ -200,60 +204,60 @@ fn light() -> Fresh {
         10,
         exercise,
         &[
-            ("direction not normalised", |c, i, p, n, light| {
+            ("the light thins out with the distance once, not twice", |c, i, p, n, light| {
                 let l = sub(light, p);
                 let d2 = dot(l, l);
                 if d2 > 0.0 { c / PI * i * dot(n, l).max(0.0) / d2 } else { 0.0 }
             }),
-            ("divided by the sphere's 4 π d²", |c, i, p, n, light| {
+            ("the intensity is divided by 4π", |c, i, p, n, light| {
                 let (cosine, d) = towards(p, n, light);
                 if d > 0.0 { c / PI * i * cosine / (4.0 * PI * d * d) } else { 0.0 }
             }),
-            ("2π", |c, i, p, n, light| {
+            ("the BRDF is colour / π, not colour / 2π", |c, i, p, n, light| {
                 let (cosine, d) = towards(p, n, light);
                 if d > 0.0 { c / (2.0 * PI) * i * cosine / (d * d) } else { 0.0 }
             }),
-            ("colour forgotten", |_, i, p, n, light| {
+            ("the colour is left out", |_, i, p, n, light| {
                 let (cosine, d) = towards(p, n, light);
                 if d > 0.0 { i * cosine / (PI * d * d) } else { 0.0 }
             }),
-            ("from the light instead of to it", |c, i, p, n, light| {
+            ("the direction leads from the light to the surface", |c, i, p, n, light| {
                 let (cosine, d) = towards(light, n, p);
                 if d > 0.0 { c / PI * i * cosine / (d * d) } else { 0.0 }
             }),
-            ("cosine twice", |c, i, p, n, light| {
+            ("the cosine is squared", |c, i, p, n, light| {
                 let (cosine, d) = towards(p, n, light);
                 if d > 0.0 { c / PI * i * cosine * cosine / (d * d) } else { 0.0 }
             }),
-            ("distance to the fourth", |c, i, p, n, light| {
+            ("the light thins out too fast", |c, i, p, n, light| {
                 let (cosine, d) = towards(p, n, light);
                 if d > 0.0 { c / PI * i * cosine / (d * d * d * d) } else { 0.0 }
             }),
-            ("1 + d²", |c, i, p, n, light| {
+            ("1 is added to d²", |c, i, p, n, light| {
                 let (cosine, d) = towards(p, n, light);
                 c / PI * i * cosine / (1.0 + d * d)
             }),
-            ("cut at 1", |c, i, p, n, light| {
+            ("the answer is cut off at 1", |c, i, p, n, light| {
                 let (cosine, d) = towards(p, n, light);
                 if d > 0.0 { (c / PI * i * cosine / (d * d)).min(1.0) } else { 0.0 }
             }),
-            ("the light's position as a direction", |c, i, p, n, light| {
+            ("the cosine is taken at the origin", |c, i, p, n, light| {
                 let d = length(sub(light, p));
                 if d > 0.0 { c / PI * i * (dot(n, light) / length(light)).max(0.0) / (d * d) } else { 0.0 }
             }),
-            ("times π", |c, i, p, n, light| {
+            ("the BRDF is colour / π", |c, i, p, n, light| {
                 let (cosine, d) = towards(p, n, light);
                 if d > 0.0 { c * PI * i * cosine / (d * d) } else { 0.0 }
             }),
-            ("distance forgotten", |c, i, p, n, light| {
+            ("the light does not thin out with the distance", |c, i, p, n, light| {
                 let (cosine, _) = towards(p, n, light);
                 c / PI * i * cosine
             }),
-            ("2: |x| + |y| + |z| for the distance", |c, i, p, n, light| {
+            ("|x| + |y| + |z| is taken for the distance", |c, i, p, n, light| {
                 let d: f64 = sub(light, p).iter().map(|part| part.abs()).sum();
                 if d > 0.0 { c / PI * i * (dot(n, sub(light, p)) / d).max(0.0) / (d * d) } else { 0.0 }
             }),
-            ("2: gamma", |c, i, p, n, light| {
+            ("a gamma is applied", |c, i, p, n, light| {
                 let (cosine, d) = towards(p, n, light);
                 if d > 0.0 { (c / PI * i * cosine / (d * d)).powf(1.0 / 2.2) } else { 0.0 }
             }),
@@ -283,15 +287,17 @@ fn conventions() -> Fresh {
         11,
         exercise,
         &[
-            ("z the wrong way", |[x, y, z], r, u, a| [x * s(r), y * s(u), z * s(a)]),
-            ("x the wrong way", |[x, y, z], r, u, a| [x * s(!r), y * s(u), z * s(!a)]),
-            ("y and z swapped", |[x, y, z], r, u, a| [x * s(r), z * s(!a), y * s(u)]),
-            ("y left out", |[x, y, z], r, _, a| [x * s(r), y, z * s(!a)]),
-            ("z always turned", |[x, y, z], r, u, _| [x * s(r), y * s(u), -z]),
-            ("0 instead of -1", |[x, y, z], r, u, a| {
+            ("z is turned where it should not be", |[x, y, z], r, u, a| [x * s(r), y * s(u), z * s(a)]),
+            ("x is turned where it points right, as it does in pinhole's", |[x, y, z], r, u, a| {
+                [x * s(!r), y * s(u), z * s(!a)]
+            }),
+            ("y and z of the answer are swapped", |[x, y, z], r, u, a| [x * s(r), z * s(!a), y * s(u)]),
+            ("y is never turned", |[x, y, z], r, _, a| [x * s(r), y, z * s(!a)]),
+            ("z is always turned", |[x, y, z], r, u, _| [x * s(r), y * s(u), -z]),
+            ("a bool is taken for a factor of 0 or 1", |[x, y, z], r, u, a| {
                 [x * f64::from(u8::from(r)), y * f64::from(u8::from(u)), z * f64::from(u8::from(!a))]
             }),
-            ("only the first flip", |[x, y, z], r, u, a| {
+            ("only the first axis that differs is turned", |[x, y, z], r, u, a| {
                 if !r {
                     return [-x, y, z];
                 }
@@ -300,15 +306,23 @@ fn conventions() -> Fresh {
                 }
                 [x, y, z * s(!a)]
             }),
-            ("flags of x and z mixed up", |[x, y, z], r, u, a| [x * s(a), y * s(u), z * s(!r)]),
-            ("only the handedness", |[x, y, z], r, u, a| {
+            ("`x_right` and `z_ahead` are swapped", |[x, y, z], r, u, a| [x * s(a), y * s(u), z * s(!r)]),
+            ("a left-handed camera is mended by its z alone", |[x, y, z], r, u, a| {
                 let right_handed = r == (u == !a);
                 [x, y, if right_handed { z } else { -z }]
             }),
-            ("absolute", |[x, y, z], r, u, a| [x.abs() * s(r), y.abs() * s(u), z.abs() * s(!a)]),
-            ("y the wrong way", |[x, y, z], r, u, a| [x * s(r), y * s(!u), z * s(!a)]),
-            ("2: all turned if any is", |v, r, u, a| if r && u && !a { v } else { times(v, -1.0) }),
-            ("2: z turned only where x is not", |[x, y, z], r, u, a| [x * s(r), y * s(u), if r && a { -z } else { z }]),
+            ("the direction's own signs are lost", |[x, y, z], r, u, a| {
+                [x.abs() * s(r), y.abs() * s(u), z.abs() * s(!a)]
+            }),
+            ("y is turned where it points up, as it does in pinhole's", |[x, y, z], r, u, a| {
+                [x * s(r), y * s(!u), z * s(!a)]
+            }),
+            ("the whole direction is turned about where one flag asks for it", |v, r, u, a| {
+                if r && u && !a { v } else { times(v, -1.0) }
+            }),
+            ("a flag is asked for only where another one is set", |[x, y, z], r, u, a| {
+                [x * s(r), y * s(u), if r && a { -z } else { z }]
+            }),
         ],
         &[
             |v, r, u, a| {
@@ -348,7 +362,7 @@ fn plan() -> Fresh {
         12,
         exercise,
         &[
-            ("forwards", |stages, asked| {
+            ("the stages are gone through first to last", |stages, asked| {
                 let mut wanted = vec![asked.to_owned()];
                 let mut kept = Vec::new();
                 for stage in stages {
@@ -359,17 +373,17 @@ fn plan() -> Fresh {
                 }
                 kept
             }),
-            ("reads of all stages", |stages, asked| {
+            ("what a dropped stage reads is wanted too", |stages, asked| {
                 let read = |column: &String| stages.iter().any(|stage| stage.reads.contains(column));
                 let keep = |stage: &&StageWords| {
                     stage.needed && stage.writes.iter().any(|column| column == asked || read(column))
                 };
                 stages.iter().filter(keep).map(|stage| stage.name.clone()).collect()
             }),
-            ("all needed", |stages, _| {
+            ("whether anything reads what a stage writes is left out", |stages, _| {
                 stages.iter().filter(|stage| stage.needed).map(|stage| stage.name.clone()).collect()
             }),
-            ("only the last writer", |stages, asked| {
+            ("a column counts as provided for once a stage writes it", |stages, asked| {
                 let (mut wanted, mut kept) = (vec![asked.to_owned()], Vec::new());
                 for stage in stages.iter().rev().filter(|stage| stage.needed) {
                     if stage.writes.iter().any(|column| wanted.contains(column)) {
@@ -380,15 +394,15 @@ fn plan() -> Fresh {
                 }
                 kept
             }),
-            ("readers too", |stages, asked| {
+            (/* readers too */ "", |stages, asked| {
                 backwards(stages, asked, |stage, wanted| {
                     stage.writes.iter().chain(&stage.reads).any(|column| wanted.contains(column))
                 })
             }),
-            ("all that it writes must be wanted", |stages, asked| {
+            ("a stage is kept only if all that it writes is wanted", |stages, asked| {
                 backwards(stages, asked, |stage, wanted| stage.writes.iter().all(|column| wanted.contains(column)))
             }),
-            ("one step back", |stages, asked| {
+            ("only the stages that those of the column asked for read are kept", |stages, asked| {
                 let last: Vec<_> = stages.iter().filter(|stage| stage.writes.iter().any(|c| c == asked)).collect();
                 let keep = |stage: &&StageWords| {
                     let read = |column: &String| last.iter().any(|last| last.needed && last.reads.contains(column));
@@ -396,13 +410,13 @@ fn plan() -> Fresh {
                 };
                 stages.iter().filter(keep).map(|stage| stage.name.clone()).collect()
             }),
-            ("sorted", |stages, asked| {
+            ("the stages come out in another order", |stages, asked| {
                 let mut kept =
                     backwards(stages, asked, |stage, wanted| stage.writes.iter().any(|c| wanted.contains(c)));
                 kept.sort();
                 kept
             }),
-            ("whatever the order", |stages, asked| {
+            ("a stage counts as read if an earlier one reads what it writes", |stages, asked| {
                 let mut wanted = vec![asked.to_owned()];
                 for _ in stages {
                     for stage in stages.iter().filter(|stage| stage.needed) {
@@ -416,7 +430,7 @@ fn plan() -> Fresh {
                 let keep = |stage: &&StageWords| stage.needed && stage.writes.iter().any(|c| wanted.contains(c));
                 stages.iter().filter(keep).map(|stage| stage.name.clone()).collect()
             }),
-            ("what a stage that is not needed reads", |stages, asked| {
+            ("what a stage that the scene does not need reads is wanted too", |stages, asked| {
                 let (mut wanted, mut kept) = (vec![asked.to_owned()], Vec::new());
                 for stage in stages.iter().rev() {
                     if stage.writes.iter().any(|column| wanted.contains(column)) {
@@ -428,7 +442,7 @@ fn plan() -> Fresh {
                 }
                 kept
             }),
-            ("2: a stage once for each column", |stages, asked| {
+            (/* a stage once for each column */ "", |stages, asked| {
                 let (mut wanted, mut kept) = (vec![asked.to_owned()], Vec::new());
                 for stage in stages.iter().rev().filter(|stage| stage.needed) {
                     for column in &stage.writes {
@@ -440,7 +454,7 @@ fn plan() -> Fresh {
                 }
                 kept
             }),
-            ("2: at most two", |stages, asked| {
+            (/* at most two */ "", |stages, asked| {
                 let mut kept =
                     backwards(stages, asked, |stage, wanted| stage.writes.iter().any(|c| wanted.contains(c)));
                 kept.reverse();
@@ -510,24 +524,24 @@ fn boxes() -> Fresh {
         13,
         exercise,
         &[
-            ("union of the slabs", |o, d, min, max| {
+            ("the ray is taken to be inside while any slab has it", |o, d, min, max| {
                 let [x, y, z] = slabs(o, d, min, max);
                 first(x[0].min(y[0]).min(z[0]), x[1].max(y[1]).max(z[1]))
             }),
-            ("distance", |o, d, min, max| {
+            ("the direction is brought to length 1 and t is left so", |o, d, min, max| {
                 let [x, y, z] = slabs(o, d, min, max);
                 first(x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1])).map(|t| t * length(d))
             }),
-            ("z left out", |o, d, min, max| {
+            (/* z left out */ "", |o, d, min, max| {
                 let [x, y, _] = slabs(o, d, min, max);
                 first(x[0].max(y[0]), x[1].min(y[1]))
             }),
-            ("edges and corners lost", |o, d, min, max| {
+            ("a ray through an edge or in a face is lost", |o, d, min, max| {
                 let [x, y, z] = slabs(o, d, min, max);
                 let (near, far) = (x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]));
                 if near < far { first(near, far) } else { None }
             }),
-            ("parallel faces skipped", |o, d, min, max| {
+            ("an axis along which the direction is 0 is left out", |o, d, min, max| {
                 let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
                 for at in (0..3).filter(|&at| d[at] != 0.0) {
                     let [a, b] = slab(o[at], d[at], min[at], max[at]);
@@ -535,42 +549,42 @@ fn boxes() -> Fresh {
                 }
                 first(near, far)
             }),
-            ("none from inside", |o, d, min, max| {
+            ("from inside, nothing is hit", |o, d, min, max| {
                 let [x, y, z] = slabs(o, d, min, max);
                 let (near, far) = (x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]));
                 if near > far || near <= 0.0 { None } else { Some(near) }
             }),
-            ("0 from inside", |o, d, min, max| {
+            ("from inside, the origin counts as the hit", |o, d, min, max| {
                 let [x, y, z] = slabs(o, d, min, max);
                 let (near, far) = (x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]));
                 if near > far || far < 0.0 { None } else { Some(near.max(0.0)) }
             }),
-            ("none for any 0 in the direction", |o, d, min, max| {
+            ("a direction of 0 along an axis is taken for a miss", |o, d, min, max| {
                 if d.contains(&0.0) {
                     return None;
                 }
                 let [x, y, z] = slabs(o, d, min, max);
                 first(x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]))
             }),
-            ("min of the entries", |o, d, min, max| {
+            (/* min of the entries */ "", |o, d, min, max| {
                 let [x, y, z] = slabs(o, d, min, max);
                 let (near, far) = (x[0].min(y[0]).min(z[0]), x[1].min(y[1]).min(z[1]));
                 first(near, far)
             }),
-            ("max taken for a size", |o, d, min, max| {
+            ("`max` is taken for the box's size", |o, d, min, max| {
                 let [x, y, z] = slabs(o, d, min, add(min, max));
                 first(x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]))
             }),
-            ("the far face", |o, d, min, max| {
+            ("the far side is taken where the near one is ahead", |o, d, min, max| {
                 let [x, y, z] = slabs(o, d, min, max);
                 let (near, far) = (x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]));
                 if near > far || far <= 0.0 { None } else { Some(far) }
             }),
-            ("2: the direction without its signs", |o, d, min, max| {
+            ("the slab is entered at its smaller coordinate", |o, d, min, max| {
                 let [x, y, z] = slabs(o, d.map(f64::abs), min, max);
                 first(x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]))
             }),
-            ("2: the entry even behind", |o, d, min, max| {
+            ("what lies behind the origin is hit too", |o, d, min, max| {
                 let all = slabs(o, d, min, max);
                 let near = all[0][0].max(all[1][0]).max(all[2][0]);
                 let far = all[0][1].min(all[1][1]).min(all[2][1]);
@@ -634,40 +648,49 @@ fn transforms() -> Fresh {
         14,
         exercise,
         &[
-            ("mixed normal not normalised", |g, n, w, eye, light| lit(g, mixed(n, w), eye, light)),
-            ("light not normalised", |g, n, w, eye, light| lit(g, unit(mixed(n, w)), eye, light) * length(light)),
-            ("geometric normal", |g, _, _, eye, light| lit(g, g, eye, light)),
-            ("Gouraud", |g, n, w, eye, light| (0..3).map(|at| w[at] * lit(g, n[at], eye, light)).sum()),
-            (
-                "never turned",
-                |g, n, w, _, light| {
-                    if dot(g, light) <= 0.0 { 0.0 } else { dot(unit(mixed(n, w)), unit(light)).max(0.0) }
-                },
-            ),
-            ("absolute cosine", |_, n, w, _, light| dot(unit(mixed(n, w)), unit(light)).abs()),
-            ("light below the triangle not looked at", |g, n, w, eye, light| {
+            ("the mixed normal is not brought to length 1", |g, n, w, eye, light| lit(g, mixed(n, w), eye, light)),
+            ("the direction to the light is not brought to length 1", |g, n, w, eye, light| {
+                lit(g, unit(mixed(n, w)), eye, light) * length(light)
+            }),
+            ("light falls as the surface lies, whatever its corners' normals are", |g, _, _, eye, light| {
+                lit(g, g, eye, light)
+            }),
+            ("the cosines at the corners are mixed", |g, n, w, eye, light| {
+                (0..3).map(|at| w[at] * lit(g, n[at], eye, light)).sum()
+            }),
+            ("the mixed normal is not turned to the eye's side, but light falls only", |g, n, w, _, light| {
+                if dot(g, light) <= 0.0 { 0.0 } else { dot(unit(mixed(n, w)), unit(light)).max(0.0) }
+            }),
+            ("light falls on the mixed normal from behind, too", |_, n, w, _, light| {
+                dot(unit(mixed(n, w)), unit(light)).abs()
+            }),
+            ("light comes from below the surface, where the mixed normal leans to it", |g, n, w, eye, light| {
                 let g = if dot(g, eye) < 0.0 { times(g, -1.0) } else { g };
                 let n = unit(mixed(n, w));
                 let n = if dot(n, g) < 0.0 { times(n, -1.0) } else { n };
                 dot(n, unit(light)).max(0.0)
             }),
-            ("nearest corner", |g, n, w, eye, light| {
+            (/* nearest corner */ "", |g, n, w, eye, light| {
                 let most = (0..3).max_by(|&a, &b| w[a].total_cmp(&w[b])).unwrap_or(0);
                 lit(g, n[most], eye, light)
             }),
-            ("weights left out", |g, n, _, eye, light| lit(g, unit(mixed(n, [1.0 / 3.0; 3])), eye, light)),
-            ("weights rotated", |g, n, w, eye, light| lit(g, unit(mixed(n, [w[1], w[2], w[0]])), eye, light)),
-            ("turned by the shading normal", |g, n, w, eye, light| {
+            ("the weights are left out", |g, n, _, eye, light| lit(g, unit(mixed(n, [1.0 / 3.0; 3])), eye, light)),
+            ("the weights go with the wrong corners", |g, n, w, eye, light| {
+                lit(g, unit(mixed(n, [w[1], w[2], w[0]])), eye, light)
+            }),
+            ("the mixed normal is turned to the eye by its own direction", |g, n, w, eye, light| {
                 let n = unit(mixed(n, w));
                 let n = if dot(n, eye) < 0.0 { times(n, -1.0) } else { n };
                 let g = if dot(g, eye) < 0.0 { times(g, -1.0) } else { g };
                 if dot(g, light) <= 0.0 { 0.0 } else { dot(n, unit(light)).max(0.0) }
             }),
-            ("turned to the light", |g, n, w, _, light| lit(g, unit(mixed(n, w)), light, light)),
-            ("2: cosine to the eye", |g, n, w, eye, light| {
+            ("the side that is lit is the light's", |g, n, w, _, light| lit(g, unit(mixed(n, w)), light, light)),
+            ("this is the cosine towards the eye", |g, n, w, eye, light| {
                 if lit(g, unit(mixed(n, w)), eye, light) > 0.0 { lit(g, unit(mixed(n, w)), eye, eye) } else { 0.0 }
             }),
-            ("2: half vector", |g, n, w, eye, light| lit(g, unit(mixed(n, w)), eye, add(unit(eye), unit(light)))),
+            ("that is the cosine to the half vector", |g, n, w, eye, light| {
+                lit(g, unit(mixed(n, w)), eye, add(unit(eye), unit(light)))
+            }),
         ],
         &[
             |g, n, w, eye, light| {

@@ -27,48 +27,54 @@ fn phong() -> Fresh {
         15,
         exercise,
         &[
-            ("mirror direction the other way", |m, e, n, l, v| phong_by(m, e, dot(n, l), -lobe_cosine(n, l, v))),
-            ("normal and eye", |m, e, n, l, v| phong_by(m, e, dot(n, l), dot(n, v))),
-            ("matte only", |[c, _, n], e, nn, l, v| phong_by([c, 0.0, n], e, dot(nn, l), lobe_cosine(nn, l, v))),
-            ("lobe only", |[_, s, n], e, nn, l, v| phong_by([0.0, s, n], e, dot(nn, l), lobe_cosine(nn, l, v))),
-            ("no cosine on the lobe", |[c, s, n], e, nn, l, v| {
+            ("the mirrored direction points into the surface", |m, e, n, l, v| {
+                phong_by(m, e, dot(n, l), -lobe_cosine(n, l, v))
+            }),
+            ("the highlight is about the normal", |m, e, n, l, v| phong_by(m, e, dot(n, l), dot(n, v))),
+            ("the highlight is left out", |[c, _, n], e, nn, l, v| {
+                phong_by([c, 0.0, n], e, dot(nn, l), lobe_cosine(nn, l, v))
+            }),
+            ("the matte part is left out", |[_, s, n], e, nn, l, v| {
+                phong_by([0.0, s, n], e, dot(nn, l), lobe_cosine(nn, l, v))
+            }),
+            ("the cosine is forgotten in the highlight", |[c, s, n], e, nn, l, v| {
                 let cosine = dot(nn, l);
                 let lobe = lobe_cosine(nn, l, v).max(0.0).powf(n);
                 if cosine > 0.0 { (c / PI * cosine + s * (n + 2.0) / (2.0 * PI) * lobe) * e } else { 0.0 }
             }),
-            ("matte not divided by π", |[c, s, n], e, nn, l, v| {
+            ("Second, 0 to the power 0 is taken for 1", |[c, s, n], e, nn, l, v| {
                 let cosine = dot(nn, l);
                 let lobe = lobe_cosine(nn, l, v).max(0.0).powf(n);
                 if cosine > 0.0 { (c + s * (n + 2.0) / (2.0 * PI) * lobe) * e * cosine } else { 0.0 }
             }),
-            ("lobe's cosine absolute", |[c, s, n], e, nn, l, v| {
+            ("more than 90° from the mirrored light there is no highlight, also wher", |[c, s, n], e, nn, l, v| {
                 let cosine = dot(nn, l);
                 let lobe = lobe_cosine(nn, l, v).abs().powf(n);
                 if cosine > 0.0 { (c / PI + s * (n + 2.0) / (2.0 * PI) * lobe) * e * cosine } else { 0.0 }
             }),
-            ("Blinn's (n + 8) / 8π", |[c, s, n], e, nn, l, v| {
+            ("the factor of the highlight is another one", |[c, s, n], e, nn, l, v| {
                 let cosine = dot(nn, l);
                 let lobe = lobe_cosine(nn, l, v).max(0.0).powf(n);
                 if cosine > 0.0 { (c / PI + s * (n + 8.0) / (8.0 * PI) * lobe) * e * cosine } else { 0.0 }
             }),
-            ("times n instead of to the power", |[c, s, n], e, nn, l, v| {
+            ("cos α is multiplied by the exponent", |[c, s, n], e, nn, l, v| {
                 let cosine = dot(nn, l);
                 let lobe = lobe_cosine(nn, l, v).max(0.0);
                 if cosine > 0.0 { (c / PI + s * (n + 2.0) / (2.0 * PI) * lobe * n) * e * cosine } else { 0.0 }
             }),
-            ("multiplied", |[c, s, n], e, nn, l, v| {
+            ("the matte part is multiplied by the highlight", |[c, s, n], e, nn, l, v| {
                 let cosine = dot(nn, l);
                 let lobe = lobe_cosine(nn, l, v).max(0.0).powf(n);
                 if cosine > 0.0 { c / PI * s * (n + 2.0) / (2.0 * PI) * lobe * e * cosine } else { 0.0 }
             }),
-            ("half the exponent", |[c, s, n], e, nn, l, v| {
+            ("`exponent` is halved", |[c, s, n], e, nn, l, v| {
                 phong_by([c, s, n / 2.0], e, dot(nn, l), lobe_cosine(nn, l, v))
             }),
-            ("irradiance left out", |m, _, n, l, v| phong_by(m, 1.0, dot(n, l), lobe_cosine(n, l, v))),
-            ("2: lobe times the colour", |[c, s, n], e, nn, l, v| {
+            ("the irradiance is left out", |m, _, n, l, v| phong_by(m, 1.0, dot(n, l), lobe_cosine(n, l, v))),
+            ("the highlight has the colour, too", |[c, s, n], e, nn, l, v| {
                 phong_by([c, s * c, n], e, dot(nn, l), lobe_cosine(nn, l, v))
             }),
-            ("2: matte times 1 - specular", |[c, s, n], e, nn, l, v| {
+            ("one part is lessened by what the other reflects", |[c, s, n], e, nn, l, v| {
                 phong_by([c * (1.0 - s), s, n], e, dot(nn, l), lobe_cosine(nn, l, v))
             }),
         ],
@@ -108,28 +114,28 @@ fn stripes() -> Fresh {
         16,
         exercise,
         &[
-            ("width on both sides", |x, w| mean(x, 2.0 * w)),
-            ("mean of both ends", |x, w| (stripe(x - w / 2.0) + stripe(x + w / 2.0)) / 2.0),
-            (
-                "not divided by the width",
-                |x, w| if w == 0.0 { stripe(x) } else { area(x + w / 2.0) - area(x - w / 2.0) },
-            ),
-            ("from x on", |x, w| mean(x + w / 2.0, w)),
-            ("remainder of negative numbers", |x, w| {
+            ("the range reaches width to either side of x, which is twice as wide as", |x, w| mean(x, 2.0 * w)),
+            ("only a few points of the range are looked at", |x, w| (stripe(x - w / 2.0) + stripe(x + w / 2.0)) / 2.0),
+            ("this is the area", |x, w| if w == 0.0 { stripe(x) } else { area(x + w / 2.0) - area(x - w / 2.0) }),
+            ("the range reaches from x to x + width", |x, w| mean(x + w / 2.0, w)),
+            ("below 0 the remainder or the cast has the wrong sign", |x, w| {
                 let area = |x: f64| 1.0 - (x % 2.0 - 1.0).abs();
                 if w == 0.0 { stripe(x) } else { (area(x + w / 2.0) - area(x - w / 2.0)) / w }
             }),
-            ("absolute", |x, w| mean(x, w).abs()),
-            ("sign", |x, w| -mean(x, w)),
-            ("0 from a width of 1", |x, w| if w >= 1.0 { 0.0 } else { mean(x, w) }),
-            ("0 / 0", |x, w| (area(x + w / 2.0) - area(x - w / 2.0)) / w),
-            ("four samples", |x, w| {
+            ("the mean has lost its sign", |x, w| mean(x, w).abs()),
+            ("odd stripes count as 1 and even ones as −1", |x, w| -mean(x, w)),
+            ("wide ranges are given 0", |x, w| if w >= 1.0 { 0.0 } else { mean(x, w) }),
+            ("a range without width has no mean by division", |x, w| (area(x + w / 2.0) - area(x - w / 2.0)) / w),
+            ("the range is sampled at many points", |x, w| {
                 (0..4).map(|at| stripe(x + w * (f64::from(at) + 0.5) / 4.0 - w / 2.0)).sum::<f64>() / 4.0
             }),
-            ("from 0 to 1", |x, w| 0.5 + 0.5 * mean(x, w)),
-            ("stripes half as wide", |x, w| mean(2.0 * x, 2.0 * w)),
-            ("2: only the sign of the mean", |x, w| if mean(x, w) >= 0.0 { 1.0 } else { -1.0 }),
-            ("2: half the width as a whole number", |x, w| {
+            ("odd stripes count as 0", |x, w| 0.5 + 0.5 * mean(x, w)),
+            ("a stripe is taken to be half as wide", |x, w| mean(2.0 * x, 2.0 * w)),
+            (
+                "the mean is rounded to the stripe that there is more of",
+                |x, w| if mean(x, w) >= 0.0 { 1.0 } else { -1.0 },
+            ),
+            (/* half the width as a whole number */ "", |x, w| {
                 let half = (w / 2.0).floor();
                 if half == 0.0 { stripe(x) } else { (area(x + half) - area(x - half)) / (2.0 * half) }
             }),
@@ -164,27 +170,38 @@ fn tent() -> Fresh {
         17,
         exercise,
         &[
-            ("1 - √(1 - u)", |u, r| r * (1.0 - (1.0 - u).sqrt())),
-            ("mirrored", |u, r| r * if u < 0.5 { 1.0 - (2.0 * u).sqrt() } else { (2.0 - 2.0 * u).sqrt() - 1.0 }),
-            ("radius", |u, _| if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 - 2.0 * u).sqrt() }),
-            ("one half's formula for both", |u, r| r * ((2.0 * u).sqrt() - 1.0)),
-            ("2 missing", |u, r| r * if u < 0.5 { u.sqrt() - 1.0 } else { 1.0 - (1.0 - u).sqrt() }),
-            ("squares for roots", |u, r| {
+            ("all samples land on one side", |u, r| r * (1.0 - (1.0 - u).sqrt())),
+            ("left and right are swapped", |u, r| {
+                r * if u < 0.5 { 1.0 - (2.0 * u).sqrt() } else { (2.0 - 2.0 * u).sqrt() - 1.0 }
+            }),
+            (
+                "the radius is left out",
+                |u, _| if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 - 2.0 * u).sqrt() },
+            ),
+            ("the left slope goes on beyond the centre", |u, r| r * ((2.0 * u).sqrt() - 1.0)),
+            ("the 2 under the root is another number", |u, r| {
+                r * if u < 0.5 { u.sqrt() - 1.0 } else { 1.0 - (1.0 - u).sqrt() }
+            }),
+            ("the square root is missing", |u, r| {
                 r * if u < 0.5 { 4.0 * u * u - 1.0 } else { 1.0 - (2.0 - 2.0 * u) * (2.0 - 2.0 * u) }
             }),
-            ("cube roots", |u, r| r * if u < 0.5 { (2.0 * u).cbrt() - 1.0 } else { 1.0 - (2.0 - 2.0 * u).cbrt() }),
-            ("the tent's height", |u, r| r * (1.0 - (2.0 * u - 1.0).abs())),
-            ("from the pixel's edge", |u, r| {
+            ("the cube root is taken", |u, r| {
+                r * if u < 0.5 { (2.0 * u).cbrt() - 1.0 } else { 1.0 - (2.0 - 2.0 * u).cbrt() }
+            }),
+            ("this is how high the tent is, not the place up to which its area is u", |u, r| {
+                r * (1.0 - (2.0 * u - 1.0).abs())
+            }),
+            ("the place is counted from the pixel's edge", |u, r| {
                 0.5 + r * if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 - 2.0 * u).sqrt() }
             }),
-            ("roots subtracted", |u, r| r * (u.sqrt() - (1.0 - u).sqrt())),
-            ("twice as wide", |u, r| {
+            ("the root of what is left to 1 is subtracted from that of u", |u, r| r * (u.sqrt() - (1.0 - u).sqrt())),
+            ("the radius is doubled", |u, r| {
                 2.0 * r * if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 - 2.0 * u).sqrt() }
             }),
-            ("2: right half from the centre", |u, r| {
+            ("the right half is not the mirror image of the left one", |u, r| {
                 r * if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { (2.0 * u - 1.0).sqrt() }
             }),
-            ("2: square with its sign", |u, r| r * (2.0 * u - 1.0) * (2.0 * u - 1.0).abs()),
+            ("squares draw the samples to the centre too strongly", |u, r| r * (2.0 * u - 1.0) * (2.0 * u - 1.0).abs()),
         ],
         &[
             |u, r| {
@@ -231,79 +248,79 @@ fn variance() -> Fresh {
         18,
         exercise,
         &[
-            ("variance about the truth", |runs, truth| {
+            ("the variance is taken about the truth", |runs, truth| {
                 both(runs, |runs, n| [spread(runs, truth) / (n - 1.0), pairs(runs, truth) / (n * (n - 1.0))])
             }),
-            ("standard deviation", |runs, truth| {
+            ("this is the standard deviation", |runs, truth| {
                 let of = |runs: &[f64], n: f64| {
                     [(spread(runs, mean_of(runs)) / (n - 1.0)).sqrt(), pairs(runs, truth) / (n * (n - 1.0))]
                 };
                 both(runs, of)
             }),
-            ("sum over the pairs", |runs, truth| {
+            ("the pairs are miscounted", |runs, truth| {
                 both(runs, |runs, n| [spread(runs, mean_of(runs)) / (n - 1.0), pairs(runs, truth)])
             }),
-            ("pairs over n²", |runs, truth| {
+            ("the pairs are miscounted", |runs, truth| {
                 both(runs, |runs, n| [spread(runs, mean_of(runs)) / (n - 1.0), pairs(runs, truth) / (n * n)])
             }),
-            ("each pair once, over n (n - 1)", |runs, truth| {
+            ("the pairs are miscounted", |runs, truth| {
                 let of = |runs: &[f64], n: f64| {
                     [spread(runs, mean_of(runs)) / (n - 1.0), pairs(runs, truth) / 2.0 / (n * (n - 1.0))]
                 };
                 both(runs, of)
             }),
-            ("swapped", |runs, truth| {
+            ("the two numbers are swapped", |runs, truth| {
                 let of = |runs: &[f64], n: f64| {
                     [pairs(runs, truth) / (n * (n - 1.0)), spread(runs, mean_of(runs)) / (n - 1.0)]
                 };
                 both(runs, of)
             }),
-            ("neighbours only", |runs, truth| {
+            ("only neighbours are paired", |runs, truth| {
                 let of = |runs: &[f64], n: f64| {
                     let next: f64 = runs.windows(2).map(|two| (two[0] - truth) * (two[1] - truth)).sum();
                     [spread(runs, mean_of(runs)) / (n - 1.0), next / (n - 1.0)]
                 };
                 both(runs, of)
             }),
-            ("variance of the mean", |runs, truth| {
+            ("this is the variance of the mean of all runs", |runs, truth| {
                 let of = |runs: &[f64], n: f64| {
                     [spread(runs, mean_of(runs)) / (n - 1.0) / n, pairs(runs, truth) / (n * (n - 1.0))]
                 };
                 both(runs, of)
             }),
-            ("absolute distances", |runs, truth| {
+            ("the distances are not squared", |runs, truth| {
                 let of = |runs: &[f64], n: f64| {
                     let apart: f64 = runs.iter().map(|run| (run - mean_of(runs)).abs()).sum();
                     [apart / (n - 1.0), pairs(runs, truth) / (n * (n - 1.0))]
                 };
                 both(runs, of)
             }),
-            ("sum of squares", |runs, truth| {
+            ("the variance is not divided", |runs, truth| {
                 let of = |runs: &[f64], n: f64| [spread(runs, mean_of(runs)), pairs(runs, truth) / (n * (n - 1.0))];
                 both(runs, of)
             }),
-            ("pairs about the mean", |runs, _| {
+            ("bias² is taken about the runs' own mean", |runs, _| {
                 let of = |runs: &[f64], n: f64| {
                     let mean = mean_of(runs);
                     [spread(runs, mean) / (n - 1.0), pairs(runs, mean) / (n * (n - 1.0))]
                 };
                 both(runs, of)
             }),
-            ("one run gives NaN", |runs, truth| {
+            ("one run tells no variance, and none tells nothing", |runs, truth| {
                 let n = runs.len() as f64;
                 if runs.is_empty() {
                     return None;
                 }
                 Some([spread(runs, mean_of(runs)) / (n - 1.0), pairs(runs, truth) / (n * (n - 1.0))])
             }),
-            ("2: about the median", |runs, truth| {
+            (/* about the median */ "", |runs, truth| {
                 both(runs, |runs, n| {
                     let mut sorted = runs.to_vec();
                     sorted.sort_by(f64::total_cmp);
                     [spread(runs, sorted[sorted.len() / 2]) / (n - 1.0), pairs(runs, truth) / (n * (n - 1.0))]
                 })
             }),
-            ("2: absolute distances in the pairs", |runs, truth| {
+            (/* absolute distances in the pairs */ "", |runs, truth| {
                 both(runs, |runs, n| {
                     let sum: f64 = runs.iter().map(|run| (run - truth).abs()).sum();
                     [spread(runs, mean_of(runs)) / (n - 1.0), (sum * sum - spread(runs, truth)) / (n * (n - 1.0))]
@@ -348,30 +365,32 @@ fn mirror() -> Fresh {
         19,
         exercise,
         &[
-            ("normal not normalised", |d, n| sub(d, times(n, 2.0 * dot(d, n)))),
-            ("divided by the length once", |d, n| sub(d, times(n, 2.0 * dot(d, n) / length(n)))),
-            ("2 missing", |d, n| sub(d, times(unit(n), dot(d, unit(n))))),
-            ("plus", |d, n| add(d, times(unit(n), 2.0 * dot(d, unit(n))))),
-            ("straight back", |d, _| times(d, -1.0)),
-            ("the normal", |_, n| unit(n)),
-            ("absolute dot product", |d, n| sub(d, times(unit(n), 2.0 * dot(d, unit(n)).abs()))),
-            ("direction towards the light", |d, n| sub(times(unit(n), 2.0 * dot(d, unit(n))), d)),
-            ("answer normalised instead of the normal", |d, n| unit(sub(d, times(n, 2.0 * dot(d, n))))),
-            ("normal turned, cosine kept", |d, n| {
+            ("the normal is taken for a unit vector", |d, n| sub(d, times(n, 2.0 * dot(d, n)))),
+            ("what comes out is divided by the normal's length once, but n is in the", |d, n| {
+                sub(d, times(n, 2.0 * dot(d, n) / length(n)))
+            }),
+            ("the 2 is missing", |d, n| sub(d, times(unit(n), dot(d, unit(n))))),
+            ("the part along the normal is added", |d, n| add(d, times(unit(n), 2.0 * dot(d, unit(n))))),
+            ("the direction is sent back where it came from", |d, _| times(d, -1.0)),
+            ("it is the normal that comes out", |_, n| unit(n)),
+            ("the absolute value of d · n is taken off", |d, n| sub(d, times(unit(n), 2.0 * dot(d, unit(n)).abs()))),
+            ("what comes out goes into the mirror", |d, n| sub(times(unit(n), 2.0 * dot(d, unit(n))), d)),
+            ("the result is normalised instead of the normal", |d, n| unit(sub(d, times(n, 2.0 * dot(d, n))))),
+            ("from behind a mirror works too", |d, n| {
                 let n = unit(n);
                 let c = dot(d, n);
                 let n = if c > 0.0 { times(n, -1.0) } else { n };
                 sub(d, times(n, 2.0 * c))
             }),
-            ("cross product", |d, n| unit(cross(d, n))),
-            ("sum of both", |d, n| unit(add(d, unit(n)))),
-            ("2: only the normal's largest part is turned", |d, n| {
+            (/* cross product */ "", |d, n| unit(cross(d, n))),
+            ("d · n is missing", |d, n| unit(add(d, unit(n)))),
+            ("only the component along which the normal is longest is turned round", |d, n| {
                 let most = (0..3).max_by(|&a, &b| n[a].abs().total_cmp(&n[b].abs())).unwrap_or(0);
                 let mut out = d;
                 out[most] = -out[most];
                 out
             }),
-            ("2: no dot product", |d, n| sub(d, times(unit(n), 2.0))),
+            ("d · n is missing", |d, n| sub(d, times(unit(n), 2.0))),
         ],
         &[
             |d, n| {
@@ -399,8 +418,10 @@ fn glass() -> Fresh {
         20,
         exercise,
         &[
-            ("second term not divided", |d, n, eta| by(d, n, eta, |c, g2| add(over(d, eta), times(n, c - g2.sqrt())))),
-            ("1 - sin for cos", |d, n, eta| {
+            ("only d is divided by η, and (c − g) n is not", |d, n, eta| {
+                by(d, n, eta, |c, g2| add(over(d, eta), times(n, c - g2.sqrt())))
+            }),
+            ("1 less the sine is taken for the cosine", |d, n, eta| {
                 let c = -dot(d, n);
                 let sine = (1.0 - c * c).max(0.0).sqrt() / eta;
                 if sine > 1.0 {
@@ -408,38 +429,47 @@ fn glass() -> Fresh {
                 }
                 Some(add(over(d, eta), times(n, c / eta - (1.0 - sine))))
             }),
-            ("root forgotten", |d, n, eta| by(d, n, eta, |c, g2| over(add(d, times(n, c - g2)), eta))),
-            ("plus g", |d, n, eta| by(d, n, eta, |c, g2| over(add(d, times(n, c + g2.sqrt())), eta))),
-            ("not divided at all", |d, n, eta| by(d, n, eta, |c, g2| add(d, times(n, c - g2.sqrt())))),
-            ("eta not squared", |d, n, eta| {
+            ("the root is missing", |d, n, eta| by(d, n, eta, |c, g2| over(add(d, times(n, c - g2)), eta))),
+            ("what comes out goes back to the near side", |d, n, eta| {
+                by(d, n, eta, |c, g2| over(add(d, times(n, c + g2.sqrt())), eta))
+            }),
+            ("nothing is divided by η", |d, n, eta| by(d, n, eta, |c, g2| add(d, times(n, c - g2.sqrt())))),
+            ("η is not squared under the root", |d, n, eta| {
                 let c = -dot(d, n);
                 let g2 = eta - 1.0 + c * c;
                 if g2 < 0.0 { None } else { Some(over(add(d, times(n, c - g2.sqrt())), eta)) }
             }),
-            ("cut at 0 instead of none", |d, n, eta| {
+            ("a root of a negative number is cut off at 0", |d, n, eta| {
                 let c = -dot(d, n);
                 let g2 = (eta * eta - 1.0 + c * c).max(0.0);
                 Some(over(add(d, times(n, c - g2.sqrt())), eta))
             }),
-            ("straight on, over eta", |d, n, eta| by(d, n, eta, |c, _| over(add(d, times(n, c - c)), eta))),
-            ("straight on", |d, n, eta| by(d, n, eta, |_, _| d)),
-            ("second term subtracted", |d, n, eta| by(d, n, eta, |c, g2| over(sub(d, times(n, c - g2.sqrt())), eta))),
-            ("cosine not squared", |d, n, eta| {
+            ("the part along the normal is left out", |d, n, eta| {
+                by(d, n, eta, |c, _| over(add(d, times(n, c - c)), eta))
+            }),
+            ("the direction goes straight on", |d, n, eta| by(d, n, eta, |_, _| d)),
+            ("the minus is missing", |d, n, eta| by(d, n, eta, |c, g2| over(sub(d, times(n, c - g2.sqrt())), eta))),
+            ("c is not squared under the root", |d, n, eta| {
                 let c = -dot(d, n);
                 let g2 = eta * eta - 1.0 + c;
                 if g2 < 0.0 { None } else { Some(over(add(d, times(n, c - g2.sqrt())), eta)) }
             }),
-            ("none into the thinner medium", |d, n, eta| {
+            ("out of a medium of a higher index some light passes, too", |d, n, eta| {
                 if eta < 1.0 {
                     return None;
                 }
                 by(d, n, eta, |c, g2| over(add(d, times(n, c - g2.sqrt())), eta))
             }),
-            ("normalised", |d, n, eta| by(d, n, eta, |c, g2| unit(add(d, times(n, c - g2.sqrt() / eta))))),
-            ("2: mixed with the normal", |d, n, eta| {
-                by(d, n, eta, |_, _| unit(sub(times(d, 1.0 / eta), times(n, 1.0 - 1.0 / eta))))
+            ("only g is divided by η, and then all is normalised", |d, n, eta| {
+                by(d, n, eta, |c, g2| unit(add(d, times(n, c - g2.sqrt() / eta))))
             }),
-            ("2: arguments swapped", |d, n, eta| by(n, d, eta, |c, g2| over(add(n, times(d, c - g2.sqrt())), eta))),
+            (
+                /* mixed with the normal */ "",
+                |d, n, eta| by(d, n, eta, |_, _| unit(sub(times(d, 1.0 / eta), times(n, 1.0 - 1.0 / eta)))),
+            ),
+            ("direction and normal are swapped", |d, n, eta| {
+                by(n, d, eta, |c, g2| over(add(n, times(d, c - g2.sqrt())), eta))
+            }),
         ],
         &[
             |d, n, eta| {
@@ -477,32 +507,36 @@ fn soft_shadows() -> Fresh {
         21,
         exercise,
         &[
-            ("cosine's sign", |f, at, n, a| by(f, at, n, |d, c| d * d / (c * a))),
-            ("one side", |f, at, n, a| by(f, at, n, |d, c| if c > 0.0 { d * d / (c * a) } else { 0.0 })),
-            ("distance not squared", |f, at, n, a| by(f, at, n, |d, c| d / (c.abs() * a))),
-            ("times the cosine", |f, at, n, a| by(f, at, n, |d, c| d * d * c.abs() / a)),
-            ("solid angle", |f, at, n, a| by(f, at, n, |d, c| a * c.abs() / (d * d))),
-            ("area left out", |f, at, n, _| by(f, at, n, |d, c| d * d / c.abs())),
-            ("over π", |f, at, n, a| by(f, at, n, |d, c| d * d / (c.abs() * a * PI))),
-            ("both sides' area", |f, at, n, a| by(f, at, n, |d, c| d * d / (c.abs() * a * 2.0))),
-            ("cosine squared", |f, at, n, a| by(f, at, n, |d, c| d * d / (c * c * a))),
-            ("pdf per area", |_, _, _, a| 1.0 / a),
-            ("no cosine", |f, at, n, a| by(f, at, n, |d, _| d * d / a)),
-            ("dot product of what is not normalised", |f, at, n, a| {
+            ("a light that faces away has a negative pdf", |f, at, n, a| by(f, at, n, |d, c| d * d / (c * a))),
+            ("a light that faces away has none", |f, at, n, a| {
+                by(f, at, n, |d, c| if c > 0.0 { d * d / (c * a) } else { 0.0 })
+            }),
+            ("the distance counts once, not squared", |f, at, n, a| by(f, at, n, |d, c| d / (c.abs() * a))),
+            ("the pdf is multiplied by the cosine", |f, at, n, a| by(f, at, n, |d, c| d * d * c.abs() / a)),
+            ("that is the solid angle of the area", |f, at, n, a| by(f, at, n, |d, c| a * c.abs() / (d * d))),
+            ("the area is missing", |f, at, n, _| by(f, at, n, |d, c| d * d / c.abs())),
+            ("it is divided by π, which belongs to cosine-weighted directions", |f, at, n, a| {
+                by(f, at, n, |d, c| d * d / (c.abs() * a * PI))
+            }),
+            ("the area is taken twice", |f, at, n, a| by(f, at, n, |d, c| d * d / (c.abs() * a * 2.0))),
+            ("the cosine is squared", |f, at, n, a| by(f, at, n, |d, c| d * d / (c * c * a))),
+            ("that is the pdf per unit of area", |_, _, _, a| 1.0 / a),
+            ("the cosine at the light is missing", |f, at, n, a| by(f, at, n, |d, _| d * d / a)),
+            ("Second, seen from its edge the area fills no direction, and the answer", |f, at, n, a| {
                 let v = sub(f, at);
                 dot(v, v) / (dot(v, n).abs() * a)
             }),
-            ("infinite at the edge", |f, at, n, a| {
+            ("seen from its edge the area fills no direction, and the answer is to b", |f, at, n, a| {
                 let v = sub(f, at);
                 dot(v, v) / (dot(unit(v), n).abs() * a)
             }),
-            ("sine", |f, at, n, a| by(f, at, n, |d, c| d * d / ((1.0 - c * c).sqrt() * a))),
-            ("2: the light's place as a direction", |f, at, n, a| {
+            (/* sine */ "", |f, at, n, a| by(f, at, n, |d, c| d * d / ((1.0 - c * c).sqrt() * a))),
+            (/* the light's place as a direction */ "", |f, at, n, a| {
                 let d2 = dot(sub(f, at), sub(f, at));
                 let c = dot(unit(at), n).abs();
                 if c > 0.0 { d2 / (c * a) } else { 0.0 }
             }),
-            ("2: area taken for a radius", |f, at, n, a| by(f, at, n, |d, c| d * d / (c.abs() * PI * a * a))),
+            (/* area taken for a radius */ "", |f, at, n, a| by(f, at, n, |d, c| d * d / (c.abs() * PI * a * a))),
         ],
         &[
             |f, at, n, a| {

@@ -22,27 +22,27 @@ fn cosines() -> Fresh {
         22,
         exercise,
         &[
-            ("radius u", |u, v| about_z(u, (1.0 - u * u).sqrt(), TAU * v)),
-            ("radius and height swapped", |u, v| about_z((1.0 - u).sqrt(), u.sqrt(), TAU * v)),
-            ("2π missing", |u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), v)),
-            ("half a turn", |u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), PI * v)),
-            ("degrees", |u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), 360.0 * v)),
-            ("uniform hemisphere", |u, v| about_z((1.0 - u * u).sqrt(), u, TAU * v)),
-            ("uniform, 1 - u", |u, v| about_z((1.0 - (1.0 - u) * (1.0 - u)).sqrt(), 1.0 - u, TAU * v)),
-            ("sine and cosine swapped", |u, v| {
+            ("u is taken for the radius", |u, v| about_z(u, (1.0 - u * u).sqrt(), TAU * v)),
+            ("u and 1 − u are swapped", |u, v| about_z((1.0 - u).sqrt(), u.sqrt(), TAU * v)),
+            ("v is taken for an angle", |u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), v)),
+            ("v makes half a turn only", |u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), PI * v)),
+            ("the turn is in degrees", |u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), 360.0 * v)),
+            ("u is taken for the height", |u, v| about_z((1.0 - u * u).sqrt(), u, TAU * v)),
+            ("1 − u is taken for the height", |u, v| about_z((1.0 - (1.0 - u) * (1.0 - u)).sqrt(), 1.0 - u, TAU * v)),
+            ("cosine and sine of the turn are swapped", |u, v| {
                 let r = u.sqrt();
                 [r * (TAU * v).sin(), r * (TAU * v).cos(), (1.0 - u).sqrt()]
             }),
-            ("u and v swapped", |u, v| about_z(v.sqrt(), (1.0 - v).sqrt(), TAU * u)),
-            ("height without its root", |u, v| about_z(u.sqrt(), 1.0 - u, TAU * v)),
-            ("angle in proportion", |u, v| {
+            ("u and v are swapped", |u, v| about_z(v.sqrt(), (1.0 - v).sqrt(), TAU * u)),
+            ("the height is not that of a unit vector", |u, v| about_z(u.sqrt(), 1.0 - u, TAU * v)),
+            ("u is taken for the angle to +z", |u, v| {
                 let theta = u * PI / 2.0;
                 about_z(theta.sin(), theta.cos(), TAU * v)
             }),
-            ("downwards", |u, v| about_z(u.sqrt(), -(1.0 - u).sqrt(), TAU * v)),
-            ("left on the disk", |u, v| about_z(u.sqrt(), 0.0, TAU * v)),
-            ("2: root of u for both", |u, v| about_z(u.sqrt(), u.sqrt(), TAU * v)),
-            ("2: turn from -x", |u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), TAU * v - PI)),
+            ("z points down", |u, v| about_z(u.sqrt(), -(1.0 - u).sqrt(), TAU * v)),
+            ("z of the answer is left at 0", |u, v| about_z(u.sqrt(), 0.0, TAU * v)),
+            ("the height is not that of a unit vector", |u, v| about_z(u.sqrt(), u.sqrt(), TAU * v)),
+            ("x and y of the answer have the opposite sign", |u, v| about_z(u.sqrt(), (1.0 - u).sqrt(), TAU * v - PI)),
         ],
         &[
             |u, v| {
@@ -65,23 +65,37 @@ fn lens() -> Fresh {
         23,
         exercise,
         &[
-            ("lens added", |[x, y], t, [a, b], f| unit([x * t * f + a, y * t * f + b, -f])),
-            ("not normalised", |[x, y], t, [a, b], f| [x * t * f - a, y * t * f - b, -f]),
-            ("distance along the ray", |[x, y], t, [a, b], f| {
+            ("the lens point is added", |[x, y], t, [a, b], f| unit([x * t * f + a, y * t * f + b, -f])),
+            ("the direction is not of length 1", |[x, y], t, [a, b], f| [x * t * f - a, y * t * f - b, -f]),
+            ("the focus is taken along the ray", |[x, y], t, [a, b], f| {
                 unit(sub(times(unit([x * t, y * t, -1.0]), f), [a, b, 0.0]))
             }),
-            ("pinhole's", |[x, y], t, _, _| unit([x * t, y * t, -1.0])),
-            ("no tangent", |[x, y], _, [a, b], f| unit([x * f - a, y * f - b, -f])),
-            ("z not scaled", |[x, y], t, [a, b], f| unit([x * t * f - a, y * t * f - b, -1.0])),
-            ("z sign", |[x, y], t, [a, b], f| unit([x * t * f - a, y * t * f - b, f])),
-            ("lens scaled too", |[x, y], t, [a, b], f| unit([(x * t - a) * f, (y * t - b) * f, -f])),
-            ("backwards", |[x, y], t, [a, b], f| unit([a - x * t * f, b - y * t * f, f])),
-            ("lens times tangent", |[x, y], t, [a, b], f| unit([x * t * f - a * t, y * t * f - b * t, -f])),
-            ("lens swapped", |[x, y], t, [a, b], f| unit([x * t * f - b, y * t * f - a, -f])),
-            ("tangent only on y", |[x, y], t, [a, b], f| unit([x * f - a, y * t * f - b, -f])),
-            ("place not scaled", |[x, y], t, [a, b], f| unit([x * t - a, y * t - b, -f])),
-            ("2: lens on the image plane", |[x, y], t, [a, b], f| unit([x * t * f - a, y * t * f - b, 1.0 - f])),
-            ("2: unit direction less lens over f", |[x, y], t, [a, b], f| {
+            ("the direction is the pinhole's", |[x, y], t, _, _| unit([x * t, y * t, -1.0])),
+            ("the tangent is left out", |[x, y], _, [a, b], f| unit([x * f - a, y * f - b, -f])),
+            ("only x and y are multiplied by the focus distance", |[x, y], t, [a, b], f| {
+                unit([x * t * f - a, y * t * f - b, -1.0])
+            }),
+            ("the plane in focus stands at z = +f", |[x, y], t, [a, b], f| unit([x * t * f - a, y * t * f - b, f])),
+            ("the plane in focus is always at distance 1", |[x, y], t, [a, b], f| {
+                unit([(x * t - a) * f, (y * t - b) * f, -f])
+            }),
+            ("the direction goes from the focus to the lens", |[x, y], t, [a, b], f| {
+                unit([a - x * t * f, b - y * t * f, f])
+            }),
+            ("the lens point is multiplied by the tangent", |[x, y], t, [a, b], f| {
+                unit([x * t * f - a * t, y * t * f - b * t, -f])
+            }),
+            ("x of `lens` and y of `lens` are swapped", |[x, y], t, [a, b], f| {
+                unit([x * t * f - b, y * t * f - a, -f])
+            }),
+            ("only y is multiplied by the tangent", |[x, y], t, [a, b], f| unit([x * f - a, y * t * f - b, -f])),
+            ("only the depth is multiplied by the focus distance", |[x, y], t, [a, b], f| {
+                unit([x * t - a, y * t - b, -f])
+            }),
+            ("the lens stands at z = 0, not on the image plane at z = −1", |[x, y], t, [a, b], f| {
+                unit([x * t * f - a, y * t * f - b, 1.0 - f])
+            }),
+            ("the focus is taken along the ray", |[x, y], t, [a, b], f| {
                 let d = unit([x * t, y * t, -1.0]);
                 unit([d[0] - a / f, d[1] - b / f, d[2]])
             }),
@@ -118,24 +132,24 @@ fn motion() -> Fresh {
         24,
         exercise,
         &[
-            ("minus", |o, d, c, r, v, t| sphere(o, d, sub(c, times(v, t)), r)),
-            ("at rest", |o, d, c, r, _, _| sphere(o, d, c, r)),
-            ("both moved", |o, d, c, r, v, t| sphere(sub(o, times(v, t)), d, add(c, times(v, t)), r)),
-            ("time left out", |o, d, c, r, v, _| sphere(o, d, add(c, v), r)),
-            ("velocity normalised", |o, d, c, r, v, t| sphere(o, d, add(c, times(unit(v), t)), r)),
-            ("far root", |o, d, c, r, v, t| {
+            ("the sphere moves backwards", |o, d, c, r, v, t| sphere(o, d, sub(c, times(v, t)), r)),
+            ("the sphere stands still", |o, d, c, r, _, _| sphere(o, d, c, r)),
+            ("the motion counts twice", |o, d, c, r, v, t| sphere(sub(o, times(v, t)), d, add(c, times(v, t)), r)),
+            ("the time is left out", |o, d, c, r, v, _| sphere(o, d, add(c, v), r)),
+            (/* velocity normalised */ "", |o, d, c, r, v, t| sphere(o, d, add(c, times(unit(v), t)), r)),
+            ("that is where the ray leaves the sphere", |o, d, c, r, v, t| {
                 let f = sub(o, add(c, times(v, t)));
                 let b = dot(f, d);
                 let under = b * b - dot(f, f) + r * r;
                 if under < 0.0 || b > 0.0 { None } else { Some(-b + under.sqrt()) }
             }),
-            ("time squared", |o, d, c, r, v, t| sphere(o, d, add(c, times(v, t * t)), r)),
-            ("half the time", |o, d, c, r, v, t| sphere(o, d, add(c, times(v, t / 2.0)), r)),
-            ("time added to t", |o, d, c, r, v, t| {
+            ("the time is squared", |o, d, c, r, v, t| sphere(o, d, add(c, times(v, t * t)), r)),
+            ("the time is halved", |o, d, c, r, v, t| sphere(o, d, add(c, times(v, t / 2.0)), r)),
+            ("the time is added to t", |o, d, c, r, v, t| {
                 let c = add(c, times(v, t));
                 Some(sphere(o, d, c, r)? + t)
             }),
-            ("as if light took time", |o, d, c, r, v, t| {
+            ("the direction is changed by the velocity", |o, d, c, r, v, t| {
                 let (f, d) = (sub(o, add(c, times(v, t))), sub(d, v));
                 let (a, b) = (dot(d, d), dot(f, d));
                 let under = b * b - a * (dot(f, f) - r * r);
@@ -144,13 +158,16 @@ fn motion() -> Fresh {
                 }
                 [(-b - under.sqrt()) / a, (-b + under.sqrt()) / a].into_iter().find(|t| *t > 0.0)
             }),
-            ("direction moved", |o, d, c, r, v, t| sphere(o, unit(sub(d, times(v, t))), c, r)),
-            ("x only", |o, d, c, r, v, t| sphere(o, d, add(c, [v[0] * t, 0.0, 0.0]), r)),
-            ("radius squared twice", |o, d, c, r, v, t| sphere(o, d, add(c, times(v, t)), r * r)),
-            ("2: the sphere grows along its way", |o, d, c, r, v, t| {
-                sphere(o, d, add(c, times(v, t)), r + length(v) * t)
+            ("the direction is changed by the velocity", |o, d, c, r, v, t| sphere(o, unit(sub(d, times(v, t))), c, r)),
+            ("only one component of the velocity counts", |o, d, c, r, v, t| {
+                sphere(o, d, add(c, [v[0] * t, 0.0, 0.0]), r)
             }),
-            ("2: time from the end", |o, d, c, r, v, t| sphere(o, d, add(c, times(v, 1.0 - t)), r)),
+            ("`radius` is squared", |o, d, c, r, v, t| sphere(o, d, add(c, times(v, t)), r * r)),
+            (
+                /* the sphere grows along its way */ "",
+                |o, d, c, r, v, t| sphere(o, d, add(c, times(v, t)), r + length(v) * t),
+            ),
+            ("1 less `time` is taken instead", |o, d, c, r, v, t| sphere(o, d, add(c, times(v, 1.0 - t)), r)),
         ],
         &[
             |o, d, c, r, v, t| {
@@ -189,40 +206,44 @@ fn roulette() -> Fresh {
         25,
         exercise,
         &[
-            ("smallest", |t, u| go(t, u, t[0].min(t[1]).min(t[2]).min(1.0))),
-            ("luminance", |t, u| go(t, u, (0.2126 * t[0] + 0.7152 * t[1] + 0.0722 * t[2]).min(1.0))),
-            ("the wrong way", |t, u| {
+            ("the probability is the smallest of the three", |t, u| go(t, u, t[0].min(t[1]).min(t[2]).min(1.0))),
+            ("the probability is the luminance", |t, u| {
+                go(t, u, (0.2126 * t[0] + 0.7152 * t[1] + 0.0722 * t[2]).min(1.0))
+            }),
+            ("the two ends are swapped", |t, u| {
                 let q = most(t).min(1.0);
                 if u > q { over(t, q) } else { [0.0; 3] }
             }),
-            ("1 - q", |t, u| {
+            ("a path that goes on is divided by the probability of its end", |t, u| {
                 let q = most(t).min(1.0);
                 if u < q { over(t, 1.0 - q) } else { [0.0; 3] }
             }),
-            ("times q", |t, u| {
+            ("a path that goes on is multiplied by the probability", |t, u| {
                 let q = most(t).min(1.0);
                 if u < q { times(t, q) } else { [0.0; 3] }
             }),
-            ("at most 0.95", |t, u| go(t, u, most(t).min(0.95))),
-            ("each by itself", |t, u| t.map(|part| if u < part.min(1.0) { part / part.min(1.0) } else { 0.0 })),
-            ("red", |t, u| go(t, u, t[0].min(1.0))),
-            ("sum", |t, u| go(t, u, (t[0] + t[1] + t[2]).min(1.0))),
-            ("one that ends is left as it is", |t, u| {
+            ("the probability is cut off below 1", |t, u| go(t, u, most(t).min(0.95))),
+            ("each colour plays for itself", |t, u| {
+                t.map(|part| if u < part.min(1.0) { part / part.min(1.0) } else { 0.0 })
+            }),
+            ("the probability is that of red alone", |t, u| go(t, u, t[0].min(1.0))),
+            ("the probability is the sum of the three", |t, u| go(t, u, (t[0] + t[1] + t[2]).min(1.0))),
+            ("nothing ever ends", |t, u| {
                 let q = most(t).min(1.0);
                 if u < q { over(t, q) } else { t }
             }),
-            ("at least 0.05", |t, u| go(t, u, most(t).clamp(0.05, 1.0))),
-            ("length", |t, u| go(t, u, length(t).min(1.0))),
-            ("probability of ending for that of going on", |t, u| {
+            ("the probability is kept above a smallest one", |t, u| go(t, u, most(t).clamp(0.05, 1.0))),
+            ("the probability is the length of the throughput", |t, u| go(t, u, length(t).min(1.0))),
+            ("a path goes on where the number lies below 1 − p", |t, u| {
                 let q = most(t).min(1.0);
                 if u < 1.0 - q { over(t, q) } else { [0.0; 3] }
             }),
-            ("colour lost", |t, u| if u < most(t).min(1.0) { [1.0; 3] } else { [0.0; 3] }),
-            ("2: the upper end of the numbers", |t, u| {
+            ("each colour is divided by itself", |t, u| if u < most(t).min(1.0) { [1.0; 3] } else { [0.0; 3] }),
+            ("1 less `u` is taken instead", |t, u| {
                 let q = most(t).min(1.0);
                 if u > 1.0 - q { over(t, q) } else { [0.0; 3] }
             }),
-            ("2: the middle one", |t, u| {
+            ("the probability is the middle one of the three", |t, u| {
                 let mut sorted = t;
                 sorted.sort_by(f64::total_cmp);
                 go(t, u, sorted[1].min(1.0))
@@ -268,28 +289,36 @@ fn heuristic() -> Fresh {
         26,
         exercise,
         &[
-            ("numerator not squared", |own, other| own / (own * own + other * other)),
-            ("cubed", |own, other| if own == 0.0 { 0.0 } else { 1.0 / (1.0 + (other / own).abs().powf(3.0)) }),
-            ("root", |own, other| power(own, other).sqrt()),
-            ("maximum heuristic", |own, other| if own > other { 1.0 } else { 0.0 }),
-            ("f32", |own, other| {
+            ("own stands above the line unsquared, or the weight is divided by own a", |own, other| {
+                own / (own * own + other * other)
+            }),
+            ("each pdf is cubed instead of squared", |own, other| {
+                if own == 0.0 { 0.0 } else { 1.0 / (1.0 + (other / own).abs().powf(3.0)) }
+            }),
+            ("it is divided by the root of the sum of squares", |own, other| power(own, other).sqrt()),
+            ("the larger pdf has all the weight", |own, other| if own > other { 1.0 } else { 0.0 }),
+            ("f32 is computed in, which has seven digits", |own, other| {
                 let (own, other) = (own as f32, other as f32);
                 f64::from(own * own / (own * own + other * other))
             }),
-            ("ratio of squares", |own, other| own * own / (other * other)),
-            ("denominator not squared", |own, other| own * own / (own + other)),
-            ("the other's", |own, other| 1.0 - power(own, other)),
-            ("only the denominator", |own, other| own * own + other * other),
-            ("1 over", |own, other| 1.0 / (own * own + other * other)),
-            ("twice", |own, other| 2.0 * power(own, other)),
-            ("0 for other 0", |own, other| if own > 0.0 && other > 0.0 { power(own, other) } else { 0.0 }),
-            ("half", |_, _| 0.5),
-            ("difference", |own, other| (own - other) * (own - other) / (own * own + other * other)),
-            ("2: over the larger square", |own, other| {
+            ("own² is divided by the other's alone", |own, other| own * own / (other * other)),
+            ("own² is divided by the sum of the pdfs", |own, other| own * own / (own + other)),
+            ("the two are swapped", |own, other| 1.0 - power(own, other)),
+            ("that is the sum of the squares alone", |own, other| own * own + other * other),
+            ("1 is divided by the sum of the squares", |own, other| 1.0 / (own * own + other * other)),
+            ("the answer is twice what it should be", |own, other| 2.0 * power(own, other)),
+            ("where the other technique never samples the path, the own one has all ", |own, other| {
+                if own > 0.0 && other > 0.0 { power(own, other) } else { 0.0 }
+            }),
+            ("each counts half", |_, _| 0.5),
+            ("it is the difference that stands above the line", |own, other| {
+                (own - other) * (own - other) / (own * own + other * other)
+            }),
+            ("own² is divided by the larger of the two squares", |own, other| {
                 let most = own.max(other);
                 if most > 0.0 { (own / most) * (own / most) } else { 0.0 }
             }),
-            ("2: rounded", |own, other| (power(own, other) + 0.5).floor()),
+            ("the larger pdf has all the weight", |own, other| (power(own, other) + 0.5).floor()),
         ],
         &[
             |own, other| {
@@ -321,34 +350,48 @@ fn caustics() -> Fresh {
         27,
         exercise,
         &[
-            ("sine", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * d * (1.0 - c * c).sqrt().powf(3.0)))),
-            ("distance not squared", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * c * c * c))),
-            ("area not squared", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (a.sqrt() * d * d * c * c * c))),
-            ("cos²", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * d * c * c))),
-            ("times the area", |p, t, h| by(p, t, h, |a, d, c| a / (d * d * c * c * c))),
-            ("looking down +z", |p, t, h| {
+            ("the sine is taken for the cosine", |p, t, h| {
+                by(p, t, h, |a, d, c| 1.0 / (a * d * d * (1.0 - c * c).sqrt().powf(3.0)))
+            }),
+            ("d counts once, or its root is missing", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * c * c * c))),
+            ("A is the area of a pixel, its side squared", |p, t, h| {
+                by(p, t, h, |a, d, c| 1.0 / (a.sqrt() * d * d * c * c * c))
+            }),
+            ("cos² is taken", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * d * c * c))),
+            ("the fraction is multiplied by the pixel's area A", |p, t, h| {
+                by(p, t, h, |a, d, c| a / (d * d * c * c * c))
+            }),
+            ("the camera looks down −z", |p, t, h| {
                 let (d, a) = (length(p), 2.0 * t / h * (2.0 * t / h));
                 let c = p[2] / d;
                 if c > 0.0 { 1.0 / (a * d * d * c * c * c) } else { 0.0 }
             }),
-            ("negative cosine", |p, t, h| {
+            ("the camera looks down −z", |p, t, h| {
                 let (d, a) = (length(p), 2.0 * t / h * (2.0 * t / h));
                 let c = p[2] / d;
                 1.0 / (a * d * d * c * c * c)
             }),
-            ("depth for distance", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (a * d * c * d * c * c * c * c))),
-            ("times cos³", |p, t, h| by(p, t, h, |a, d, c| c * c * c / (a * d * d))),
-            ("4π", |p, t, h| by(p, t, h, |a, d, c| 1.0 / (4.0 * PI * a * d * d * c * c * c))),
-            ("no cosine", |p, t, h| by(p, t, h, |a, d, _| 1.0 / (a * d * d))),
-            ("not inverted", |p, t, h| by(p, t, h, |a, d, c| a * d * d * c * c * c)),
-            ("angle", |p, t, h| by(p, 2.0 * t.atan(), h, |a, d, c| 1.0 / (a * d * d * c * c * c))),
-            ("2: only the vertical angle", |p, t, h| {
+            ("the depth −z is taken for d, which is the distance to the eye", |p, t, h| {
+                by(p, t, h, |a, d, c| 1.0 / (a * d * c * d * c * c * c * c))
+            }),
+            ("the fraction is multiplied by the cosines", |p, t, h| by(p, t, h, |a, d, c| c * c * c / (a * d * d))),
+            ("the answer is 1/4π times what it should be", |p, t, h| {
+                by(p, t, h, |a, d, c| 1.0 / (4.0 * PI * a * d * d * c * c * c))
+            }),
+            ("cos³ θ is missing", |p, t, h| by(p, t, h, |a, d, _| 1.0 / (a * d * d))),
+            ("that is A d² cos³ θ", |p, t, h| by(p, t, h, |a, d, c| a * d * d * c * c * c)),
+            ("tan_half is taken for an angle, or an angle is made of it", |p, t, h| {
+                by(p, 2.0 * t.atan(), h, |a, d, c| 1.0 / (a * d * d * c * c * c))
+            }),
+            ("the angle θ is that off the axis, of x and y together", |p, t, h| {
                 by(p, t, h, |a, d, _| {
                     let c = -p[2] / p[1].hypot(p[2]);
                     1.0 / (a * d * d * c * c * c)
                 })
             }),
-            ("2: height - 1", |p, t, h| by(p, t, h - 1.0, |a, d, c| 1.0 / (a * d * d * c * c * c))),
+            ("height − 1 pixels are taken for height", |p, t, h| {
+                by(p, t, h - 1.0, |a, d, c| 1.0 / (a * d * d * c * c * c))
+            }),
         ],
         &[
             |p, t, h| {
@@ -385,26 +428,42 @@ fn meshes() -> Fresh {
         28,
         exercise,
         &[
-            ("multiplied by scale", |o, d, p, a, s| [grown(turned(sub(o, p), a), s), grown(turned(d, a), s)]),
-            ("transposed", |o, d, p, a, s| [shrunk(across(sub(o, p), a), s), shrunk(across(d, a), s)]),
-            ("normalised", |o, d, p, a, s| [shrunk(turned(sub(o, p), a), s), unit(shrunk(turned(d, a), s))]),
-            ("position left out", |o, d, _, a, s| [shrunk(turned(o, a), s), shrunk(turned(d, a), s)]),
-            ("position added", |o, d, p, a, s| [shrunk(turned(add(o, p), a), s), shrunk(turned(d, a), s)]),
-            ("direction moved", |o, d, p, a, s| [shrunk(turned(sub(o, p), a), s), shrunk(turned(sub(d, p), a), s)]),
-            ("scale before the turn", |o, d, p, a, s| [turned(shrunk(sub(o, p), s), a), turned(shrunk(d, s), a)]),
-            ("direction not scaled", |o, d, p, a, s| [shrunk(turned(sub(o, p), a), s), turned(d, a)]),
-            ("x's factor for all", |o, d, p, a, s| [over(turned(sub(o, p), a), s[0]), over(turned(d, a), s[0])]),
-            ("position last", |o, d, p, a, s| [sub(shrunk(turned(o, a), s), p), shrunk(turned(d, a), s)]),
-            ("swapped", |o, d, p, a, s| [shrunk(turned(d, a), s), shrunk(turned(sub(o, p), a), s)]),
-            ("direction untouched", |o, d, p, a, s| [shrunk(turned(sub(o, p), a), s), d]),
-            ("absolute scale", |o, d, p, a, s| {
+            ("the ray is multiplied by the scale", |o, d, p, a, s| {
+                [grown(turned(sub(o, p), a), s), grown(turned(d, a), s)]
+            }),
+            ("the vector is taken from object to world space", |o, d, p, a, s| {
+                [shrunk(across(sub(o, p), a), s), shrunk(across(d, a), s)]
+            }),
+            ("the direction is of length 1 in object space too", |o, d, p, a, s| {
+                [shrunk(turned(sub(o, p), a), s), unit(shrunk(turned(d, a), s))]
+            }),
+            ("the position is left out", |o, d, _, a, s| [shrunk(turned(o, a), s), shrunk(turned(d, a), s)]),
+            ("the position is added", |o, d, p, a, s| [shrunk(turned(add(o, p), a), s), shrunk(turned(d, a), s)]),
+            ("the direction is moved by the position", |o, d, p, a, s| {
+                [shrunk(turned(sub(o, p), a), s), shrunk(turned(sub(d, p), a), s)]
+            }),
+            ("the turn is to be undone before the scale, which is along the turned a", |o, d, p, a, s| {
+                [turned(shrunk(sub(o, p), s), a), turned(shrunk(d, s), a)]
+            }),
+            ("the direction is not divided by the scale", |o, d, p, a, s| {
+                [shrunk(turned(sub(o, p), a), s), turned(d, a)]
+            }),
+            ("one factor is taken for all three axes", |o, d, p, a, s| {
+                [over(turned(sub(o, p), a), s[0]), over(turned(d, a), s[0])]
+            }),
+            ("the position is subtracted last", |o, d, p, a, s| {
+                [sub(shrunk(turned(o, a), s), p), shrunk(turned(d, a), s)]
+            }),
+            ("the two are swapped", |o, d, p, a, s| [shrunk(turned(d, a), s), shrunk(turned(sub(o, p), a), s)]),
+            ("the direction stays as it is in the world", |o, d, p, a, s| [shrunk(turned(sub(o, p), a), s), d]),
+            ("`scale` is taken without its sign", |o, d, p, a, s| {
                 [shrunk(turned(sub(o, p), a), s.map(f64::abs)), shrunk(turned(d, a), s.map(f64::abs))]
             }),
-            ("turn left out", |o, d, p, _, s| [shrunk(sub(o, p), s), shrunk(d, s)]),
-            ("2: the end of the ray for its direction", |o, d, p, a, s| {
+            ("the turn is left out", |o, d, p, _, s| [shrunk(sub(o, p), s), shrunk(d, s)]),
+            ("the place at t = 1 is taken for the direction", |o, d, p, a, s| {
                 [shrunk(turned(sub(o, p), a), s), shrunk(turned(sub(add(o, d), p), a), s)]
             }),
-            ("2: y and z axes mixed up", |o, d, p, a, s| {
+            ("y of `axes` and z of `axes` are swapped", |o, d, p, a, s| {
                 let a = [a[0], a[2], a[1]];
                 [shrunk(turned(sub(o, p), a), s), shrunk(turned(d, a), s)]
             }),

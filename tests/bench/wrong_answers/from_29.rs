@@ -36,32 +36,32 @@ fn boxes() -> Fresh {
         29,
         exercise,
         &[
-            ("t_max left out", |o, i, low, high, _| {
+            ("a box beyond t_max counts", |o, i, low, high, _| {
                 let [near, far] = span(o, i, low, high);
                 near <= far && far >= 0.0
             }),
-            ("behind", |o, i, low, high, max| {
+            ("a box behind the origin counts", |o, i, low, high, max| {
                 let [near, far] = span(o, i, low, high);
                 near <= far && near <= max
             }),
-            ("inside lost", |o, i, low, high, max| {
+            ("a ray from inside the box is in it, too, though it entered before t = ", |o, i, low, high, max| {
                 let [near, far] = span(o, i, low, high);
                 near <= far && near >= 0.0 && near <= max
             }),
-            ("z left out", |o, i, low, high, max| {
+            ("only two of the three axes are looked at", |o, i, low, high, max| {
                 let [x, y, _] = [0, 1, 2].map(|at| slab(o[at], i[at], low[at], high[at]));
                 let (near, far) = (x[0].max(y[0]).max(0.0), x[1].min(y[1]).min(max));
                 near <= far
             }),
-            ("edges lost", |o, i, low, high, max| {
+            ("flat boxes and edges are lost", |o, i, low, high, max| {
                 let [near, far] = span(o, i, low, high);
                 near.max(0.0) < far.min(max)
             }),
-            ("divides by the inverse", |o, d, low, high, max| {
+            ("it is divided by `inverse`, which is 1 over the direction already", |o, d, low, high, max| {
                 let [near, far] = span(o, d.map(f64::recip), low, high);
                 near <= far && far >= 0.0 && near <= max
             }),
-            ("negative directions not swapped", |o, i, low, high, max| {
+            ("a ray that goes towards smaller coordinates enters by the upper plane", |o, i, low, high, max| {
                 let (mut near, mut far) = (0.0_f64, max);
                 for at in 0..3 {
                     let [a, b] = slab(o[at], i[at], low[at], high[at]);
@@ -70,14 +70,14 @@ fn boxes() -> Fresh {
                 }
                 near <= far
             }),
-            ("each axis by itself", |o, i, low, high, max| {
+            (/* each axis by itself */ "", |o, i, low, high, max| {
                 let enters = |at: usize| {
                     let [near, far] = slab(o[at], i[at], low[at], high[at]);
                     near <= max && far >= 0.0
                 };
                 enters(0) && enters(1) && enters(2)
             }),
-            ("parallel faces skipped", |o, i, low, high, max| {
+            ("where `inverse` is infinite nothing is asked", |o, i, low, high, max| {
                 let mut near_far = [0.0, max];
                 for at in (0..3).filter(|&at| i[at].is_finite()) {
                     let [a, b] = slab(o[at], i[at], low[at], high[at]);
@@ -85,22 +85,22 @@ fn boxes() -> Fresh {
                 }
                 near_far[0] <= near_far[1]
             }),
-            ("must be left before t_max", |o, i, low, high, max| {
+            ("a box that reaches beyond t_max counts, too, where it begins before", |o, i, low, high, max| {
                 let [near, far] = span(o, i, low, high);
                 near <= far && far >= 0.0 && far <= max
             }),
-            ("false for any 0", |o, i, low, high, max| {
+            ("where `inverse` is infinite the ray is taken to miss", |o, i, low, high, max| {
                 if i.iter().any(|part| part.is_infinite()) {
                     return false;
                 }
                 let [near, far] = span(o, i, low, high);
                 near <= far && far >= 0.0 && near <= max
             }),
-            ("2: && and || mixed", |o, i, low, high, max| {
+            (/* && and || mixed */ "", |o, i, low, high, max| {
                 let [near, far] = span(o, i, low, high);
                 near <= far && far >= 0.0 || near <= max && near > 0.0
             }),
-            ("2: returns after x", |o, i, low, high, max| {
+            (/* returns after x */ "", |o, i, low, high, max| {
                 let [near, far] = slab(o[0], i[0], low[0], high[0]);
                 near.max(0.0) <= far.min(max)
             }),
@@ -151,54 +151,51 @@ fn tree() -> Fresh {
         30,
         exercise,
         &[
-            ("option order", |[a, b], c| ordered(u32::from(b <= a), [may(a, c), may(b, c)])),
-            ("farther first", |e, c| {
+            ("child 1 is first where both are equally near", |[a, b], c| {
+                ordered(u32::from(b <= a), [may(a, c), may(b, c)])
+            }),
+            ("the farther child comes first", |e, c| {
                 let [a, b] = e.map(|t| t.unwrap_or(f64::INFINITY));
                 ordered(u32::from(a < b), [may(e[0], c), may(e[1], c)])
             }),
-            ("closest left out", |e, _| {
+            ("a child that begins behind the closest hit is visited", |e, _| {
                 let [a, b] = e.map(|t| t.unwrap_or(f64::INFINITY));
                 ordered(u32::from(b < a), [e[0].is_some(), e[1].is_some()])
             }),
-            ("child 1 at a tie", |e, c| {
+            ("child 1 is first where both are equally near", |e, c| {
                 let [a, b] = e.map(|t| t.unwrap_or(f64::INFINITY));
                 ordered(u32::from(b <= a), [may(e[0], c), may(e[1], c)])
             }),
-            ("nearer only", |e, c| {
+            ("the farther child is left out", |e, c| {
                 let [a, b] = e.map(|t| t.unwrap_or(f64::INFINITY));
                 [ordered(u32::from(b < a), [may(e[0], c), may(e[1], c)])[0], None]
             }),
-            ("gap in front", |e, c| {
-                let [a, b] = e.map(|t| t.unwrap_or(f64::INFINITY));
-                let both = if b < a { [1, 0] } else { [0, 1] };
-                both.map(|child: u32| may(e[child as usize], c).then_some(child))
-            }),
-            ("child 0 always first", |e, c| ordered(0, [may(e[0], c), may(e[1], c)])),
-            ("none where one is missed", |e, c| {
+            ("child 0 first, whichever is nearer", |e, c| ordered(0, [may(e[0], c), may(e[1], c)])),
+            ("nothing is visited unless both children are", |e, c| {
                 let (Some(a), Some(b)) = (e[0], e[1]) else { return [None, None] };
                 ordered(u32::from(b < a), [a < c, b < c])
             }),
-            ("a miss counts as 0", |e, c| {
+            ("a child is visited whose box the ray misses", |e, c| {
                 let [a, b] = e.map(|t| t.unwrap_or(0.0));
                 ordered(u32::from(b < a), [a < c, b < c])
             }),
-            ("closest compared the wrong way", |e, c| {
+            ("the comparison is the wrong way round", |e, c| {
                 let [a, b] = e.map(|t| t.unwrap_or(f64::INFINITY));
                 ordered(u32::from(b < a), [a > c, b > c])
             }),
-            ("closest only for the nearer", |e, c| {
+            ("both are visited if the nearer one begins before the closest hit", |e, c| {
                 let [a, b] = e.map(|t| t.unwrap_or(f64::INFINITY));
                 if a.min(b) < c { ordered(u32::from(b < a), [e[0].is_some(), e[1].is_some()]) } else { [None; 2] }
             }),
-            ("counted from 1", |e, c| {
+            ("the children are counted from 1", |e, c| {
                 let [a, b] = e.map(|t| t.unwrap_or(f64::INFINITY));
                 ordered(u32::from(b < a), [may(e[0], c), may(e[1], c)]).map(|child| child.map(|child| child + 1))
             }),
-            ("2: both where either", |e, c| {
+            ("both are visited where either may hold a closer hit", |e, c| {
                 let [a, b] = e.map(|t| t.unwrap_or(f64::INFINITY));
                 ordered(u32::from(b < a), [a < c || b < c; 2])
             }),
-            ("2: compared as whole numbers", |e, c| {
+            (/* compared as whole numbers */ "", |e, c| {
                 let [a, b] = e.map(|t| t.map_or(u32::MAX, |t| t as u32));
                 ordered(u32::from(b < a), [may(e[0], c), may(e[1], c)])
             }),
@@ -231,24 +228,30 @@ fn wide_tree() -> Fresh {
         31,
         exercise,
         &[
-            ("closest left out", |e, l, _| mask(|at| e[at] <= l[at] && l[at] >= 0.0)),
-            ("misses not looked at", |e, l, c| mask(|at| l[at] >= 0.0 && e[at] <= c)),
-            ("count", |e, l, c| (0..8).filter(|&at| e[at].max(0.0) <= l[at].min(c)).count() as u32),
-            ("touched boxes lost", |e, l, c| mask(|at| e[at].max(0.0) < l[at].min(c))),
-            ("from bit 1", |e, l, c| mask(|at| e[at].max(0.0) <= l[at].min(c)) << 1),
-            ("those missed", |e, l, c| mask(|at| e[at].max(0.0) > l[at].min(c))),
-            ("first four", |e, l, c| mask(|at| at < 4 && e[at].max(0.0) <= l[at].min(c))),
-            ("sum of indices", |e, l, c| (0..8).filter(|&at| e[at].max(0.0) <= l[at].min(c)).map(|at| at as u32).sum()),
-            ("left before the closest", |e, l, c| mask(|at| e[at] <= l[at] && l[at] >= 0.0 && l[at] <= c)),
-            ("nearest only", |e, l, c| {
+            ("a box that begins behind the closest hit is entered", |e, l, _| {
+                mask(|at| e[at] <= l[at] && l[at] >= 0.0)
+            }),
+            ("a ray misses a box that it leaves before it enters it", |e, l, c| mask(|at| l[at] >= 0.0 && e[at] <= c)),
+            ("the boxes are counted", |e, l, c| (0..8).filter(|&at| e[at].max(0.0) <= l[at].min(c)).count() as u32),
+            ("flat boxes are lost", |e, l, c| mask(|at| e[at].max(0.0) < l[at].min(c))),
+            ("the bits begin with bit 1", |e, l, c| mask(|at| e[at].max(0.0) <= l[at].min(c)) << 1),
+            ("the mask is inverted", |e, l, c| mask(|at| e[at].max(0.0) > l[at].min(c))),
+            ("only some of the boxes are asked", |e, l, c| mask(|at| at < 4 && e[at].max(0.0) <= l[at].min(c))),
+            ("the numbers of the boxes are added", |e, l, c| {
+                (0..8).filter(|&at| e[at].max(0.0) <= l[at].min(c)).map(|at| at as u32).sum()
+            }),
+            ("a box that reaches behind the closest hit counts, too, where it begins", |e, l, c| {
+                mask(|at| e[at] <= l[at] && l[at] >= 0.0 && l[at] <= c)
+            }),
+            ("only the nearest box is in the mask", |e, l, c| {
                 let hit = (0..8).filter(|&at| e[at].max(0.0) <= l[at].min(c));
                 hit.min_by(|&a, &b| e[a].total_cmp(&e[b])).map_or(0, |at| 1 << at)
             }),
-            ("2 i for 2^i", |e, l, c| {
+            ("the numbers of the boxes are added", |e, l, c| {
                 let hit = (0..8).filter(|&at| e[at].max(0.0) <= l[at].min(c));
                 hit.map(|at| 2 * at as u32).sum()
             }),
-            ("stops at the first miss", |e, l, c| {
+            ("nothing is asked after the first box that the ray misses", |e, l, c| {
                 let mut bits = 0;
                 for at in 0..8 {
                     if e[at].max(0.0) > l[at].min(c) {
@@ -258,7 +261,7 @@ fn wide_tree() -> Fresh {
                 }
                 bits
             }),
-            ("2: the last only", |e, l, c| {
+            ("only the last box is in the mask", |e, l, c| {
                 let mut bits = 0;
                 for at in 0..8 {
                     if e[at].max(0.0) <= l[at].min(c) {
@@ -267,7 +270,7 @@ fn wide_tree() -> Fresh {
                 }
                 bits
             }),
-            ("2: stops at the first beyond the closest", |e, l, c| {
+            ("nothing is asked after the first box behind the closest hit", |e, l, c| {
                 let mut bits = 0;
                 for at in 0..8 {
                     if e[at] > c {
@@ -318,67 +321,67 @@ fn projection() -> Fresh {
         32,
         exercise,
         &[
-            ("times the tangent", |p, eye, a, t, s| {
+            ("it is multiplied by tan_half", |p, eye, a, t, s| {
                 let [x, y, z] = seen(p, eye, a);
                 pixels([-x / z, -y / z], 1.0 / t, s)
             }),
-            ("width and height swapped", |p, eye, a, t, [w, h]| {
+            ("the size is taken for height and width", |p, eye, a, t, [w, h]| {
                 let [x, y, z] = seen(p, eye, a);
                 pixels([-x / z, -y / z], t, [h, w])
             }),
-            ("axes transposed", |p, eye, a, t, s| {
+            ("the point goes from the camera to the world", |p, eye, a, t, s| {
                 let v = sub(p, eye);
                 let [x, y, z] = [0, 1, 2].map(|row| a[0][row] * v[0] + a[1][row] * v[1] + a[2][row] * v[2]);
                 pixels([-x / z, -y / z], t, s)
             }),
-            ("eye left out", |p, _, a, t, s| {
+            ("the eye is not subtracted", |p, _, a, t, s| {
                 let [x, y, z] = seen(p, [0.0; 3], a);
                 pixels([-x / z, -y / z], t, s)
             }),
-            ("half a pixel", |p, eye, a, t, s| {
+            ("half a pixel is subtracted", |p, eye, a, t, s| {
                 let [x, y, z] = seen(p, eye, a);
                 pixels([-x / z, -y / z], t, s).map(|part| part - 0.5)
             }),
-            ("whole pixels", |p, eye, a, t, s| {
+            ("the point is rounded to a whole pixel", |p, eye, a, t, s| {
                 let [x, y, z] = seen(p, eye, a);
                 pixels([-x / z, -y / z], t, s).map(f64::floor)
             }),
-            ("not divided by depth", |p, eye, a, t, s| {
+            ("nothing is divided by the depth, as for an orthographic camera", |p, eye, a, t, s| {
                 let [x, y, _] = seen(p, eye, a);
                 pixels([x, y], t, s)
             }),
-            ("aspect of whole numbers", |p, eye, a, t, [w, h]| {
+            ("the aspect is left out", |p, eye, a, t, [w, h]| {
                 let [x, y, z] = seen(p, eye, a);
                 let (x, y) = (-x / z / t / f64::from(w / h.min(w).max(1)), -y / z / t);
                 [(x + 1.0) / 2.0 * f64::from(w), (1.0 - y) / 2.0 * f64::from(h)]
             }),
-            ("half missing", |p, eye, a, t, s| {
+            ("tan_half is halved or doubled", |p, eye, a, t, s| {
                 let [x, y, z] = seen(p, eye, a);
                 pixels([-x / z * 2.0, -y / z * 2.0], t, s)
             }),
-            ("NDC", |p, eye, a, t, s| {
+            ("that is NDC, from 0 to 1", |p, eye, a, t, s| {
                 let [x, y, z] = seen(p, eye, a);
                 let [x, y] = pixels([-x / z, -y / z], t, s);
                 [x / f64::from(s[0]), y / f64::from(s[1])]
             }),
-            ("x mirrored", |p, eye, a, t, s| {
+            ("x is turned round", |p, eye, a, t, s| {
                 let [x, y, z] = seen(p, eye, a);
                 pixels([x / z, -y / z], t, s)
             }),
-            ("size - 1", |p, eye, a, t, [w, h]| {
+            ("`size` is taken to be 1 less", |p, eye, a, t, [w, h]| {
                 let [x, y, z] = seen(p, eye, a);
                 pixels([-x / z, -y / z], t, [w - 1, h - 1])
             }),
-            ("scaled by the width", |p, eye, a, t, [w, h]| {
+            ("tan_half is that of the vertical field of view", |p, eye, a, t, [w, h]| {
                 let [x, y, z] = seen(p, eye, a);
                 let (w, h) = (f64::from(w), f64::from(h));
                 [w / 2.0 - x / z / t * w / 2.0, h / 2.0 + y / z / t * w / 2.0]
             }),
-            ("2: depth along the world's z", |p, eye, a, t, s| {
+            (/* depth along the world's z */ "", |p, eye, a, t, s| {
                 let [x, y, _] = seen(p, eye, a);
                 pixels([-x / (p[2] - eye[2]), -y / (p[2] - eye[2])], t, s)
             }),
-            ("2: half the size as a whole number", |p, eye, a, t, [w, h]| {
+            (/* half the size as a whole number */ "", |p, eye, a, t, [w, h]| {
                 let [x, y, z] = seen(p, eye, a);
                 let [w, h] = [w / 2, h / 2].map(f64::from);
                 [w - x / z / t * h, h + y / z / t * h]
@@ -418,38 +421,45 @@ fn rasterisation() -> Fresh {
         33,
         exercise,
         &[
-            ("left of the edge", |f, t, s| side(f, t, s) < 0 || (side(f, t, s) == 0 && top_left(f, t))),
-            ("top edge leftwards", |f, t, s| {
+            ("the inside is to the left", |f, t, s| side(f, t, s) < 0 || (side(f, t, s) == 0 && top_left(f, t))),
+            ("a level edge belongs to the triangle where it goes to the right, a top", |f, t, s| {
                 let top = t[1] == f[1] && t[0] < f[0];
                 side(f, t, s) > 0 || (side(f, t, s) == 0 && (t[1] < f[1] || top))
             }),
-            ("f32", |f, t, s| {
+            ("the edge function is rounded", |f, t, s| {
                 let [ax, ay, bx, by, x, y] = [f[0], f[1], t[0], t[1], s[0], s[1]].map(|part| part as f32);
                 let side = (bx - ax) * (y - ay) - (by - ay) * (x - ax);
                 side > 0.0 || (side == 0.0 && top_left(f, t))
             }),
-            ("bottom and right", |f, t, s| side(f, t, s) > 0 || (side(f, t, s) == 0 && !top_left(f, t))),
-            ("top edges left out", |f, t, s| side(f, t, s) > 0 || (side(f, t, s) == 0 && t[1] < f[1])),
-            ("left edges left out", |f, t, s| side(f, t, s) > 0 || (side(f, t, s) == 0 && t[1] == f[1] && t[0] > f[0])),
-            ("only beside the edge", |f, t, s| {
+            ("the rule is turned round, to bottom and right edges", |f, t, s| {
+                side(f, t, s) > 0 || (side(f, t, s) == 0 && !top_left(f, t))
+            }),
+            ("level edges are forgotten", |f, t, s| side(f, t, s) > 0 || (side(f, t, s) == 0 && t[1] < f[1])),
+            ("left edges are forgotten", |f, t, s| {
+                side(f, t, s) > 0 || (side(f, t, s) == 0 && t[1] == f[1] && t[0] > f[0])
+            }),
+            ("the edge is taken to end at its two corners", |f, t, s| {
                 let beside = s[1] >= f[1].min(t[1]) && s[1] <= f[1].max(t[1]);
                 beside && (side(f, t, s) > 0 || (side(f, t, s) == 0 && top_left(f, t)))
             }),
-            ("any level edge", |f, t, s| side(f, t, s) >= 0 && (side(f, t, s) != 0 || t[1] <= f[1])),
-            ("x and y swapped", |f, t, s| {
+            ("a level edge belongs to the triangle where it goes to the right, a top", |f, t, s| {
+                side(f, t, s) >= 0 && (side(f, t, s) != 0 || t[1] <= f[1])
+            }),
+            ("the inside is to the left", |f, t, s| {
                 let [f, t, s] = [f, t, s].map(|[x, y]| [y, x]);
                 side(f, t, s) > 0 || (side(f, t, s) == 0 && top_left(f, t))
             }),
-            ("both sides", |f, t, s| side(f, t, s) != 0 || top_left(f, t)),
-            ("all of a top or left edge", |f, t, s| side(f, t, s) > 0 || top_left(f, t)),
-            ("half a pixel added", |f, t, s| {
+            ("the edge function's sign is not asked for", |f, t, s| side(f, t, s) != 0 || top_left(f, t)),
+            ("all samples are inside a top or left edge", |f, t, s| side(f, t, s) > 0 || top_left(f, t)),
+            ("half a pixel is added to the sample", |f, t, s| {
                 let s = s.map(|part| part + 128);
                 side(f, t, s) > 0 || (side(f, t, s) == 0 && top_left(f, t))
             }),
-            ("2: by the sample, not the edge", |f, t, s| {
-                side(f, t, s) > 0 || (side(f, t, s) == 0 && (s[1] < f[1] || (s[1] == f[1] && s[0] > f[0])))
-            }),
-            ("2: whole pixels", |f, t, s| {
+            (
+                /* by the sample, not the edge */ "",
+                |f, t, s| side(f, t, s) > 0 || (side(f, t, s) == 0 && (s[1] < f[1] || (s[1] == f[1] && s[0] > f[0]))),
+            ),
+            ("the coordinates are divided first, which drops their fractions", |f, t, s| {
                 let [f, t, s] = [f, t, s].map(|p| p.map(|part| part / 256));
                 side(f, t, s) > 0 || (side(f, t, s) == 0 && top_left(f, t))
             }),
@@ -497,56 +507,57 @@ fn both() -> Fresh {
         34,
         exercise,
         &[
-            ("silhouette at the centre", |x, z, r, half| [(x - r) / z, (x + r) / z].map(|at| at.clamp(-half, half))),
-            ("not cut", |x, z, r, _| interval(x, z, r, f64::INFINITY)),
-            ("arctangent for arcsine", |x, z, r, half| {
+            ("both ends are taken at the depth of the centre", |x, z, r, half| {
+                [(x - r) / z, (x + r) / z].map(|at| at.clamp(-half, half))
+            }),
+            ("an end beyond the image's edge is left there", |x, z, r, _| interval(x, z, r, f64::INFINITY)),
+            ("the centre's distance is taken for the tangents' length, which is √(ri", |x, z, r, half| {
                 let (a, b) = (x.atan2(z), (r / x.hypot(z)).atan());
                 [(a - b).tan(), (a + b).tan()].map(|at| at.clamp(-half, half))
             }),
-            ("depth for distance", |x, z, r, half| {
+            ("the radius is divided by how far the centre is ahead", |x, z, r, half| {
                 let (a, b) = ((x / z).atan(), (r / z).asin());
                 [(a - b).tan(), (a + b).tan()].map(|at| at.clamp(-half, half))
             }),
-            ("angles", |x, z, r, half| {
+            ("those are angles, or their sines", |x, z, r, half| {
                 let (a, b) = (x.atan2(z), (r / x.hypot(z)).asin());
                 [a - b, a + b].map(|at| at.clamp(-half, half))
             }),
-            ("swapped", |x, z, r, half| {
+            ("the ends are swapped", |x, z, r, half| {
                 let [a, b] = interval(x, z, r, half);
                 [b, a]
             }),
-            ("behind and around not looked at", |x, z, r, half| {
+            ("a tangent that is not in front of the eye is divided all the same", |x, z, r, half| {
                 let (a, b) = (x.atan2(z), (r / x.hypot(z)).asin());
                 [(a - b).tan(), (a + b).tan()].map(|at| at.clamp(-half, half))
             }),
-            ("centre ± r / d", |x, z, r, half| {
+            ("the two ends are as far from the centre's image as if it were straight", |x, z, r, half| {
                 let b = r / x.hypot(z);
                 [x / z - b, x / z + b].map(|at| at.clamp(-half, half))
             }),
-            ("at the sphere's distance", |x, z, r, half| {
+            ("the ends are multiplied by `ahead`", |x, z, r, half| {
                 let [a, b] = interval(x, z, r, half);
                 [a * z, b * z].map(|at| at.clamp(-half, half))
             }),
-            ("mirrored", |x, z, r, half| {
+            ("the sphere is on the wrong side", |x, z, r, half| {
                 let [a, b] = interval(x, z, r, half);
                 [-b, -a]
             }),
-            (
-                "whole image where the centre is behind",
-                |x, z, r, half| if z <= 0.0 { [-half, half] } else { interval(x, z, r, half) },
-            ),
-            ("whole image where the sphere reaches the eye's plane", |x, z, r, half| {
+            ("with its centre behind the eye the sphere still reaches in front of it", |x, z, r, half| {
+                if z <= 0.0 { [-half, half] } else { interval(x, z, r, half) }
+            }),
+            ("the whole image is taken as soon as the sphere reaches beside the eye", |x, z, r, half| {
                 if z <= r { [-half, half] } else { interval(x, z, r, half) }
             }),
-            ("NDC", |x, z, r, half| {
+            ("the ends are in NDC", |x, z, r, half| {
                 let [a, b] = interval(x, z, r, half);
                 [(a / half + 1.0) / 2.0, (b / half + 1.0) / 2.0]
             }),
-            ("2: tangents of both angles added", |x, z, r, half| {
+            ("the two ends are as far from the centre's image as if it were straight", |x, z, r, half| {
                 let l = (x * x + z * z - r * r).max(0.0).sqrt();
                 [x / z - r / l, x / z + r / l].map(|at| at.clamp(-half, half))
             }),
-            ("2: half taken for an angle", |x, z, r, half| {
+            (/* half taken for an angle */ "", |x, z, r, half| {
                 let (a, b) = (x.atan2(z), (r / x.hypot(z)).min(1.0).asin());
                 [a - b, a + b].map(|at| at.clamp(-half, half).tan())
             }),
@@ -583,22 +594,28 @@ fn real_time() -> Fresh {
         35,
         exercise,
         &[
-            ("absolute cosine", |n, m, o| dot(n, m).abs().powf(32.0) * flat(sine(n, o) * sine(n, o))),
-            ("16th power", |n, m, o| power(dot(n, m)).sqrt() * flat(sine(n, o) * sine(n, o))),
-            ("sine not squared", |n, m, o| power(dot(n, m)) * flat(sine(n, o).abs())),
-            ("cosine for sine", |n, m, o| power(dot(n, m)) * flat(1.0 - sine(n, o) * sine(n, o))),
-            ("sum", |n, m, o| power(dot(n, m)) + flat(sine(n, o) * sine(n, o))),
-            ("numerator 1", |n, m, o| power(dot(n, m)) / (0.01 + sine(n, o) * sine(n, o))),
-            ("neighbour's normal", |n, m, o| power(dot(n, m)) * flat(sine(m, o) * sine(m, o))),
-            ("0.1", |n, m, o| power(dot(n, m)) * 0.1 / (0.1 + sine(n, o) * sine(n, o))),
-            ("exponential", |n, m, o| power(dot(n, m)) * (-sine(n, o) * sine(n, o) / 0.01).exp()),
-            ("normals only", |n, m, _| power(dot(n, m))),
-            ("plane only", |n, _, o| flat(sine(n, o) * sine(n, o))),
-            ("times 32", |n, m, o| 32.0 * dot(n, m).max(0.0) * flat(sine(n, o) * sine(n, o))),
-            ("root", |n, m, o| (power(dot(n, m)) * flat(sine(n, o) * sine(n, o))).sqrt()),
-            ("smaller of both", |n, m, o| power(dot(n, m)).min(flat(sine(n, o) * sine(n, o)))),
-            ("2: 5th power", |n, m, o| dot(n, m).max(0.0).powf(5.0) * flat(sine(n, o) * sine(n, o))),
-            ("2: plane across the mean normal", |n, m, o| {
+            ("surfaces that face away count", |n, m, o| dot(n, m).abs().powf(32.0) * flat(sine(n, o) * sine(n, o))),
+            ("the power is not the 32nd", |n, m, o| power(dot(n, m)).sqrt() * flat(sine(n, o) * sine(n, o))),
+            ("the sine is not squared", |n, m, o| power(dot(n, m)) * flat(sine(n, o).abs())),
+            ("that is the cosine, the part along the plane", |n, m, o| {
+                power(dot(n, m)) * flat(1.0 - sine(n, o) * sine(n, o))
+            }),
+            ("the factors are added", |n, m, o| power(dot(n, m)) + flat(sine(n, o) * sine(n, o))),
+            ("the plane's factor lacks its 0.01 above the line", |n, m, o| {
+                power(dot(n, m)) / (0.01 + sine(n, o) * sine(n, o))
+            }),
+            ("it is the neighbour's plane", |n, m, o| power(dot(n, m)) * flat(sine(m, o) * sine(m, o))),
+            ("0.1 is taken for 0.01", |n, m, o| power(dot(n, m)) * 0.1 / (0.1 + sine(n, o) * sine(n, o))),
+            ("an exponential is taken for the quotient", |n, m, o| {
+                power(dot(n, m)) * (-sine(n, o) * sine(n, o) / 0.01).exp()
+            }),
+            ("only the normals count", |n, m, _| power(dot(n, m))),
+            ("only the plane counts", |n, _, o| flat(sine(n, o) * sine(n, o))),
+            ("the cosine is multiplied by 32", |n, m, o| 32.0 * dot(n, m).max(0.0) * flat(sine(n, o) * sine(n, o))),
+            ("the answer lacks its square", |n, m, o| (power(dot(n, m)) * flat(sine(n, o) * sine(n, o))).sqrt()),
+            ("the smaller factor is taken", |n, m, o| power(dot(n, m)).min(flat(sine(n, o) * sine(n, o)))),
+            ("the power is not the 32nd", |n, m, o| dot(n, m).max(0.0).powf(5.0) * flat(sine(n, o) * sine(n, o))),
+            ("the plane is taken across the mean of both normals", |n, m, o| {
                 let both = unit([n[0] + m[0], n[1] + m[1], n[2] + m[2]]);
                 power(dot(n, m)) * flat(sine(both, o) * sine(both, o))
             }),

@@ -13,7 +13,7 @@ use pinhole_lab::exercise::Exercise;
 pub struct Fresh {
     /// The chapter's number.
     pub chapter: usize,
-    /// Wrong ones, with words of what must be said of each.
+    /// Wrong ones, with words of what must be said of each; without words, where it has no name yet.
     pub wrong: Vec<(Exercise, &'static str)>,
     /// Right ones.
     pub right: Vec<Exercise>,
