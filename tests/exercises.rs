@@ -9,6 +9,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 use std::time::Duration;
+use wrong_answers::Fresh;
 
 #[path = "exercises/folders.rs"]
 mod folders;
@@ -18,6 +19,9 @@ mod mine;
 
 #[path = "exercises/shown.rs"]
 mod shown;
+
+#[path = "bench/wrong_answers/mod.rs"]
+mod wrong_answers;
 
 /// What chapters ask their readers to write, as the program has it.
 mod listed {
@@ -170,8 +174,31 @@ fn every_wrong_answer_is_called_by_its_name() {
             unnamed.push(format!("{chapter}: only {} different remarks", said.len()));
         }
     }
+    for Fresh { chapter, wrong, .. } in wrong_answers::all() {
+        for (answer, words) in wrong.into_iter().filter(|(_, words)| !words.is_empty()) {
+            made += 1;
+            let report = answer.check(PATIENCE);
+            if !remark(&report).contains(words) {
+                unnamed.push(format!("{chapter}, \"{words}\": {}\n{}", remark(&report), told(&report)));
+            }
+        }
+    }
     assert!(unnamed.is_empty(), "{} of {made}:\n{}", unnamed.len(), unnamed.join("\n"));
     eprintln!("wrong answers: {made}, all called by their names");
+}
+
+/// Other algebra, another order of branches, loops and library functions are right, too.
+#[test]
+fn right_answers_that_look_unlike_the_books_are_accepted() {
+    let mut accepted = 0;
+    for Fresh { chapter, right, .. } in wrong_answers::all() {
+        for answer in right {
+            let report = answer.check(PATIENCE);
+            assert!(report.is_done(), "{chapter}: {}", told(&report));
+            accepted += 1;
+        }
+    }
+    assert!(accepted >= 70, "{accepted}");
 }
 
 /// What a report says that the mistake is.

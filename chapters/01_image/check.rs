@@ -93,6 +93,23 @@ fn mistakes() -> Mistakes<Input, [f64; 2]> {
         .when(|&[x, _]| [x; 2])
         .when(|&[_, y]| [y; 2]);
     Mistakes::<Input, [f64; 2]>::new()
+        .say("width is taken for a power of two; any width is to be divided by")
+        .when(|&(i, w)| [(i & (u64::from(w) - 1)) as f64 + 0.5, (i >> w.ilog2()) as f64 + 0.5])
+        .say("x is counted from the right; a row starts at the left")
+        .when(|i| {
+            let [x, y] = moved(i, 0.0, 0.0);
+            [f64::from(i.1) - x, y]
+        })
+        .say("every other row runs backwards; all run from left to right")
+        .when(|i| {
+            let [x, y] = moved(i, 0.0, 0.0);
+            [if y as u64 % 2 == 1 { f64::from(i.1) - x } else { x }, y]
+        })
+        .say("what is left after the column is not divided by the width: the row is how many whole widths it holds")
+        .when(|i| {
+            let [x, _] = moved(i, 0.0, 0.0);
+            [x, i.0 as f64 - x + 1.0]
+        })
         .say("the half is missing: this is a pixel's top left corner, not its centre")
         .when(|i| moved(i, -0.5, -0.5))
         .say("1 is added instead of a half: this is a pixel's bottom right corner, not its centre")

@@ -173,6 +173,15 @@ fn mistakes() -> Mistakes<Input, Answer> {
         .say("this is where the ray comes closest to the centre; it hits the sphere half a chord before")
         .when(|&[roots]| roots.map(|[near, far]| (near + far) / 2.0).filter(|&t| t > 0.0));
     Mistakes::<Input, Answer>::new()
+        .asked_as_given()
+        .say("the square root is missing: it is −b ± √(b² − 4ac)")
+        .when(|i| ahead(unrooted(doubled(i), 4.0)))
+        .when(|i| ahead(unrooted(coefficients(i), 1.0)))
+        .say("c is of the origin alone; it is of the origin as seen from the centre: f·f − r²")
+        .when(|i| {
+            let ([b, a, _], c) = (coefficients(i), DVec3::from(i.0).length_squared() - i.3 * i.3);
+            ahead(solved([b, a, c], right_discriminant, 1.0))
+        })
         .say(
             "the direction is brought to length 1 and t is left so; t counts in lengths of the direction as it \
                  was given",
@@ -280,6 +289,12 @@ fn right_discriminant([b, a, c]: [f64; 3]) -> f64 {
 fn solved(of: [f64; 3], discriminant: fn([f64; 3]) -> f64, times_a: f64) -> Roots {
     let root = discriminant(of).sqrt();
     (root >= 0.0).then(|| [-of[0] - root, -of[0] + root].map(|part| part / (times_a * of[1])))
+}
+
+/// The formula without its root.
+fn unrooted([b, a, c]: [f64; 3], four: f64) -> Roots {
+    let under = b * b - four * a * c;
+    (under >= 0.0).then(|| [-b - under, -b + under].map(|part| part / (four.sqrt() * a)))
 }
 
 /// R·R.

@@ -125,7 +125,16 @@ fn mistakes() -> Mistakes<Input, Ray> {
     let whole = Part::<[[f64; 3]; 2], Ray>::new(|&[origin, direction]| (origin, direction))
         .say("origin and direction are swapped")
         .when(|&[origin, direction]| (direction, origin));
-    Mistakes::new().of_parts([origin, direction], whole)
+    Mistakes::<Input, Ray>::new()
+        .say("the direction is that from the centre to the place on the rectangle; all rays go straight ahead")
+        .when(|i| {
+            let (at, _) = right(i);
+            let length = (at[0] * at[0] + at[1] * at[1]).sqrt();
+            (at, at.map(|part| part / length))
+        })
+        .say("half the height is added to the screen point; it is to be multiplied by it")
+        .when(|&([x, y], height)| ([x + height / 2.0, y + height / 2.0, 0.0], AHEAD))
+        .of_parts([origin, direction], whole)
 }
 
 /// The place on the rectangle.

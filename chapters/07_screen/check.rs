@@ -91,10 +91,13 @@ fn mistakes() -> Mistakes<Input, [f64; 2]> {
         .when(|i| -i.0[1] / 2.0)
         .say(BRACKETS)
         .when(|i| 1.0 - i.0[1] / 2.0)
+        .when(|i| 0.5 - i.0[1])
         .say(CLAMPED)
         .when(|i| ((1.0 - i.0[1]) / 2.0).clamp(0.0, 1.0));
     let whole = Part::<[f64; 2], [f64; 2]>::new(|&ndc| ndc).say("x and y are swapped").when(|&[x, y]| [y, x]);
     Mistakes::<Input, [f64; 2]>::new()
+        .say("the aspect is taken of width − 1 and height − 1; it is of all the pixels")
+        .when(|&([x, y], w, h)| [(x / aspect(&([x, y], w.max(2) - 1, h.max(2) - 1)) + 1.0) / 2.0, (1.0 - y) / 2.0])
         .say("the aspect is taken off y; only x is as much longer as the image is wider")
         .when(|i| [(i.0[0] + 1.0) / 2.0, (1.0 - i.0[1] / aspect(i)) / 2.0])
         .say("the aspect is put into y; only x is as much longer as the image is wider")

@@ -142,6 +142,7 @@ fn mistakes() -> Mistakes<Input, f64> {
         .say("the tangent is taken for an angle; atan leads back to it")
         .when(|of| (2.0 * half_height(of)).to_degrees());
     Mistakes::<Input, f64>::new()
+        .asked_as_given()
         .say("the angle is handed back as it is, whatever it is measured across")
         .when(|i| i.0)
         .say("the angle itself is divided by the aspect; it is the tangent of its half that scales")

@@ -109,6 +109,7 @@ fn mistakes() -> Mistakes<Input, Vector> {
         .say("the normal is divided by its squared length: a square root is missing")
         .when(|&[v]| (v / v.length_squared()).into());
     Mistakes::<Input, Vector>::new()
+        .asked_as_given()
         .say("the normal is not of length 1")
         .when(|i| (cofactors(i) * normal(i)).into())
         .of_parts([turned], brought_to_1)

@@ -133,6 +133,14 @@ fn mistakes() -> Mistakes<Input, f64> {
         },
     );
     Mistakes::<Input, f64>::new()
+        .say("a gamma is applied; radiance is linear, and only the picture's file has a gamma")
+        .when(|i| libm::pow(right(i), 1.0 / 2.2))
+        .say("|x| + |y| + |z| is taken for the distance; it is √(x² + y² + z²)")
+        .when(|&(colour, intensity, position, normal, light)| {
+            let to_light = DVec3::from(light) - DVec3::from(position);
+            let d = to_light.abs().element_sum();
+            colour / std::f64::consts::PI * intensity * (DVec3::from(normal).dot(to_light) / d).max(0.0) / (d * d)
+        })
         .say(
             "where the light is at the very point, its distance of 0 is divided by: no direction leads to it, \
                  so no light",

@@ -94,6 +94,12 @@ fn mistakes() -> Mistakes<Input, Vector> {
         .when(|&v| if v == [0.0; 3] { v } else { divided(v) })
         .when(|&v| divided(v));
     Mistakes::<Input, Vector>::new()
+        .say("a flag is asked for only where another one is set; each flag turns its own axis")
+        .when(|&(v, x_right, y_up, z_ahead)| turned(v, !x_right, !y_up, x_right && z_ahead))
+        .say("a bool is taken for a factor of 0 or 1; a part that is turned is multiplied by −1")
+        .when(|&([x, y, z], r, u, a)| {
+            [f64::from(u8::from(r)) * x, f64::from(u8::from(u)) * y, f64::from(u8::from(!a)) * z]
+        })
         .say("the direction is handed back as it is; no axis is turned")
         .when(|&(v, ..)| v)
         .say("each axis is turned about where its flag is true; x right and y up are pinhole's own")

@@ -136,6 +136,13 @@ fn mistakes() -> Mistakes<Input, Answer> {
         .say("t = 0 counts as a hit; only t above 0 does")
         .when(|&[span]| span?.into_iter().find(|&t| t >= 0.0));
     Mistakes::<Input, Answer>::new()
+        .asked_as_given()
+        .say("only two of the three slabs are looked at; the ray must be in all of them at once")
+        .when(|i| ahead(span(&without(i, 0))))
+        .when(|i| ahead(span(&without(i, 1))))
+        .when(|i| ahead(span(&without(i, 2))))
+        .say("`max` is taken for the box's size; it is the corner with the larger coordinates")
+        .when(|&(o, d, min, max)| ahead(span(&(o, d, min, (DVec3::from(min) + DVec3::from(max)).into()))))
         .say("a ray through an edge or in a face is lost: they belong to the box, so compare with ≤")
         .when(|i| faces_hit(i, |min, at, max| min < at && at < max).reduce(f64::min))
         .say(
@@ -225,6 +232,12 @@ fn common(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 
 fn span(input: &Input) -> Span {
     by_slabs(input, Zero::Checked, &sorted, &common)
+}
+
+/// With a slab so wide that everything is in it.
+fn without(&(o, d, mut min, mut max): &Input, axis: usize) -> Input {
+    (min[axis], max[axis]) = (-1e30, 1e30);
+    (o, d, min, max)
 }
 
 fn ahead(span: Span) -> Answer {

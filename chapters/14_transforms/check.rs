@@ -115,6 +115,17 @@ fn mistakes() -> Mistakes<Input, f64> {
         .say("the smaller of the two cosines is taken; the surface's own only tells whether any light falls at all")
         .when(|&[side, normal, light]| side.dot(light).min(normal.dot(light)).max(0.0));
     Mistakes::<Input, f64>::new()
+.say("that is the cosine to the half vector; the light's own direction is asked for")
+.when(|&(geometric, normals, weights, eye, light)| {
+    let half = DVec3::from(eye).normalize() + DVec3::from(light).normalize();
+    right(&(geometric, normals, weights, eye, half.into()))
+})
+.say("the normal of the nearest corner is taken; mix all three, each by its weight")
+.when(|i| {
+    let most = i.2[0].max(i.2[1]).max(i.2[2]);
+    let nearest = i.2.iter().position(|&weight| weight == most).unwrap_or(0);
+    right(&weighted(i, [0, 1, 2].map(|at| f64::from(u8::from(at == nearest)))))
+})
         .say("the cosines at the corners are mixed; mix the normals and take one cosine, of their mean brought to length 1")
         .when(|i| if above(i) { of_corners(i, |cosine| cosine.max(0.0)) } else { 0.0 })
         .when(|i| if above(i) { of_corners(i, f64::abs) } else { 0.0 })

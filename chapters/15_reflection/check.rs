@@ -155,6 +155,10 @@ fn mistakes() -> Mistakes<Input, f64> {
         .say(FACES_AWAY)
         .when(|i| peak(i, lobe(i, alpha(i)), cosine(i)));
     Mistakes::<Input, f64>::new()
+        .say("cos α is multiplied by the exponent; it is raised to that power")
+        .when(|i| diffuse(i, lit(i)) + peak(i, phong_peak(i.0[2]) * i.0[2] * alpha(i).max(0.0), lit(i)))
+        .say("the matte part is multiplied by the highlight; the two are added")
+        .when(|i| diffuse(i, lit(i)) * i.0[1] * lobe(i, alpha(i)))
         .say("a surface that faces away from the light is lit from behind: the cosine lost its sign")
         .when(|i| diffuse(i, cosine(i).abs()) + peak(i, lobe(i, alpha(i)), cosine(i).abs()))
         .say("the cosine of the light's angle is missing: it counts for the highlight as for the rest")

@@ -24,6 +24,10 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, f64> {
     let mistakes = Mistakes::<Input, f64>::new()
+        .say("the mean is rounded to the stripe that there is more of; it lies anywhere from −1 to 1")
+        .when(|&(x, w)| if wave_mean(x, w) >= 0.0 { 1.0 } else { -1.0 })
+        .say("a stripe is taken to be half as wide; each is 1 wide, and the pattern repeats after 2")
+        .when(|&(x, w)| wave_mean(2.0 * x, 2.0 * w))
         .say("this is the stripe at x itself; asked for is the mean of all that the range covers")
         .when(|&(x, _)| wave(x))
         .say("the range reaches from x to x + width; half of it lies on either side of x")
@@ -84,6 +88,7 @@ fn question() -> Question<Input, f64> {
         .when(|&(x, w)| (wave(x - w / 2.0) + wave(x) + wave(x + w / 2.0)) / 3.0)
         .say("wide ranges are given 0; however many stripes there are, what is left of the last one counts")
         .when(|&(x, w)| if w >= 2.0 { 0.0 } else { wave_mean(x, w) })
+        .when(|&(x, w)| if w >= 1.0 { 0.0 } else { wave_mean(x, w) })
         .say("the range ends at x; half of it lies beyond")
         .when(|i| if i.1 == 0.0 { wave(i.0) } else { (zigzag(i.0) - zigzag(i.0 - i.1 / 2.0)) / i.1 })
         .say("the range begins at x; half of it lies before")
@@ -169,7 +174,9 @@ fn sampling() -> impl Iterator<Item = fn(&Input) -> f64> {
         [sampled::<10_000, 0>, sampled::<10_000, 1>, sampled::<10_000, 2>, sampled::<4096, 0>, sampled::<101, 2>];
     let others: [fn(&Input) -> f64; 5] =
         [sampled::<20, 0>, sampled::<32, 0>, sampled::<50, 0>, sampled::<200, 0>, sampled::<500, 0>];
-    [few, some, many, max, others].into_iter().flatten()
+    let fewest: [fn(&Input) -> f64; 5] =
+        [sampled::<4, 0>, sampled::<4, 2>, sampled::<5, 0>, sampled::<5, 2>, sampled::<8, 0>];
+    [few, some, many, max, others, fewest].into_iter().flatten()
 }
 
 /// By the area under the stripes from 0, and by whether the stripe at x is an even one where there is no width.

@@ -98,6 +98,8 @@ fn mistakes() -> Mistakes<Input, f64> {
         .say("the place is counted from the tent's left end; asked is the distance from its centre")
         .when(|of| of[3] + tent(of));
     Mistakes::<Input, f64>::new()
+        .say("the root of what is left to 1 is subtracted from that of u; each half of the tent has a root of its own")
+        .when(|&(u, radius)| radius * (u.sqrt() - (1.0 - u).sqrt()))
         .say("a step of u is a step of the place: that is a box")
         .when(|&(u, r)| (2.0 * u - 1.0) * r)
         .when(|&(u, r)| (u - 0.5) * r)

@@ -34,6 +34,18 @@ fn question() -> Question<Input, Vector> {
         allowed: 1e-12,
         measured: "in a part",
         mistakes: Mistakes::<Input, Vector>::new()
+.say("only the component along which the normal is longest is turned round; the normal may point anywhere")
+.when(|&(mut direction, normal)| {
+    let most = normal.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+    let at = normal.iter().position(|part| part.abs() == most).unwrap_or(0);
+    direction[at] = -direction[at];
+    direction
+})
+.say("it is the normal that comes out; the direction is to be turned round along it")
+.when(|input| unit(input).into())
+.say("a cross product stands at a right angle to both; what comes out lies in the plane of direction and normal")
+.when(|input| DVec3::from(input.0).cross(unit(input)).normalize_or_zero().into())
+.when(|input| unit(input).cross(input.0.into()).normalize_or_zero().into())
             .say("the normal is taken for a unit vector: divide by n · n")
             .when(|input| turned(input, -2.0, 0))
             .say(
@@ -68,6 +80,8 @@ fn question() -> Question<Input, Vector> {
             .say("d · n is missing: the normal is to be multiplied by the length of the part along it")
             .when(|input| (DVec3::from(input.0) + 2.0 * unit(input)).into())
             .when(|input| (DVec3::from(input.0) - 2.0 * unit(input)).into())
+            .when(|input| (DVec3::from(input.0) + unit(input)).normalize().into())
+            .when(|input| (DVec3::from(input.0) - unit(input)).normalize().into())
             .say("the signs are mixed: it is d − 2 (d · n) n, with d in both places")
             .when(|input| negative(turned(input, 2.0, 2)))
             .say("the direction is sent back where it came from")

@@ -38,6 +38,25 @@ fn question() -> Question<Input, Option<Vector>> {
         allowed: 1e-9,
         measured: "in a part",
         mistakes: Mistakes::<Input, Option<Vector>>::new()
+            .say("direction and normal are swapped")
+            .when(|i| refract(i.1.into(), i.0.into(), i.2).map(Into::into))
+            .say("only d is divided by η, and (c − g) n is not; the whole sum is")
+            .when(|i| Some((DVec3::from(i.0) / i.2 + (cosine(i) - root(squared(i))?) * DVec3::from(i.1)).into()))
+            .say("only (c − g) n is divided by η, and d is not; the whole sum is")
+            .when(|i| Some((DVec3::from(i.0) + (cosine(i) - root(squared(i))?) / i.2 * DVec3::from(i.1)).into()))
+            .say("1 less the sine is taken for the cosine; it is √(1 − sin²)")
+            .when(|i| {
+                let sine = root(1.0 - cosine(i) * cosine(i))? / i.2;
+                if sine > 1.0 { None } else { parts(i, 1.0 / i.2, 1.0 - sine) }
+            })
+            .say("the part along the normal is left out: (c − g) n bends the direction, and the length stays 1")
+            .when(|i| root(squared(i)).map(|_| (DVec3::from(i.0) / i.2).into()))
+            .say("c is not squared under the root: g² is η² − 1 + c²")
+            .when(|i| bent(i, cosine(i) - root(i.2 * i.2 - 1.0 + cosine(i))?))
+            .say("only g is divided by η, and then all is normalised; d and c are to be divided by it, too")
+            .when(|i| {
+                Some((DVec3::from(i.0) + (cosine(i) - root(squared(i))? / i.2) * DVec3::from(i.1)).normalize().into())
+            })
             .say("the root of a negative number is NaN: ask before you take it, and answer None")
             .when(|i| {
                 let (d, n) = (DVec3::from(i.0), DVec3::from(i.1));

@@ -54,8 +54,12 @@ fn question() -> Question<Input, [f64; 3]> {
 }
 
 fn mistakes() -> Mistakes<Input, [f64; 3]> {
-    let x = Part::<Input, f64>::new(|i| i.0[0]);
+    let x = Part::<Input, f64>::new(|i| i.0[0])
+        .say("only y is multiplied by the tangent; x is in half heights, too")
+        .when(|i| i.0[0] / i.1);
     let y = Part::<Input, f64>::new(|i| i.0[1])
+        .say("only x is multiplied by the tangent; y is, too")
+        .when(|i| i.0[1] / i.1)
         .say("y is turned round; screen points have y upwards, as camera space has")
         .when(|i| -i.0[1]);
     let tangent = Part::<Input, f64>::new(|i| i.1)
@@ -106,6 +110,8 @@ fn mistakes() -> Mistakes<Input, [f64; 3]> {
         .when(|of| DVec3 { z: -1.0, ..to_focus(of) }.normalize().into())
         .say("the direction goes from the focus to the lens: it is P − L, not L − P")
         .when(|of| (-to_focus(of).normalize()).into())
+        .say("the lens stands at z = 0, not on the image plane at z = −1")
+        .when(|of| DVec3 { z: 1.0 - of[5], ..to_focus(of) }.normalize().into())
         .say("the plane in focus stands at z = +f; the camera looks down −z")
         .when(|of| DVec3 { z: of[5], ..to_focus(of) }.normalize().into());
     Mistakes::<Input, [f64; 3]>::new()

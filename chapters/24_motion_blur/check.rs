@@ -42,6 +42,14 @@ fn question() -> Question<Input, Answer> {
         allowed: 1e-9,
         measured: "of t",
         mistakes: Mistakes::<Input, Answer>::new()
+            .say("only one component of the velocity counts; the sphere moves by all three")
+            .when(|i| moved(&only(i, 0), i.5))
+            .when(|i| moved(&only(i, 1), i.5))
+            .when(|i| moved(&only(i, 2), i.5))
+            .say("the direction is changed by the velocity; light takes no time, so nothing moves while it travels")
+            .when(|&(o, d, c, r, v, time)| {
+                nearest(o.into(), (DVec3::from(d) - time * DVec3::from(v)).normalize(), c.into(), r)
+            })
             .say("the sphere stands still: its motion is left out")
             .when(|input| moved(input, 0.0))
             .say(
@@ -116,6 +124,11 @@ fn question() -> Question<Input, Answer> {
 
 fn nearest(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64) -> Answer {
     Some(sphere_t(origin, direction, centre, radius)).filter(|t| t.is_finite())
+}
+
+/// With this component of the velocity alone.
+fn only(&(o, d, c, r, v, time): &Input, axis: usize) -> Input {
+    (o, d, c, r, [0, 1, 2].map(|at| if at == axis { v[at] } else { 0.0 }), time)
 }
 
 /// Where the sphere is after this time.

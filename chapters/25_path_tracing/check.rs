@@ -59,6 +59,20 @@ fn question() -> Question<Input, [f64; 3]> {
         allowed: 1e-12,
         measured: "of each part",
         mistakes: Mistakes::<Input, [f64; 3]>::new()
+            .say("the probability is the middle one of the three; asked is the largest")
+            .when(|input| {
+                let mut sorted = input.0;
+                sorted.sort_by(f64::total_cmp);
+                by(input, sorted[1])
+            })
+            .say("the probability is kept above a smallest one; asked is the largest of the three, however small")
+            .when(|input| by(input, largest(input.0).max(0.05)))
+            .when(|input| by(input, largest(input.0).max(0.1)))
+            .say("a path goes on where the number lies below 1 − p; it is to go on where the number lies below p")
+            .when(|input| {
+                let survival = survival_probability(input.0);
+                played(input, 1.0 - survival, 1.0 / survival)
+            })
             .say("a path that goes on counts as before, so the light of those that ended is lost")
             .when(|input| played(input, survival_probability(input.0), 1.0))
             .say("a path that goes on is multiplied by the probability; it must be divided by it")
@@ -159,6 +173,7 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("a coloured throughput", coloured(2501, 0..60, 1.0)));
     asked.extend(probes("a throughput above 1", coloured(2502, 0..40, 6.0)));
     asked.extend(probes("just at the probability", [(grey(0.25), 0.25), ([0.125, 0.5, 0.25], 0.5), (grey(1.0), 0.0)]));
+    asked.extend(probes("almost nothing left", [(grey(0.02), 0.01), (grey(0.02), 0.03), ([0.01, 0.03, 0.02], 0.04)]));
     asked.extend(probes("nothing left", [(grey(0.0), 0.0), (grey(0.0), 0.5)]));
     asked
 }

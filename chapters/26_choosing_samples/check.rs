@@ -35,6 +35,21 @@ fn question() -> Question<Input, f64> {
         allowed: 1e-12,
         measured: "of 1",
         mistakes: Mistakes::<Input, f64>::new()
+            .say("own² is divided by the larger of the two squares; it is over their sum")
+            .when(|&(own, other)| if own == 0.0 { 0.0 } else { (own / own.max(other)).powi(2) })
+            .say("f32 is computed in, which has seven digits")
+            .when(|&(own, other)| {
+                let [own, other] = [own as f32, other as f32];
+                f64::from(own * own / (own * own + other * other))
+            })
+            .say("it is the difference that stands above the line; own² does")
+            .when(|&(own, other)| (own - other) * (own - other) / (own * own + other * other))
+            .say("that is the sum of the squares alone; it is what own² is divided by")
+            .when(|&(own, other)| own * own + other * other)
+            .say("1 is divided by the sum of the squares; it is own² that is")
+            .when(|&(own, other)| 1.0 / (own * own + other * other))
+            .say("where the other technique never samples the path, the own one has all the weight: 1")
+            .when(|&(own, other)| if other == 0.0 { 0.0 } else { power_heuristic(own, other) })
             .say("that is the balance heuristic; both pdfs are squared here")
             .when(|&(own, other)| if own == 0.0 { 0.0 } else { own / (own + other) })
             .say("the two are swapped, and not squared: it is own² over the sum of both squares")

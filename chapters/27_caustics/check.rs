@@ -74,6 +74,12 @@ fn mistakes() -> Mistakes<Input, f64> {
         .when(|_| 1.0)
         .say("the fraction is multiplied by the pixel's area A; it is 1 / (A d² cos³ θ)")
         .when(|i| side(i).powi(-2))
+        .say("tan_half is taken for an angle, or an angle is made of it; it is a tangent already")
+        .when(|i| side(&(i.0, 2.0 * libm::atan(i.1), i.2)).powi(2))
+        .when(|i| side(&(i.0, libm::atan(i.1), i.2)).powi(2))
+        .when(|i| side(&(i.0, libm::tan(i.1), i.2)).powi(2))
+        .say("height − 1 pixels are taken for height; the plane holds all of them")
+        .when(|i| side(&(i.0, i.1, i.2 - 1.0)).powi(2))
         .say("the plane at distance 1 is 2 tan_half high, not tan_half")
         .when(|i| side(i) * side(i) / 4.0)
         .say("the plane at distance 1 is 2 tan_half high, not 4 tan_half")
@@ -117,6 +123,8 @@ fn mistakes() -> Mistakes<Input, f64> {
         .say("the angle θ is that off the axis, of x and y together: cos θ = −z / d")
         .when(|i| (-i.0[2] / libm::hypot(i.0[1], i.0[2])).powi(3))
         .when(|i| (-i.0[2] / libm::hypot(i.0[0], i.0[2])).powi(3))
+        .say("the sine is taken for the cosine: cos θ = −z / d")
+        .when(|i| (1.0 - cosine(i).powi(2)).max(0.0).sqrt().powi(3))
         .say("cos θ is −z / d, not −z")
         .when(|i| (-i.0[2]).powi(3));
     let whole = Part::<[f64; 4], f64>::new(

@@ -74,6 +74,8 @@ fn mistakes() -> Mistakes<Input, Answer> {
         .when(|i| DVec3::from(right(i)[1]).normalize().into())
         .say("the direction is not divided by the scale; in object space it is longer or shorter, too")
         .when(|i| scaled(i, [1.0; 3])[1])
+        .say("the place at t = 1 is taken for the direction: it is that less the origin")
+        .when(|i| right(&((DVec3::from(i.0) + DVec3::from(i.1)).into(), i.1, i.2, i.3, i.4))[0])
         .say("the direction stays as it is in the world; it is turned and scaled, too")
         .when(|i| i.1)
         .say("the direction is moved by the position; it is no place, and only turned and scaled")
@@ -89,6 +91,8 @@ fn mistakes() -> Mistakes<Input, Answer> {
         .say("the two are swapped: the origin is first")
         .when(|&[origin, direction]| [direction, origin]);
     Mistakes::<Input, Answer>::new()
+        .say("the turn is left out; it is undone, as the scale is")
+        .when(|&(o, d, position, _, scale)| right(&(o, d, position, DMat3::IDENTITY.to_cols_array_2d(), scale)))
         .say("the scale is left out")
         .when(|i| scaled(i, [1.0; 3]))
         .say("one factor is taken for all three axes; each has its own")

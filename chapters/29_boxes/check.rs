@@ -42,6 +42,10 @@ fn question() -> Question<Input, bool> {
         allowed: 0.0,
         measured: "",
         mistakes: Mistakes::<Input, bool>::new()
+            .say("only two of the three axes are looked at; the ray must be between all three pairs of faces at once")
+            .when(|i| without(i, 0))
+            .when(|i| without(i, 1))
+            .when(|i| without(i, 2))
             .say(
                 "a ray in the plane of a face is lost, though faces belong to the box: min and max pass over NaN \
                  and give the infinity beside it",
@@ -131,6 +135,12 @@ fn entered(&(o, inverse, low, high, _): &Input) -> Option<[f64; 2]> {
         (from, until) = (from.max(one.min(other)), until.min(one.max(other)));
     }
     (from <= until).then_some([from, until])
+}
+
+/// As if the box were infinite along this axis.
+fn without(&(o, mut inverse, mut low, mut high, t_max): &Input, axis: usize) -> bool {
+    (inverse[axis], low[axis], high[axis]) = (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY);
+    entered(&(o, inverse, low, high, t_max)).is_some_and(|[from, until]| from.max(0.0) <= until.min(t_max))
 }
 
 fn by_min_and_max(&(o, inverse, low, high, t_max): &Input) -> bool {

@@ -37,6 +37,12 @@ fn question() -> Question<Input, Answer> {
         allowed: 0.0,
         measured: "where 1 is a wrong list",
         mistakes: Mistakes::<Input, Answer>::new()
+            .say("both are visited where either may hold a closer hit; each is asked by itself")
+            .when(|&(enters, closest)| {
+                let [a, b] = enters.map(|t| t.unwrap_or(f64::INFINITY));
+                let both = if b < a { [Some(1), Some(0)] } else { [Some(0), Some(1)] };
+                if a.min(b) < closest { both } else { [None; 2] }
+            })
             .say("the farther child is left out: its box may overlap the nearer one and hold the closer hit")
             .when(|&(enters, closest)| [to_visit(enters, closest)[0], None])
             .when(|&(enters, closest)| [in_order((enters, closest))[0], None])

@@ -39,6 +39,27 @@ fn question() -> Question<Input, u32> {
         allowed: 0.0,
         measured: "wrong bits",
         mistakes: Mistakes::<Input, u32>::new()
+            .say("only the last box is in the mask; all that the ray enters are to be")
+            .when(|&(enters, leaves, closest)| {
+                entered(enters, leaves, closest).checked_ilog2().map_or(0, |bit| 1 << bit)
+            })
+            .say("nothing is asked after the first box behind the closest hit; the boxes are not sorted")
+            .when(|&(enters, leaves, closest)| {
+                let end = enters.iter().position(|&t| t > closest).unwrap_or(8);
+                entered(enters, leaves, closest) & ((1 << end) - 1)
+            })
+            .say("only some of the boxes are asked; there are eight")
+            .when(|&(enters, leaves, closest)| entered(enters, leaves, closest) & 15)
+            .when(|&(enters, leaves, closest)| entered(enters, leaves, closest) & 127)
+            .say("the numbers of the boxes are added; box i sets bit i, which is worth 2^i")
+            .when(|&(enters, leaves, closest)| bits(entered(enters, leaves, closest)).sum())
+            .when(|&(enters, leaves, closest)| 2 * bits(entered(enters, leaves, closest)).sum::<u32>())
+            .when(|&(enters, leaves, closest)| bits(entered(enters, leaves, closest)).map(|i| i * i).sum())
+            .say("nothing is asked after the first box that the ray misses; those after it may be entered")
+            .when(|&(enters, leaves, closest)| {
+                let mask = entered(enters, leaves, closest);
+                mask & ((1 << mask.trailing_ones()) - 1)
+            })
             .say("the bits are in the opposite order: bit 0 is the first box")
             .when(|&(enters, leaves, closest)| entered(enters, leaves, closest).reverse_bits() >> 24)
             .say("the bits begin with bit 1: bit 0 is the first box")
@@ -109,6 +130,11 @@ fn those(mut are: impl FnMut(usize) -> bool) -> u32 {
 }
 
 /// Of the boxes that are entered, the one that is so first.
+/// The numbers of the bits that are set.
+fn bits(mask: u32) -> impl Iterator<Item = u32> {
+    (0..8).filter(move |bit| mask >> bit & 1 == 1)
+}
+
 fn nearest(enters: [f64; 8], leaves: [f64; 8], closest: f64) -> u32 {
     let mask = entered(enters, leaves, closest);
     let first = (0..8).filter(|child| mask >> child & 1 == 1).min_by(|&a, &b| enters[a].total_cmp(&enters[b]));

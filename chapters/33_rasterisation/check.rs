@@ -34,6 +34,12 @@ fn question() -> Question<Input, bool> {
         allowed: 0.0,
         measured: "",
         mistakes: Mistakes::<Input, bool>::new()
+.say("the edge is taken to end at its two corners; inside is all that lies to the right of its whole line")
+.when(|i| (i.0[1].min(i.1[1])..=i.0[1].max(i.1[1])).contains(&i.2[1]) && by_rule(i, |dx, dy| dy < 0 || (dy == 0 && dx > 0)))
+.say("the edge function's sign is not asked for: only to the right of the edge, where it is above 0, is inside")
+.when(|i| area(i) != 0 || on_top_left(i))
+.say("all samples are inside a top or left edge; only those to its right and exactly on it are")
+.when(|i| area(i) > 0 || on_top_left(i))
             .say("a sample on an edge is never inside: two triangles leave a crack between them")
             .when(|input| by_rule(input, |_, _| false))
             .say("a sample on an edge is always inside: it belongs to both triangles")

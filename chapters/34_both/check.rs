@@ -51,6 +51,10 @@ fn question() -> Question<Input, [f64; 2]> {
 
 fn mistakes() -> Mistakes<Input, [f64; 2]> {
     Mistakes::<Input, [f64; 2]>::new()
+        .say("the ends are in NDC; they are to stay on the image plane, from −half to half")
+        .when(|i| right(i).map(|end| (end / i[3] + 1.0) / 2.0))
+        .say("the ends are multiplied by `ahead`; the image plane is at distance 1")
+        .when(|i| cut(i, right(i).map(|end| end * i[1])))
         .say("both ends are taken at the depth of the centre: the outline of a sphere is nearer to the eye")
         .when(|i| cut(i, interval_at_its_depth(i[0], i[1], i[2])))
         .say("this is the interval of a box around the sphere, taken at its near side: it is wider than the sphere")

@@ -129,6 +129,15 @@ fn mistakes() -> Mistakes<Input, f64> {
         .say("the smaller factor is taken; they are to be multiplied")
         .when(|[facing, near]| facing.min(*near));
     Mistakes::<Input, f64>::new()
+        .say("the plane is taken across the mean of both normals; it is across the pixel's own")
+        .when(|i| {
+            let [normal, neighbour, offset] = vectors(i);
+            normals(i) * falloff((normal + neighbour).normalize_or_zero().dot(offset.normalize_or_zero()))
+        })
+        .say("an exponential is taken for the quotient: it is 0.01 / (0.01 + s²)")
+        .when(|i| normals(i) * libm::exp(-sine(i) * sine(i) / 0.01))
+        .say("the cosine is multiplied by 32; it is raised to the 32nd power")
+        .when(|i| 32.0 * cosine(i).max(0.0) * plane(i))
         .say("both factors are raised to the 32nd power; only the cosine is")
         .when(|i| power(cosine(i).max(0.0) * plane(i)))
         .say("the plane's factor is raised to the 32nd power instead of the cosine")

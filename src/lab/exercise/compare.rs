@@ -1,4 +1,5 @@
 use super::answers::{Answer, answers};
+use super::looks_like::looks_like;
 use super::question::Question;
 use super::shown::Shown;
 use std::sync::Arc;
@@ -125,39 +126,6 @@ where
         hints: question.hints,
         pinhole_has: question.pinhole_has,
     }
-}
-
-/// What is said of the mistakes that explain the first wrong answer and those about it best; of those that explain it
-/// alike, the fewest.
-fn looks_like<I: 'static, A: Shown + 'static>(
-    question: &Question<I, A>,
-    given: &[A],
-    right: &[A],
-    first: usize,
-) -> Option<String> {
-    let inputs = &question.probes[..given.len()];
-    let near = first + inputs[first..].iter().take_while(|probe| probe.about == inputs[first].about).count();
-    let agrees = |at: usize, made: &A| question.same(&given[at], made) || given[at].shown() == made.shown();
-    let mut best: Option<(f64, &str)> = None;
-    for (told, makes) in question.mistakes.explanations() {
-        // One input rules out most of them.
-        if !agrees(first, &makes(&inputs[first].input)) {
-            continue;
-        }
-        let made: Vec<A> = inputs.iter().map(|probe| makes(&probe.input)).collect();
-        // Where the mistake changes nothing and the answer is right, the two say nothing about each other.
-        let speaks = |at: &usize| !question.same(&made[*at], &right[*at]) || !question.same(&given[*at], &right[*at]);
-        let fraction = |end: usize| {
-            let spoken: Vec<usize> = (0..end).filter(speaks).collect();
-            let agreed = spoken.iter().filter(|&&at| agrees(at, &made[at])).count();
-            agreed as f64 / spoken.len().max(1) as f64
-        };
-        let of_all = fraction(given.len());
-        if fraction(near) >= 0.9 && best.is_none_or(|(max, _)| of_all > max) {
-            best = Some((of_all, told));
-        }
-    }
-    best.map(|(_, told)| told.to_owned())
 }
 
 /// Enough answers to say so, and no two that differ.

@@ -1,7 +1,11 @@
+use super::argument::{Argument, Misread};
+
 /// Mistakes that can be recognised, each by what it would answer, the special before the general.
 ///
 /// Built as it reads: `say` what is wrong, `when` the answer is this, or this.
 pub struct Mistakes<I, A> {
+    /// How any argument may be misread.
+    pub(super) argument: Option<Asked<I>>,
     declared: Vec<(&'static str, fn(&I) -> A)>,
     /// Of answers that are put together of parts.
     multiplied: Vec<Explanation<I, A>>,
@@ -10,16 +14,27 @@ pub struct Mistakes<I, A> {
 
 impl<I, A> Default for Mistakes<I, A> {
     fn default() -> Self {
-        Self { declared: Vec::new(), multiplied: Vec::new(), told: "" }
+        Self { argument: None, declared: Vec::new(), multiplied: Vec::new(), told: "" }
+    }
+}
+
+/// What is known of any input: how it may be misread, and its numbers.
+pub(super) type Asked<I> = (fn(&I) -> Vec<Misread<I>>, fn(&I, &mut Vec<f64>));
+
+impl<I: Argument, A> Mistakes<I, A> {
+    /// No mistake yet but those of an argument that is misread.
+    pub fn new() -> Self {
+        Self { argument: Some((I::misread, I::numbers)), ..Self::default() }
+    }
+
+    /// The same, and no argument is misread: the right answer is told exactly, of nothing but what is asked.
+    #[must_use]
+    pub fn asked_as_given(self) -> Self {
+        Self { argument: Some((|_| Vec::new(), I::numbers)), ..self }
     }
 }
 
 impl<I, A> Mistakes<I, A> {
-    /// No mistake yet.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
     /// What is said of the mistakes that follow.
     #[must_use]
     pub fn say(self, told: &'static str) -> Self {
@@ -43,7 +58,7 @@ pub struct Part<I, V> {
 impl<I, V> Part<I, V> {
     /// A part without a mistake yet.
     pub fn new(right: fn(&I) -> V) -> Self {
-        Self { right, mistakes: Mistakes::new() }
+        Self { right, mistakes: Mistakes::default() }
     }
 
     /// What is said of the mistakes that follow.

@@ -8,21 +8,25 @@
 
 mod answers;
 pub mod apart;
+mod argument;
 mod ask;
 mod beside;
 mod compare;
 mod letters;
+mod looks_like;
 mod mine;
 mod mistake;
 mod panels;
 mod panics;
 mod progress;
 mod question;
+mod relation;
 mod report;
 mod seen;
 mod shown;
 mod turn;
 
+pub use argument::{Argument, Misread};
 pub use ask::{Ask, RowPlace, RowPlaces};
 pub use beside::Beside;
 pub use compare::{Mismatch, Outcome, Report};
