@@ -16,7 +16,7 @@ use super::subject::Subject;
 use super::warnings::{too_dark, warnings};
 use pinhole::Chapter;
 use pinhole::render::Execution;
-use pinhole_lab::exercise::{Beside, Exercise, Mine, Outcome, PATIENCE, end_at_panics, sheet};
+use pinhole_lab::exercise::{Exercise, Mine, Outcome, PATIENCE, PicturePair, end_at_panics, sheet};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -89,12 +89,12 @@ fn render_beside(
 ) -> Result {
     check_file(false, file)?;
     let execution = Execution { threads: options.threads.map(usize::from), ..Execution::default() };
-    let (mut pairs, mut said): (Vec<(&str, Beside)>, Vec<String>) = (Vec::new(), Vec::new());
+    let (mut pairs, mut said): (Vec<(&str, PicturePair)>, Vec<String>) = (Vec::new(), Vec::new());
     let mut same = true;
     for (number, what) in exercise.scenes().enumerate() {
         let progress = if options.quiet { Progress::hidden() } else { Progress::bar(0) };
         let waiting = Waiting::with(progress, 0);
-        let pair = Beside::render(exercise, (chapter, number), &options.asked(false), (&execution, &waiting));
+        let pair = PicturePair::render(exercise, (chapter, number), &options.asked(false), (&execution, &waiting));
         waiting.done();
         match pair {
             Err(pinhole::Error::Usage(told)) if number > 0 => {
@@ -111,7 +111,7 @@ fn render_beside(
                 write_file(false, file, &sheet(&pairs)?)?;
             }
         }
-        if let (0, Some((_, Beside { rendered: Some(rendered), .. }))) = (number, pairs.first()) {
+        if let (0, Some((_, PicturePair { rendered: Some(rendered), .. }))) = (number, pairs.first()) {
             let subject = Subject::Chapter(Cow::Owned(exercise.pictured(chapter, 0)));
             let mut warned = warnings(&subject, options, &rendered.film, &rendered.plan)?;
             warned.extend(too_dark(&rendered.film, &rendered.plan));

@@ -29,7 +29,7 @@ mod answers {
 }
 
 use pinhole::Overrides;
-use pinhole_lab::exercise::{Beside, Seen, sheet};
+use pinhole_lab::exercise::{PicturePair, Seen, sheet};
 use shown::{Shown, mistakes_of};
 use std::fs;
 use std::time::Instant;
@@ -80,7 +80,7 @@ fn main() -> std::io::Result<()> {
 }
 
 /// A sentence for each scene.
-fn told(pairs: &[(&str, Beside)], seen: &[Seen]) -> String {
-    let one = |((what, _), seen): (&(&str, Beside), &Seen)| format!("[{what}] {}", seen.sentence());
+fn told(pairs: &[(&str, PicturePair)], seen: &[Seen]) -> String {
+    let one = |((what, _), seen): (&(&str, PicturePair), &Seen)| format!("[{what}] {}", seen.sentence());
     pairs.iter().zip(seen).map(one).collect::<Vec<_>>().join("; ")
 }

@@ -3,14 +3,14 @@
 use super::answers::Answers;
 use pinhole::render::Execution;
 use pinhole::{Chapter, Overrides};
-use pinhole_lab::exercise::{Beside, Exercise, Outcome, Seen};
+use pinhole_lab::exercise::{Exercise, Outcome, PicturePair, Seen};
 use std::time::Duration;
 
 /// What comes of a mistake in a picture.
 #[allow(dead_code, reason = "the bench keeps the pictures")]
 pub enum Shown {
     /// Pictures, and what is seen in each.
-    Pictures(Vec<(&'static str, Beside)>, Vec<Seen>),
+    Pictures(Vec<(&'static str, PicturePair)>, Vec<Seen>),
     /// A sentence in place of the picture.
     Sentence(String),
 }
@@ -24,7 +24,7 @@ impl Shown {
         }
         let (mut pairs, mut seen) = (Vec::new(), Vec::new());
         for (number, what) in exercise.scenes().enumerate() {
-            match Beside::render(exercise, (chapter, number), asked, (&Execution::default(), &())) {
+            match PicturePair::render(exercise, (chapter, number), asked, (&Execution::default(), &())) {
                 Ok(pair) => {
                     seen.push(pair.seen());
                     pairs.push((what, pair));

@@ -1,7 +1,7 @@
 //! Pinhole's picture, the reader's and their difference, side by side.
 
-use super::beside::Beside;
 use super::letters::{HEIGHT, WIDTH, write};
+use super::picture_pair::PicturePair;
 use crate::review::full_white;
 use image::{ImageFormat, Rgb, RgbImage};
 use std::io::{self, Cursor};
@@ -27,7 +27,7 @@ const BEYOND: f64 = 0.002;
 /// side pinhole's, the reader's and their difference.
 ///
 /// Errors: an encoder that refuses.
-pub fn sheet(pairs: &[(&str, Beside)]) -> io::Result<Vec<u8>> {
+pub fn sheet(pairs: &[(&str, PicturePair)]) -> io::Result<Vec<u8>> {
     let least = pairs.first().map_or(0, |(_, pair)| pair.size[0]).max(MIN_WIDTH);
     // A picture of few pixels is drawn as large as the first, in squares.
     let high = pairs.first().map_or(0, |(_, pair)| pair.size[1] * (least / pair.size[0].max(1)));
@@ -49,7 +49,7 @@ pub fn sheet(pairs: &[(&str, Beside)]) -> io::Result<Vec<u8>> {
 }
 
 /// One scene's three panels, from this height on.
-fn draw(sheet: &mut RgbImage, (title, pair): (&str, &Beside), zoom: u32, (across, top): (u32, u32)) {
+fn draw(sheet: &mut RgbImage, (title, pair): (&str, &PicturePair), zoom: u32, (across, top): (u32, u32)) {
     let [width, height] = pair.size;
     let bytes = pair.light.each_ref().map(|light| pair.bytes(light));
     let apart = |at: usize| signed(bytes[0][at], bytes[1][at]);

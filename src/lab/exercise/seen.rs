@@ -1,4 +1,4 @@
-use super::beside::{Beside, Pixels};
+use super::picture_pair::{PicturePair, Pixels};
 
 /// The sides of a block of pixels.
 const BLOCK: usize = 16;
@@ -47,7 +47,7 @@ struct Block {
 }
 
 impl Seen {
-    pub(super) fn of(pair: &Beside) -> Self {
+    pub(super) fn of(pair: &PicturePair) -> Self {
         let bytes = pair.light.each_ref().map(|light| pair.bytes(light));
         let halves =
             pair.halves.as_ref().map(|halves| halves.each_ref().map(|half| half.each_ref().map(|l| pair.bytes(l))));
@@ -198,7 +198,7 @@ fn mean_light(light: &Pixels, places: &[usize]) -> [f64; 3] {
 }
 
 /// How much brighter the reader's picture is, and the standard error of that.
-fn brighter(pair: &Beside) -> (f64, f64) {
+fn brighter(pair: &PicturePair) -> (f64, f64) {
     let sum = |light: &Pixels| light.iter().flatten().map(|&part| shown(part)).sum::<f64>();
     let [pinholes, readers] = pair.light.each_ref().map(sum);
     let pinholes = pinholes.max(f64::MIN_POSITIVE);

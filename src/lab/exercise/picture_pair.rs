@@ -12,7 +12,7 @@ use pinhole::{Chapter, Overrides, Result, SamplingOverrides};
 pub type Pixels = Vec<[f32; 3]>;
 
 /// Two pictures of one scene with the same random numbers, one with pinhole's function in it and one with the reader's.
-pub struct Beside {
+pub struct PicturePair {
     /// How many pixels they have, across and down.
     pub size: [u32; 2],
     /// How their light becomes bytes.
@@ -26,7 +26,7 @@ pub struct Beside {
     pub rendered: Option<Rendered>,
 }
 
-impl Beside {
+impl PicturePair {
     /// Renders both in one of the scenes of the exercise, with what the reader asks of it. A size and a column to paint are
     /// for the chapter's own scene, the first.
     ///
