@@ -5,7 +5,7 @@ use super::own_file::{check_file, write_file};
 use super::streams::Streams;
 use pinhole::film::{Curve, png_bytes};
 use pinhole::scene::{FileKind, printable_path, read_file};
-use pinhole_lab::yours::{Comparison, Expected, Picture, picture_in, picture_of, program_after, scene_after, steps};
+use pinhole_lab::yours::{Comparison, Expected, Picture, film_after, picture_in, program_after, steps};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
@@ -39,7 +39,7 @@ pub fn yours(asked: &CompareYours, format: Format, streams: &mut Streams<'_>) ->
         let named = asked.output.is_some();
         let file = asked.output.clone().unwrap_or_else(|| format!("out/yours_{:02}.png", step.number).into());
         check_file(named, &file)?;
-        write_file(named, &file, &png_bytes(&picture_of(&scene_after(step.number))?, Curve::Srgb)?)?;
+        write_file(named, &file, &png_bytes(&film_after(step.number)?, Curve::Srgb)?)?;
         return print_written(&file, format, out);
     };
     let picture = read_ppm(picture)?;

@@ -35,7 +35,7 @@ pub const MISTAKES: [Edit; 58] = [
     (13, "match along > 0.0", "match along < 0.0"),
     (13, "V(0.0, 1.0, 0.0)),\n                (low.2", "V(1.0, 0.0, 0.0)),\n                (low.2"),
     (17, "sum.times(1.0 / SAMPLES as f64)", "sum.times(2.0 / SAMPLES as f64)"),
-    (17, "2.0_f64.powi(64)", "2.0_f64.powi(61)"),
+    (17, "2.0_f64.powi(53)", "2.0_f64.powi(50)"),
     (19, "2.0 * normal.dot(direction)", "normal.dot(direction)"),
     (19, "                weight = weight.by(colour);\n", ""),
     (19, "direction.sub(normal.times(2.0", "direction.add(normal.times(2.0"),

@@ -14,6 +14,9 @@ pub const LED: &str = "a weekend";
 /// The heading of the lines that the reader's program gains.
 const STEP: &str = "Add to yours";
 
+/// What stands above a step that no later one needs.
+const LEFT_OUT: &str = "step may be left out";
+
 /// Writes into each page what it tells of the course; where a page's last block is wrong there is none to tell, and
 /// [`lesson::problems`] says why.
 pub fn guide(pages: &mut [Page]) {
@@ -28,14 +31,17 @@ pub fn guide(pages: &mut [Page]) {
             if let Some(before) = step {
                 follows(page, before);
             }
-            step = Some(&chapter.name);
+            if !page.text.contains(LEFT_OUT) {
+                step = Some(&chapter.name);
+            }
         }
         let place = path.iter().position(|&on_it| on_it == at);
-        if let Some(next) = place.and_then(|place| path.get(place + 1)) {
-            let next = &course.chapters[*next];
-            page.text +=
-                &format!("\n[A weekend's path](teaching.md#a-weekend) goes on with [{}]({}).\n", next.title, next.name);
-        }
+        let Some(place) = place else { continue };
+        page.text += "\n[A weekend's path](teaching.md#a-weekend) ";
+        page.text += &path.get(place + 1).map(|next| &course.chapters[*next]).map_or_else(
+            || "ends here; what you have written is yours.\n".to_owned(),
+            |next| format!("goes on with [{}]({}).\n", next.title, next.name),
+        );
     }
 }
 

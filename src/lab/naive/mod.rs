@@ -26,7 +26,7 @@ pub mod methods;
 pub mod mistake;
 mod monte_carlo;
 pub mod ndc;
-mod one_page;
+pub mod one_page;
 pub mod path;
 pub mod planar;
 pub mod plane;

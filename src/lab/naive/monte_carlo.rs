@@ -11,7 +11,7 @@ fn random(state: &mut u64) -> f64 {
     let mut bits = *state;
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    (bits ^ (bits >> 31)) as f64 / 2.0_f64.powf(64.0)
+    ((bits ^ (bits >> 31)) >> 11) as f64 / 2.0_f64.powf(53.0)
 }
 // ANCHOR_END: random
 

@@ -97,6 +97,18 @@ fn main() {
 }
 // ANCHOR_END: one_page
 
+/// The picture of the page's program, as light.
+pub fn film([width, height]: [usize; 2]) -> pinhole::film::Film {
+    let mut film = pinhole::film::Film::new(width as u32, height as u32, width.max(height) as u32);
+    for row in 0..width * height {
+        let (x, y) = ((row % width) as f64 + 0.5, (row / width) as f64 + 0.5);
+        let right = (2.0 * x / width as f64 - 1.0) * width as f64 / height as f64;
+        let V(r, g, b) = radiance(V(0.0, 0.0, 0.0), V(right, 1.0 - 2.0 * y / height as f64, -1.0));
+        film.tiles[0].add(row, [r as f32, g as f32, b as f32]);
+    }
+    film
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,7 @@
 //! Whether a picture of bytes shows what another one of light shows, block by block.
 
 use super::known::{Picture, known_mistakes};
-use super::scene::{SIZE, picture_of, scene_after, variants};
+use super::scene::{SIZE, film_after, picture_of, scene_after, variants};
 use pinhole::Error;
 use pinhole::extract::linear_from_srgb;
 use pinhole::film::{Film, srgb_from_linear};
@@ -119,7 +119,7 @@ impl Expected {
     ///
     /// Errors: those of a render.
     pub fn after(chapter: u32) -> Result<Self, Error> {
-        let right = light_of(&picture_of(&scene_after(chapter))?);
+        let right = light_of(&film_after(chapter)?);
         let (rewritten_or_changed, known) = <(OnceCell<_>, OnceCell<_>)>::default();
         Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known })
     }
@@ -144,21 +144,25 @@ impl Expected {
             return Ok(shift(&readers, right, 0.0).map_or(same, |by| Comparison::Shifted { by }));
         };
         let mut looks_like = self.closest(&readers, apart.len(), self.rewritten_or_changed()?);
-        if looks_like.is_none() {
-            if let Some(by) = shift(&readers, right, EXPLAINED) {
-                return Ok(Comparison::Shifted { by });
-            }
-            waits();
-            looks_like = self.closest(&readers, apart.len(), self.known());
+        if looks_like.is_none()
+            && let Some(by) = shift(&readers, right, EXPLAINED)
+        {
+            return Ok(Comparison::Shifted { by });
         }
+        if looks_like.is_none_or(|(left, _)| left > 0) {
+            waits();
+            let known = self.closest(&readers, apart.len(), self.known());
+            looks_like = [looks_like, known].into_iter().flatten().min_by_key(|found| found.0);
+        }
+        let looks_like = looks_like.map(|found| found.1);
         let light = |pixels: &Pixels| pixels.iter().flatten().sum::<f64>();
         let brightness = light(&readers) / light(right) - 1.0;
         Ok(Comparison::Differs { blocks: apart.len(), of: found.len(), brightness, most: most.middle, looks_like })
     }
 
     /// What the picture looks like that leaves the fewest blocks apart, if those are few; it must itself be apart from the
-    /// right one about as far as the reader's is.
-    fn closest(&self, readers: &Pixels, apart: usize, mistakes: &[Mistaken]) -> Option<&'static str> {
+    /// right one about as far as the reader's is. With it, in how many blocks they still differ.
+    fn closest(&self, readers: &Pixels, apart: usize, mistakes: &[Mistaken]) -> Option<(usize, &'static str)> {
         let differing = |one: &Pixels, other: &Pixels| {
             blocks(one, other, &self.curve).iter().filter(|block| block.differs()).count()
         };
@@ -167,7 +171,7 @@ impl Expected {
             2 * alone >= apart && alone <= 3 * apart
         });
         let all = shown.map(|(what, wrong)| (differing(readers, wrong), *what));
-        all.min_by_key(|found| found.0).filter(|found| found.0 <= apart / 10).map(|found| found.1)
+        all.min_by_key(|found| found.0).filter(|found| found.0 <= apart / 10)
     }
 
     /// The picture written in other ways than it should be, and those of other scenes.

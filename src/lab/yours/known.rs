@@ -1,7 +1,7 @@
 //! Mistakes that no change of the scene makes: each is put into the program, which is compiled and run, to see whether a
 //! picture looks like it.
 
-use super::program::program_after;
+use super::program::{program_after, steps};
 use std::fs;
 use std::process::{Command, Stdio};
 use std::sync::Mutex;
@@ -24,7 +24,22 @@ const fn known(right: &'static str, wrong: &'static str, looks_like: &'static st
     Known { right, wrong, looks_like }
 }
 
-const KNOWN: [Known; 44] = [
+const KNOWN: [Known; 47] = [
+    known(
+        "point.add(normal.times(1e-9))",
+        "point",
+        "it is full of specks: rays start exactly on the surface, and hit it again.",
+    ),
+    known(
+        "hit.0 < 1.0 - 1e-9",
+        "hit.0 < 1.0",
+        "the lamp's own surface hides it from half of the rays: it is at t = 1, up to rounding.",
+    ),
+    known(
+        "return sum.add(weight.by(V(0.5, 0.7, 1.0)));",
+        "return weight.by(V(0.5, 0.7, 1.0));",
+        "a path that ends in the sky forgets the light that it has found before.",
+    ),
     known("= INTENSITY * cosine", "= INTENSITY", "the cosine between normal and light is missing."),
     known(
         "let cosine = normal.dot(to_light.unit())",
@@ -198,15 +213,24 @@ pub fn known_mistakes(chapter: u32) -> Vec<(&'static str, Picture)> {
     let program = program
         .replace("SAMPLES: usize = 64;", "SAMPLES: usize = 16;")
         .replace("SAMPLES: usize = 16; // until", "SAMPLES: usize = 4; // until");
-    let all = Mutex::new(KNOWN.iter().filter(|known| program.matches(known.right).count() == 1).enumerate());
+    let mut all: Vec<(&str, String)> = KNOWN
+        .iter()
+        .filter(|known| program.contains(known.right))
+        .map(|known| (known.looks_like, program.replace(known.right, known.wrong)))
+        .collect();
+    let before = steps().iter().map(|step| step.number).filter(|&number| number < chapter).max().unwrap_or(1);
+    if let Ok(earlier) = program_after(before) {
+        all.insert(0, ("it is the picture of your program as it was before this step.", earlier));
+    }
+    let all = Mutex::new(all.into_iter().enumerate());
     let found = Mutex::new(Vec::new());
     let next = || all.lock().ok()?.next();
     let work = || {
-        while let Some((at, known)) = next() {
-            if let Ok(picture) = picture_of_program(&program.replace(known.right, known.wrong))
+        while let Some((at, (looks_like, program))) = next() {
+            if let Ok(picture) = picture_of_program(&program)
                 && let Ok(mut found) = found.lock()
             {
-                found.push((at, known.looks_like, picture));
+                found.push((at, looks_like, picture));
             }
         }
     };
@@ -285,14 +309,12 @@ pub fn picture_in(text: &str) -> Result<Picture, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::yours::steps;
 
     #[test]
-    fn every_known_mistake_can_be_made_once_in_some_program() {
+    fn every_known_mistake_can_be_made_in_some_program() {
         let programs: Vec<String> = steps().iter().map(|step| program_after(step.number).expect("applies")).collect();
         for known in &KNOWN {
-            let there = programs.iter().filter(|program| program.matches(known.right).count() == 1).count();
-            assert!(there > 0, "{}", known.right);
+            assert!(programs.iter().any(|program| program.contains(known.right)), "{}", known.right);
         }
     }
 }

@@ -11,4 +11,4 @@ mod scene;
 pub use comparison::{Comparison, Expected};
 pub use known::{Compiled, Picture, picture_in, picture_of_program};
 pub use program::{Step, program_after, program_of, steps};
-pub use scene::{Variant, picture_of, scene_after, variants};
+pub use scene::{Variant, film_after, picture_of, scene_after, variants};

@@ -15,9 +15,9 @@ pub struct Step {
 
 macro_rules! steps {
     ($($number:literal $chapter:literal,)+) => {
-        /// All steps, in the order of the chapters.
+        /// All steps, in the order of the chapters; the first is the program of page 1 as it stands there.
         pub fn steps() -> Vec<Step> {
-            vec![$(Step {
+            vec![Step { chapter: "01_image", number: 1, text: "" }, $(Step {
                 chapter: $chapter,
                 number: $number,
                 text: include_str!(concat!("../../../chapters/", $chapter, "/yours.step")),
@@ -72,6 +72,8 @@ pub fn program_of(takes: impl Fn(u32) -> bool) -> Result<String, String> {
 
 /// The end of a place that may be there more than once.
 const EVERYWHERE: &str = "`, wherever it stands:";
+/// What stands before the part of a line that is long.
+const A_PART: &str = "the line with `";
 /// How a place begins that only a step brings which may be left out.
 const IF_THERE: &str = "If you have it, ";
 
@@ -82,7 +84,7 @@ fn edits(text: &str) -> Vec<(&str, Vec<&str>)> {
         let place = line.strip_prefix("// ").filter(|place| {
             let begins = ["In ", "After ", "Before ", "If you have it, ", "`"];
             let begins = begins.iter().any(|word| place.starts_with(word));
-            begins && ["`:", "` goes.", EVERYWHERE].iter().any(|word| place.ends_with(word))
+            begins && place.contains('`') && (place.ends_with(':') || place.ends_with(" goes."))
         });
         match (place, found.last_mut()) {
             (Some(place), _) => found.push((place, Vec::new())),
@@ -104,7 +106,13 @@ fn apply(lines: &mut Vec<String>, place: &str, body: &[&str]) -> Option<()> {
     let is_within = place.starts_with("In `");
     let item = item(lines, quoted.first()?)?;
     let targets: Vec<Range<usize>> = match quoted.get(1) {
-        Some(line) if is_within => item.filter(|&at| lines[at].trim() == *line).map(|at| at..at + 1).collect(),
+        Some(line) if is_within => {
+            let is_it = |at: &usize| match place.contains(A_PART) {
+                true => lines[*at].contains(line),
+                false => lines[*at].trim() == *line,
+            };
+            item.filter(is_it).map(|at| at..at + 1).collect()
+        }
         _ if is_within => return None,
         _ => vec![item],
     };
@@ -112,7 +120,8 @@ fn apply(lines: &mut Vec<String>, place: &str, body: &[&str]) -> Option<()> {
         return None;
     }
     let mut body: Vec<String> = body.iter().map(|line| (*line).to_owned()).collect();
-    let (replaces, is_after) = (place.ends_with(" goes.") || place.contains("n place of `"), place.contains("fter `"));
+    let replaces = place.ends_with(" goes.") || place.contains("n place of ");
+    let is_after = place.starts_with("After ") || place.contains(", after `");
     // Between items stands an empty line.
     if !replaces && !is_within {
         body.insert(if is_after { 0 } else { body.len() }, String::new());

@@ -1,5 +1,6 @@
 //! The scenes of the reader's program as entities, and what they would be with a mistake.
 
+use crate::naive::one_page;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use pinhole::film::Film;
@@ -115,6 +116,14 @@ fn shell(rings: u32, sides: u32) -> TriangleMesh {
         }
     }
     mesh
+}
+
+/// The picture that the program shows after a chapter: pinhole's of the same scene, and that of page 1 itself, where light
+/// comes from nowhere as well.
+///
+/// Errors: those of a render.
+pub fn film_after(chapter: u32) -> Result<Film, Error> {
+    if chapter == 1 { Ok(one_page::film(SIZE)) } else { picture_of(&scene_after(chapter)) }
 }
 
 /// pinhole's picture of a scene.
