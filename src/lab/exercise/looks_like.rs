@@ -6,7 +6,7 @@ use super::shown::Shown;
 /// How many of the answers of which it says something a general explanation must explain.
 const GENERAL: f64 = 0.97;
 
-/// How many of those one of the chapter's own must explain, or else it agrees by chance.
+/// How many of those one of the chapter's own must explain; one that explains fewer agrees here and there with anything.
 const LEAST: f64 = 0.08;
 
 /// What is said of the mistakes that explain the first wrong answer and those about it best; of those that explain it
@@ -132,7 +132,7 @@ mod tests {
 
     /// Of a place whose x is multiplied by a factor.
     fn said_of(yours: fn(&Input) -> [f64; 2]) -> String {
-        let input = |at: f64| ([at - 8.5, (7.0 * at) % 11.0 - 5.3], 0.25 + at / 7.0);
+        let input = |at: f64| ([at - 5.5, (7.0 * at) % 11.0 - 5.3], 0.25 + at / 7.0);
         let question = Question {
             pinhole_has: ("", ""),
             probes: probes("any", (1..20).map(|at| input(f64::from(at)))).collect(),

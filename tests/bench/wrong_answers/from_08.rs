@@ -308,7 +308,7 @@ fn conventions() -> Fresh {
             }),
             ("`x_right` and `z_ahead` are swapped", |[x, y, z], r, u, a| [x * s(a), y * s(u), z * s(!r)]),
             ("a left-handed camera is mended by its z alone", |[x, y, z], r, u, a| {
-                let right_handed = r == (u == !a);
+                let right_handed = r == (u != a);
                 [x, y, if right_handed { z } else { -z }]
             }),
             ("the direction's own signs are lost", |[x, y, z], r, u, a| {
@@ -487,7 +487,7 @@ fn plan() -> Fresh {
                         wanted.extend(reads.iter().map(String::as_str));
                     }
                 }
-                stages.iter().zip(marks).filter_map(|(stage, mark)| mark.then(|| stage.name.clone())).collect()
+                stages.iter().zip(marks).filter(|(_, mark)| *mark).map(|(stage, _)| stage.name.clone()).collect()
             },
         ],
     )
