@@ -44,7 +44,7 @@ pub fn yours(asked: &CompareYours, format: Format, streams: &mut Streams<'_>) ->
     };
     let picture = read_ppm(picture)?;
     let mut waits =
-        || _ = writeln!(notes, "note: it differs; known mistakes are tried in the program, for up to a minute");
+        || _ = writeln!(notes, "note: it differs; known mistakes are tried in the program, for a minute or two");
     tell(&Expected::after(step.number)?.compare(&picture, &mut waits)?, format, out)
 }
 

@@ -144,15 +144,15 @@ impl Expected {
             return Ok(shift(&readers, right, 0.0).map_or(same, |by| Comparison::Shifted { by }));
         };
         let mut looks_like = self.closest(&readers, apart.len(), self.rewritten_or_changed()?);
-        if looks_like.is_none()
-            && let Some(by) = shift(&readers, right, EXPLAINED)
-        {
-            return Ok(Comparison::Shifted { by });
-        }
         if looks_like.is_none_or(|(left, _)| left > 0) {
             waits();
             let known = self.closest(&readers, apart.len(), self.known());
             looks_like = [looks_like, known].into_iter().flatten().min_by_key(|found| found.0);
+        }
+        if looks_like.is_none()
+            && let Some(by) = shift(&readers, right, EXPLAINED)
+        {
+            return Ok(Comparison::Shifted { by });
         }
         let looks_like = looks_like.map(|found| found.1);
         let light = |pixels: &Pixels| pixels.iter().flatten().sum::<f64>();
@@ -171,7 +171,8 @@ impl Expected {
             2 * alone >= apart && alone <= 3 * apart
         });
         let all = shown.map(|(what, wrong)| (differing(readers, wrong), *what));
-        all.min_by_key(|found| found.0).filter(|found| found.0 <= apart / 10)
+        // One block may differ by chance where a mistake is seen in few.
+        all.min_by_key(|found| found.0).filter(|found| found.0 <= (apart / 10).max(usize::from(apart > 4)))
     }
 
     /// The picture written in other ways than it should be, and those of other scenes.

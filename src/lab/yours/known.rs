@@ -24,7 +24,7 @@ const fn known(right: &'static str, wrong: &'static str, looks_like: &'static st
     Known { right, wrong, looks_like }
 }
 
-const KNOWN: [Known; 47] = [
+const KNOWN: [Known; 86] = [
     known(
         "point.add(normal.times(1e-9))",
         "point",
@@ -44,12 +44,12 @@ const KNOWN: [Known; 47] = [
     known(
         "let cosine = normal.dot(to_light.unit())",
         "let cosine = normal.dot(to_light)",
-        "the direction to the light is not a unit vector.",
+        "light falls with the distance and not with its square, or the direction to the light is not a unit vector.",
     ),
     known(
         "/ to_light.dot(to_light);",
         "/ to_light.dot(to_light).sqrt();",
-        "light falls with the distance, and not with its square.",
+        "light falls with the distance and not with its square, or the direction to the light is not a unit vector.",
     ),
     known("/ to_light.dot(to_light);", ";", "light does not fall with the distance."),
     known("(ANGLE / 2.0).to_radians()", "(ANGLE / 2.0)", "the angle is in degrees where its tangent is taken."),
@@ -200,6 +200,121 @@ const KNOWN: [Known; 47] = [
         "V(x as f64, y as f64, 0.0)",
         "pixels are asked at their corner, and not at their middle.",
     ),
+    known(
+        "|&t| t > 1e-4",
+        "|&t| t > 0.0",
+        "it is full of specks: rays start exactly on the surface, and hit it again.",
+    ),
+    known("- sphere.radius * sphere.radius", "- sphere.radius", "the radius is not squared."),
+    known("- radius * radius;", "- radius;", "the radius is not squared."),
+    known(
+        "(min, nearest) = (t, Some((t, sphere)));",
+        "nearest = Some((t, sphere));",
+        "what is hit last in the list is taken, and not what is nearest.",
+    ),
+    known(
+        "x as f64 + 0.5, y as f64 + 0.5",
+        "x as f64, y as f64",
+        "rays go through the corners of pixels, and not through their middle.",
+    ),
+    known(
+        "x as f64 + right, y as f64 + down",
+        "x as f64 + right - 0.5, y as f64 + down - 0.5",
+        "rays are spread about the corners of pixels, and not about their middle.",
+    ),
+    known(".cross(back).unit()", ".cross(back)", "the axis to the right is not a unit vector."),
+    known("V(0.0, 1.0, 0.0).cross", "V(0.0, 0.0, 1.0).cross", "the world's upward direction is taken for another one."),
+    known(
+        "self.2 * o.0 - self.0 * o.2",
+        "self.0 * o.2 - self.2 * o.0",
+        "the second part of the cross product has the wrong sign.",
+    ),
+    known(
+        "nearest(point, to_light)",
+        "nearest(point, LIGHT)",
+        "shadow rays lead to the lamp's place as if the point were the origin.",
+    ),
+    known("light = light.add(intensity", "light = (intensity", "only one lamp counts: is their light added up?"),
+    known(
+        "point.add(normal.times(1e-9)); // off",
+        "point.sub(normal.times(1e-9)); // off",
+        "shadow rays start below the surface.",
+    ),
+    known("light.powf(1.0 / 2.4)", "light.powf(1.0 / 2.2)", "the exponent of the screen's curve is another one."),
+    known("(height - normal.dot(origin))", "(height + normal.dot(origin))", "a sign is wrong where a plane is hit."),
+    known("(height - normal.dot(origin))", "(normal.dot(origin) - height)", "a sign is wrong where a plane is hit."),
+    known(
+        "origin.2, direction.2, V",
+        "origin.2, direction.1, V",
+        "one of the block's three directions is taken twice.",
+    ),
+    known(
+        "from_centre.add(direction.times(t)).unit()",
+        "from_centre.add(direction.times(t))",
+        "a sphere's normal is not a unit vector.",
+    ),
+    known("sum.times(1.0 / SAMPLES as f64)", "sum", "the sum of the samples is not divided by their number."),
+    known("        sum = sum.add(radiance(", "        sum = (radiance(", "only the last sample counts."),
+    known(
+        "return weight.by(V(0.5, 0.7, 1.0)); // the sky",
+        "return V(0.5, 0.7, 1.0); // the sky",
+        "the sky in a mirror has lost the mirror's colour: `weight` is left out there.",
+    ),
+    known(
+        "return weight.by(colour).by(light).times(1.0 / PI);",
+        "return colour.by(light).times(1.0 / PI);",
+        "what is seen in a mirror has lost the mirror's colour: `weight` is left out there.",
+    ),
+    known("1.0 - eta * eta *", "1.0 - eta *", "a square is missing in Snell's law."),
+    known("        direction = direction.unit();\n", "", "directions are not unit vectors where glass needs them."),
+    known(
+        "across * across + along * along",
+        "across * across + across * across",
+        "glass reflects by one polarisation only.",
+    ),
+    known("4.0 * PI * radius * radius", "PI * radius * radius", "the area of the lamp is that of a disk."),
+    known("4.0 * PI * radius * radius", "2.0 * PI * radius * radius", "the area of the lamp is that of half a sphere."),
+    known("2.0 * self.next() - 1.0", "self.next()", "random directions are in the upper half only."),
+    known("random.next() >= survives", "random.next() < survives", "the roulette ends what should go on."),
+    known(
+        "weight = weight.times(1.0 / survives);",
+        "weight = weight.times(survives);",
+        "paths that survive are weighted by the probability, and not by one over it.",
+    ),
+    known(
+        "pdf = normal.dot(direction) / PI;",
+        "pdf = 1.0 / (2.0 * PI);",
+        "the pdf of a matte surface's directions is that of uniform ones.",
+    ),
+    known(
+        "pdf = normal.dot(direction) / PI;",
+        "pdf = normal.dot(direction);",
+        "the pdf of a matte surface's directions lacks its π.",
+    ),
+    known(
+        "leaves = one.max(other).min(leaves);",
+        "leaves = one.min(other).min(leaves);",
+        "boxes are passed by though rays hit them: which of two ends is where a ray leaves?",
+    ),
+    known(
+        "1.0 / (parts[0] / a.2 + parts[1] / b.2 + parts[2] / c.2)",
+        "parts[0] * a.2 + parts[1] * b.2 + parts[2] * c.2",
+        "depth is taken as linear in the picture; one over depth is.",
+    ),
+    known("outward.times(-outward.dot(direction).signum())", "outward", "normals are not turned to the eye."),
+    known("LAMP.2.times(PI * LAMP.1 * LAMP.1)", "LAMP.2", "the lamp's radiance is taken for its intensity."),
+    known(
+        "EYE.add(direction.times(depth))",
+        "EYE.add(direction.unit().times(depth))",
+        "depth is taken along the ray, and not along the view.",
+    ),
+    known("right * height) / 2.0", "right * width) / 2.0", "it is too wide: x reaches as far as y."),
+    known(
+        "area(p, q, at) / area(a, b, c)",
+        "area(p, q, at) / area(a, b, c).abs()",
+        "triangles of one orientation are missing: areas have a sign.",
+    ),
+    known("depth >= pixel.0", "depth <= pixel.0", "the farthest stays, and not the nearest."),
 ];
 
 /// A picture of bytes: its width, its height and its pixels.
@@ -212,7 +327,7 @@ pub fn known_mistakes(chapter: u32) -> Vec<(&'static str, Picture)> {
     // Fewer samples are enough to tell one mistake from another.
     let program = program
         .replace("SAMPLES: usize = 64;", "SAMPLES: usize = 16;")
-        .replace("SAMPLES: usize = 16; // until", "SAMPLES: usize = 4; // until");
+        .replace("SAMPLES: usize = 16; // until", "SAMPLES: usize = 2; // until");
     let mut all: Vec<(&str, String)> = KNOWN
         .iter()
         .filter(|known| program.contains(known.right))

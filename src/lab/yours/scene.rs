@@ -191,9 +191,14 @@ pub fn variants() -> Vec<Variant> {
         within(19, 100, "mirrors reflect all light, whatever their colour.", |world| {
             world.query::<&mut Mirror>().iter_mut(world).for_each(|mut mirror| mirror.colour = Rgb::grey(1.0));
         }),
-        within(19, 100, "mirrors reflect nothing.", |world| {
-            world.query::<&mut Mirror>().iter_mut(world).for_each(|mut mirror| mirror.colour = Rgb::BLACK);
-        }),
+        within(
+            19,
+            100,
+            "mirrors reflect nothing: does the ray start above the surface and lead away from it, and does the loop go on?",
+            |world| {
+                world.query::<&mut Mirror>().iter_mut(world).for_each(|mut mirror| mirror.colour = Rgb::BLACK);
+            },
+        ),
         within(19, 100, "the mirror ball is matte.", |world| {
             let balls: Vec<Entity> = world.query_filtered::<Entity, With<Mirror>>().iter(world).collect();
             for ball in balls {
