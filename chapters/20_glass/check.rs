@@ -241,7 +241,7 @@ fn nearest_eta(iors: &[f64], measured: f64) -> f64 {
     quotients.min_by(|a, b| (a - measured).abs().total_cmp(&(b - measured).abs())).unwrap_or(measured)
 }
 
-/// Angles of incidence from left to right, and from top to bottom media from half as dense to twice as dense.
+/// Angles of incidence from left to right, and from top to bottom media from half the index to twice the index.
 fn painted(ask: Ask<Input, Option<Vector>>) -> StandIn {
     StandIn::painted([64, 32], move |[x, y]| {
         let (angle, eta) =

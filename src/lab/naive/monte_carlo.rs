@@ -3,6 +3,8 @@
 //! The page on Monte Carlo includes them; the test below compiles and runs each, and compares what it prints with what its
 //! last lines say.
 #![allow(dead_code, reason = "each is a program of its own, for a reader and for the test")]
+#![allow(clippy::disallowed_methods, reason = "a reader's program has no libm")]
+#![allow(clippy::print_stdout, reason = "what a reader's program says")]
 
 // ANCHOR: random
 /// A random number from 0 up to 1, by splitmix64: a counter, well stirred.

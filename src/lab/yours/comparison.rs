@@ -171,7 +171,7 @@ impl Expected {
             2 * alone >= apart && alone <= 3 * apart
         });
         let all = shown.map(|(what, wrong)| (differing(readers, wrong), *what));
-        // One block may differ by chance where a mistake is seen in few.
+        // Noise alone may set one block apart.
         all.min_by_key(|found| found.0).filter(|found| found.0 <= (apart / 10).max(usize::from(apart > 4)))
     }
 

@@ -48,10 +48,7 @@ pub fn scene_after(chapter: u32) -> World {
         world.spawn((Rectangle { width: 8.0, depth: 5.0 }, Placement::at(0.0, -1.0, -3.5), ground));
         // The lamp, as if all of it were at its centre.
         let intensity = Rgb::new(60.0, 54.0, 45.0);
-        world.spawn((
-            PointLight { intensity, casts_shadows: false, ..PointLight::default() },
-            Placement::at(1.0, 3.0, 0.0),
-        ));
+        world.spawn((PointLight { intensity, casts_shadows: false }, Placement::at(1.0, 3.0, 0.0)));
         brighten(&mut world, 0.25 * PI);
         return world;
     }
