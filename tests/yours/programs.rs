@@ -67,6 +67,145 @@ pub const MISTAKES: [Edit; 58] = [
     (33, "(1.0 - up) * height / 2.0", "(1.0 + up) * height / 2.0"),
 ];
 
+/// Mistakes by someone who had not seen which are known; the first of each chapter up to 20 and those of 33 were seen before
+/// the last known ones were written, those of 21 to 30 were not.
+#[allow(dead_code, reason = "for the bench")]
+pub const BLIND: [Edit; 93] = [
+    (5, "(ANGLE / 2.0).to_radians().tan()", "(ANGLE / 2.0).tan()"), // tan of degrees
+    (5, "let up = 1.0 - 2.0 * y / HEIGHT as f64;", "let up = 2.0 * y / HEIGHT as f64 - 1.0;"), // up = 2y/h - 1 (sign)
+    (5, "t > 1e-4", "t > 0.0"),                                     // epsilon 1e-4 -> 0 (acne)
+    (5, "normal.dot(to_light.unit())", "normal.dot(to_light)"),     // cosine with to_light not normalised
+    (5, "/ to_light.dot(to_light);", "/ to_light.dot(to_light).sqrt();"), // falls with distance, not its square
+    (5, "WIDTH as f64) / HEIGHT as f64", "WIDTH as f64) / WIDTH as f64"), // right divided by WIDTH (aspect)
+    (5, "x as f64 + 0.5, y as f64 + 0.5", "x as f64, y as f64"),    // pixel centre forgotten (+0.5 missing)
+    (5, "sphere.radius * sphere.radius", "sphere.radius"),          // radius not squared
+    (5, "(min, nearest) = (t, Some((t, sphere)));", "nearest = Some((t, sphere));"), // min not updated: last sphere wins
+    (9, "EYE.sub(TARGET).unit()", "TARGET.sub(EYE).unit()"),                         // back = TARGET - EYE
+    (9, "V(0.0, 1.0, 0.0).cross(back)", "back.cross(V(0.0, 1.0, 0.0))"),             // right = back x up (swapped)
+    (9, "cross(back).unit()", "cross(back)"),                                        // right not normalised
+    (9, "V(0.0, 1.0, 0.0).cross", "V(0.0, 0.0, 1.0).cross"),                         // world's up is z
+    (9, "self.2 * o.0 - self.0 * o.2)", "self.0 * o.2 - self.2 * o.0)"),             // cross: sign of y
+    (9, "nearest(point, to_light)", "nearest(point, LIGHT)"), // shadow ray toward LIGHT, not to_light
+    (
+        10,
+        "light = light.add(intensity.times(cosine / to_lamp.dot(to_lamp)));",
+        "light = intensity.times(cosine / to_lamp.dot(to_lamp));",
+    ), // light = not light.add: only the last lamp
+    (10, "point.add(normal.times(1e-9))", "point"),           // start not off the surface
+    (10, "point.add(normal.times(1e-9))", "point.sub(normal.times(1e-9))"), // start under the surface
+    (10, "self.1 * o.1, self.2 * o.2)\n    }\n}\n\nstruct", "self.1 * o.1, self.1 * o.2)\n    }\n}\n\nstruct"), // by: self.1 twice
+    (10, "1.0 / 2.4", "1.0 / 2.2"), // powf(1/2.2) in the sRGB curve
+    (
+        10,
+        "            light = light.add(intensity.times(cosine / to_lamp.dot(to_lamp)));\n        }",
+        "            light = light.add(intensity.times(cosine / to_lamp.dot(to_lamp)));\n        } else {\n            return V(0.0, 0.0, 0.0);\n        }",
+    ), // return black at the first hidden lamp
+    (10, "V(60.0, 54.0, 45.0)", "V(45.0, 54.0, 60.0)"), // lamp 1's colour typed in reverse
+    (13, "(height - normal.dot(origin))", "(height + normal.dot(origin))"), // plane: height + normal.origin
+    (13, "(t > 0.0 && t.is_finite())", "t.is_finite()"), // plane: t > 0 not asked
+    (13, "direction.1, V(0.0, 1.0, 0.0)", "direction.1, V(1.0, 0.0, 0.0)"), // block: axis of y copied as x
+    (13, "origin.2, direction.2,", "origin.2, direction.1,"), // block: along.2 typed direction.1
+    (13, "[(-half_b - root) / a, (-half_b + root) / a]", "[(-half_b + root) / a, (-half_b - root) / a]"), // sphere: far root first
+    (13, "from_centre.add(direction.times(t)).unit()", "from_centre.add(direction.times(t))"), // sphere: normal not unit
+    (17, "sum.times(1.0 / SAMPLES as f64)", "sum"),                                            // sum not divided
+    (17, "(random.next(), random.next())", "(random.next() - 0.5, random.next() - 0.5)"), // right - 0.5, down - 0.5
+    (17, "powi(53)", "powi(52)"),                                                         // 2^63
+    (17, "        let (right, down)", "        sum = V(0.0, 0.0, 0.0);\n        let (right, down)"), // sum reset in the loop
+    (17, "Random((y * WIDTH + x) as u64)", "Random(1)"), // the same random numbers in every pixel
+    (19, "normal.times(2.0 * normal.dot(direction))", "normal.times(normal.dot(direction))"), // mirrored without the 2
+    (19, "direction.sub(normal.times(2.0", "direction.add(normal.times(2.0"), // mirrored with add
+    (
+        19,
+        "                direction = mirrored;\n                origin = point.add(normal.times(1e-9));",
+        "                direction = mirrored;",
+    ), // mirror: origin not moved to the point
+    (19, "return weight.by(V(0.5, 0.7, 1.0));", "return V(0.5, 0.7, 1.0);"), // sky without the weight
+    (19, "0..12", "0..1"),                               // 0..1 bounces
+    (19, "origin = point.add(normal.times(1e-9));", "origin = point.sub(normal.times(1e-9));"), // mirror's origin inside
+    (20, "if enters { 1.0 / index } else { index }", "if enters { index } else { 1.0 / index }"), // eta inverted
+    (20, "eta * eta * (1.0", "eta * (1.0"), // Snell: eta not squared
+    (20, "squared <= 0.0 || random.next() < reflected", "squared <= 0.0"), // no Fresnel: only total reflection
+    (20, "random.next() < reflected", "random.next() > reflected"), // > for < reflected
+    (20, "        direction = direction.unit();\n", ""), // direction not normalised
+    (
+        20,
+        "                    direction = mirrored;\n                    origin",
+        "                    weight = weight.times(reflected);\n                    direction = mirrored;\n                    origin",
+    ), // weight also times reflected (double)
+    (20, "along * along", "across * across"), // Fresnel: across twice
+    (20, "origin = point.sub(normal.times(1e-9));", "origin = point.add(normal.times(1e-9));"), // refracted origin on the near side
+    (21, "let area = 4.0 * PI", "let area = PI"), // area of a disk, PI r r
+    (21, "cosine * cosine_there * area", "cosine * area"), // cosine at the lamp forgotten
+    (21, "hit.0 < 1.0 - 1e-9", "hit.0 < 1.0"),    // hidden: hit.0 < 1.0
+    (21, "2.0 * self.next() - 1.0", "self.next()"), // height 0..1 only
+    (21, "(1.0 - height * height).sqrt()", "1.0 - height.abs()"), // across = 1 - height, no square and root
+    (21, "outward.times(radius)", "outward"),     // lamp point not times the radius
+    (
+        21,
+        "V(across * angle.cos(), height, across * angle.sin())",
+        "V(height, 2.0 * self.next() - 1.0, 2.0 * self.next() - 1.0).unit()",
+    ), // random direction from a cube
+    (23, "random.next().sqrt()", "random.next()"), // lens without the root
+    (23, "let angle = 2.0 * PI * random.next();\n    let across", "let angle = PI * random.next();\n    let across"), // lens angle PI: half a disk
+    (23, "in_focus.sub(start)", "direction"), // radiance(start, direction): nothing in focus
+    (23, "direction.times(FOCUS)", "direction.unit().times(FOCUS)"), // FOCUS along the unit direction
+    (23, "distance * angle.sin()", "distance * angle.cos()"), // lens: cos twice
+    (23, "FOCUS: f64 = 3.5", "FOCUS: f64 = 5.3"), // FOCUS 5.3
+    (23, "LENS * random", "LENS / 2.0 * random"), // LENS taken as diameter
+    (25, "lamps_count = false;", "lamps_count = true;"), // lamps counted twice after matte
+    (25, "        weight = weight.times(1.0 / survives);\n", ""), // weight not divided by survives
+    (
+        25,
+        "                weight = weight.by(colour);\n                sum = sum.add(weight.by(light).times(1.0 / PI));",
+        "                sum = sum.add(weight.by(light).times(1.0 / PI));\n                weight = weight.by(colour);",
+    ), // colour after the sum
+    (
+        25,
+        "                // On in a random",
+        "                weight = weight.times(1.0 / PI);\n                // On in a random",
+    ), // indirect also over PI
+    (25, "direction = normal.add(random.direction());", "direction = random.direction();"), // direction without the normal
+    (25, "return sum.add(weight.by(V(0.5, 0.7, 1.0)));", "return weight.by(V(0.5, 0.7, 1.0));"), // sky forgets the sum
+    (
+        25,
+        "direction = normal.add(random.direction());",
+        "direction = random.direction();\n                if direction.dot(normal) < 0.0 { direction = direction.times(-1.0); }",
+    ), // uniform hemisphere without its cosine
+    (26, "emitted.times(part * cosine", "emitted.times(cosine"),                            // no part in light_at
+    (26, "weight_of(lamp_pdf(to_lamp, outward), cosine / PI)", "weight_of(cosine / PI, lamp_pdf(to_lamp, outward))"), // weight_of swapped in light_at
+    (26, "weight.by(emitted).times(part)", "weight.by(emitted)"), // no part where the lamp is hit
+    (26, "pdf = normal.dot(direction) / PI;", "pdf = normal.dot(direction);"), // pdf without / PI
+    (26, "direction = normal.add(random.direction()).unit();", "direction = normal.add(random.direction());"), // bounce not unit: pdf too large
+    (28, " && u + v <= 1.0", ""),                         // u + v <= 1 missing
+    (28, "(t, normal.unit())", "(t, normal)"),            // triangle normal not unit
+    (28, "triangle(b, d, c)", "triangle(a, d, c)"),       // triangle(b, d, c) typed (a, d, c)
+    (28, "0..SIDES {", "0..SIDES - 1 {"),                 // 0..SIDES - 1
+    (28, "8.0 * PI", "2.0 * PI"),                         // turn 2 PI
+    (28, "0.44 - down", "0.44 + down"),                   // box: down + for -
+    (30, "return best; // past", "return None; // past"), // box missed: None, not best
+    (30, "search(half, origin, direction, best)", "search(half, origin, direction, known)"), // search(half, .., known)
+    (30, ".filter(nearer)", ""),                          // filter(nearer) missing
+    (30, "flat_map(|thing| corners(thing))", "map(|thing| corners(thing)[0])"), // box of first corners only
+    (
+        30,
+        "search(&TREE, origin, direction, hits.min_by(|a, b| a.0.total_cmp(&b.0)))",
+        "search(&TREE, origin, direction, None).or(hits.min_by(|a, b| a.0.total_cmp(&b.0)))",
+    ), // tree first, scene only where it misses
+    (30, "by(p.2, q.2))", "by(p.2, q.1))"),               // box_around: z by y
+    (
+        33,
+        "1.0 / (parts[0] / a.2 + parts[1] / b.2 + parts[2] / c.2)",
+        "parts[0] * a.2 + parts[1] * b.2 + parts[2] * c.2",
+    ), // depth linear in the picture
+    (33, " || depth >= pixel.0", ""),                     // no depth test
+    (33, "outward.times(-outward.dot(direction).signum())", "outward"), // normal not turned to the eye
+    (33, "LAMP.2.times(PI * LAMP.1 * LAMP.1)", "LAMP.2"), // lamp PI r r forgotten
+    (33, "direction.times(depth)", "direction.unit().times(depth)"), // depth along unit direction
+    (33, "V(x as f64 + 0.5, y as f64 + 0.5, 0.0)", "V(x as f64, y as f64, 0.0)"), // no + 0.5 in the raster
+    (33, "(width + right * height)", "(width + right * width)"), // right * width
+    (33, "/ area(a, b, c));", "/ area(a, b, c).abs());"), // area's absolute value: one winding only
+];
+
 /// Programs that are right, and look unlike the book's.
 pub const RIGHT: [Edit; 15] = [
     (17, "Random((y * WIDTH + x) as u64)", "Random(977 * (y * WIDTH + x) as u64 + 5)"),
