@@ -47,7 +47,7 @@ fn headline(before: &Snapshots, now: &Snapshots, missing: &[&str], refused: &[&s
     match before.first_difference(now) {
         Some(difference) if difference.stage == DEVELOP => {
             format!(
-                "{difference}: all columns of all stages are the same, so look at src/pinhole/film/develop.rs and src/pinhole/film/image_files.rs"
+                "{difference}: all columns of all stages are the same, so look at src/pinhole/film/develop.rs and src/pinhole/film/png_files.rs"
             )
         }
         Some(difference) => difference.to_string(),

@@ -19,10 +19,11 @@ mod accumulate;
 mod checkpoint;
 mod denoise;
 mod develop;
+mod exr_files;
 mod film_tile;
-mod image_files;
 mod layers;
 mod plausible;
+mod png_files;
 mod replaces;
 mod reproject;
 mod splats;
@@ -41,14 +42,17 @@ pub use denoise::{GUIDES, Guides, denoise, denoise_radiance};
 pub use develop::Curve;
 #[doc(hidden)]
 pub use develop::{byte_from_linear, srgb_from_linear};
+pub use exr_files::write_exr;
+#[doc(hidden)]
+pub use exr_files::{ENTITY_NAMES, exr_bytes, write_layered_exr};
 pub use film_tile::Film;
 #[doc(hidden)]
 pub use film_tile::{FIRST_SAMPLE_STEPS, FilmTile, Rejected};
 #[doc(hidden)]
-pub use image_files::{ENTITY_NAMES, exr_bytes, png_bytes, png_bytes_by, rgba_bytes, rgba_of, write_layered_exr};
-pub use image_files::{write_exr, write_png};
-#[doc(hidden)]
 pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
+pub use png_files::write_png;
+#[doc(hidden)]
+pub use png_files::{png_bytes, png_bytes_by, rgba_bytes, rgba_of};
 #[doc(hidden)]
 pub use replaces::{Replaces, Target, marked};
 #[doc(hidden)]
