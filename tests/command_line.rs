@@ -12,6 +12,8 @@ pub mod model;
 #[cfg(unix)]
 #[path = "command_line/names.rs"]
 mod names_shown;
+#[path = "command_line/parts.rs"]
+mod parts;
 #[path = "command_line/said.rs"]
 mod said;
 

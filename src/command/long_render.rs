@@ -8,7 +8,7 @@ use pinhole::film::{
     remove_own,
 };
 use pinhole::plan::Census;
-use pinhole::render::{Limits, Outcome, RenderInProgress, film_key, render_in_passes, samples_after};
+use pinhole::render::{Limits, Outcome, RenderInProgress, render_in_passes, samples_after};
 use pinhole::scene::printable_path;
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -43,7 +43,7 @@ pub fn render_long(
     waiting: &Waiting,
     say: &mut dyn FnMut(&str) -> Result,
 ) -> Result<LongRender> {
-    let (key, first) = (film_key(scene, &render.plan), files.targets.checkpoint());
+    let (key, first) = (render.key(scene, waiting)?, files.targets.checkpoint());
     let limits = Limits { time: options.time, write_every: options.write_every, adaptive: adaptive_of(scene)? };
     let (mut found, mut has_first_name) = (None, true);
     if let Some(first) = &first {

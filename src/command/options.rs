@@ -6,11 +6,15 @@ use clap::Args;
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pinhole::extract::MAX_SAMPLES;
+use pinhole::film::{Part, Split};
 use pinhole::scene::{Filter, Layers, Resolution, Sampler, TracePixel};
 use pinhole::{Overrides, SamplingOverrides, Size};
 use pinhole_lab::naive::methods::{METHODS, NaiveMethod};
 use std::path::PathBuf;
 use std::time::Duration;
+
+/// The greatest number of parts.
+pub const MAX_PARTS: u32 = 1_000_000;
 
 #[derive(Args, Clone, Default)]
 pub struct SceneOptions {
@@ -84,6 +88,15 @@ pub struct RenderOptions {
     /// Write the picture and its checkpoint this often while samples are taken (default: for 5 % of the time at most)
     #[arg(long, value_name = "TIME", value_parser = span)]
     pub write_every: Option<Duration>,
+    /// Compute one part of the picture, such as 3/64, and leave it in a file beside the picture, for `merge`
+    #[arg(long, value_name = "I/N", conflicts_with_all = ["time", "naive"], value_parser = part)]
+    pub part: Option<[u32; 2]>,
+    /// How the picture is divided into parts: by tiles, samples, both, or as chosen for the number of parts
+    #[arg(long, value_name = "WORD", requires = "part", value_parser = |word: &str| one_of(word, "split", &Split::ALL))]
+    pub split: Option<Split>,
+    /// With --part, print how far it is in the words that Open Job Description reads
+    #[arg(long, requires = "part")]
+    pub openjd: bool,
     /// The older form of --format json
     #[arg(long, hide = true, conflicts_with_all = ["quiet", "verbose"])]
     pub stats: bool,
@@ -159,6 +172,12 @@ impl SceneOptions {
 }
 
 impl RenderOptions {
+    /// The part that is asked for, or the whole as one.
+    pub fn part(&self) -> Part {
+        let [number, of] = self.part.unwrap_or([1, 1]);
+        Part { number, of, split: self.split.unwrap_or_default() }
+    }
+
     pub fn asked(&self, statistics: bool) -> Overrides {
         Overrides { endless: self.time.is_some(), ..self.scene.asked(statistics) }
     }
@@ -236,6 +255,15 @@ fn samples(text: &str) -> Result<u32, String> {
     let number = number.ok().filter(|number| range.contains(number) && number.fract() == 0.0);
     let refused = || format!("a number of samples is a whole number from 1 to {MAX_SAMPLES}, such as 64 or 4k");
     number.map(|number| number as u32).ok_or_else(refused)
+}
+
+/// Which part of how many, such as `3/64`.
+fn part(text: &str) -> Result<[u32; 2], String> {
+    let numbers = text.split_once('/').map(|(number, of)| (number.trim().parse(), of.trim().parse()));
+    match numbers {
+        Some((Ok(number), Ok(of))) if number >= 1 && number <= of && of <= MAX_PARTS => Ok([number, of]),
+        _ => Err(format!("a part is its number and how many there are, such as 3/64, up to {MAX_PARTS}")),
+    }
 }
 
 fn error(text: &str) -> Result<f64, String> {

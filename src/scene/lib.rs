@@ -79,7 +79,7 @@ pub use model::{
 };
 pub use model::{Mesh, load_meshes};
 #[doc(hidden)]
-pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, read_file};
+pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, opened_files, read_file};
 pub use picture::{
     Adaptive, Filter, Layers, LightTracing, Rasterisation, Resolution, Sampler, Sampling, Statistics, View,
 };

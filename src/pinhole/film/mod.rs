@@ -16,12 +16,14 @@
 //! ```
 
 mod accumulate;
+mod blocks;
 mod checkpoint;
 mod denoise;
 mod develop;
 mod exr_files;
 mod film_tile;
 mod layers;
+mod parts;
 mod plausible;
 mod png_files;
 mod replaces;
@@ -33,6 +35,8 @@ mod whole_file;
 pub use crate::extract::linear_from_srgb;
 #[doc(hidden)]
 pub use accumulate::{FilmMoments, add_to_film, add_to_moments, film_stage, moments_stage, variance_evidence};
+#[doc(hidden)]
+pub use blocks::{BLOCK, EarlierBlocks};
 #[doc(hidden)]
 pub use checkpoint::{
     CheckpointAt, SamplesKept, checkpoint_at, checkpoint_place, keep_checkpoint, read_checkpoint, write_checkpoint,
@@ -50,11 +54,13 @@ pub use film_tile::Film;
 pub use film_tile::{FIRST_SAMPLE_STEPS, FilmTile, Rejected};
 #[doc(hidden)]
 pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
+#[doc(hidden)]
+pub use parts::{LightUnit, Merged, Part, PartFilm, Split, Unit, UnitFilm, merge_parts};
 pub use png_files::write_png;
 #[doc(hidden)]
 pub use png_files::{png_bytes, png_bytes_by, rgba_bytes, rgba_of};
 #[doc(hidden)]
-pub use replaces::{Replaces, Target, marked};
+pub use replaces::{MARK, Replaces, Target, marked};
 #[doc(hidden)]
 pub use reproject::History;
 #[doc(hidden)]
