@@ -3,6 +3,9 @@
 #[path = "command_line/exported.rs"]
 mod exported;
 #[cfg(unix)]
+#[path = "command_line/frames.rs"]
+mod frames;
+#[cfg(unix)]
 #[path = "command_line/lost.rs"]
 mod lost;
 #[path = "command_line/meant.rs"]

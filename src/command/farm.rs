@@ -5,6 +5,7 @@ use super::called::quoted;
 use super::error::{Error, Result};
 use super::files::Targets;
 use super::format::{Format, print_json};
+use super::frames::missing_frames;
 use super::interrupt::{EndsByItself, interrupted};
 use super::own_file::write_file;
 use super::parts::merge;
@@ -259,9 +260,17 @@ fn run_and_wait(run: &[String]) -> Result {
     }
 }
 
+/// Merges the parts of a picture, or says which frames of a film are missing.
+fn joined(job: &Job<'_>, subject: &Subject<'_>, streams: &mut Streams<'_>) -> Result {
+    match job.asked.options.frames {
+        Some(frames) => missing_frames(subject, &job.asked.options, frames, streams),
+        None => merge(subject, &job.asked.options, &[], Format::Text, streams),
+    }
+}
+
 /// Merges what there is; only what is not merely incomplete is an error.
 fn merge_so_far(job: &Job<'_>, subject: &Subject<'_>, streams: &mut Streams<'_>) -> Result<bool> {
-    match merge(subject, &job.asked.options, &[], Format::Text, streams) {
+    match joined(job, subject, streams) {
         Ok(()) => Ok(true),
         Err(Error::Unfinished(_)) => Ok(false),
         Err(error) => Err(error),
@@ -356,5 +365,5 @@ fn run_here(job: &Job<'_>, program: &Path, subject: &Subject<'_>, streams: &mut 
         return Err(Error::usage(format!("part {part} failed {TRIES} times; this says why: {line}")));
     }
     streams.note(&format!("{} parts in {}", job.asked.parts, told(began.elapsed())))?;
-    merge(subject, &job.asked.options, &[], Format::Text, streams)
+    joined(job, subject, streams)
 }

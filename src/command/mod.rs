@@ -24,6 +24,7 @@ mod figure;
 mod files;
 mod find;
 mod format;
+mod frames;
 mod hints;
 mod interrupt;
 mod list;
@@ -139,6 +140,10 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
         Some(Command::Render(asked)) => {
             let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.scene.set)?;
             match asked.options.naive {
+                _ if asked.options.frames.is_some() => {
+                    let (options, frames) = (asked.options(), asked.options.frames.unwrap_or_default());
+                    frames::render_frames(&subject, &options, frames, format, streams)
+                }
                 _ if asked.options.part.is_some() => {
                     let options = asked.options();
                     parts::render_part(&subject, &options, options.part(), format, streams)
@@ -149,7 +154,10 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
         }
         Some(Command::Merge(asked)) => {
             let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.scene.set)?;
-            parts::merge(&subject, &asked.options, &asked.parts, format, streams)
+            match asked.options.frames {
+                Some(frames) => frames::missing_frames(&subject, &asked.options, frames, streams),
+                None => parts::merge(&subject, &asked.options, &asked.parts, format, streams),
+            }
         }
         Some(Command::Farm(asked)) => farm::farm(chapters, &asked, &words, format, streams),
         Some(Command::Plan(asked)) => {

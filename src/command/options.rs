@@ -13,6 +13,8 @@ use pinhole_lab::naive::methods::{METHODS, NaiveMethod};
 use std::path::PathBuf;
 use std::time::Duration;
 
+/// The last frame that a film may have.
+const MAX_FRAME: u32 = 9_999_999;
 /// The greatest number of parts.
 pub const MAX_PARTS: u32 = 1_000_000;
 
@@ -94,6 +96,15 @@ pub struct RenderOptions {
     /// How the picture is divided into parts: by tiles, samples, both, or as chosen for the number of parts
     #[arg(long, value_name = "WORD", requires = "part", value_parser = |word: &str| one_of(word, "split", &Split::ALL))]
     pub split: Option<Split>,
+    /// Render these frames of a film, such as 0..47, both ends included: by the keys of a scene file or a model's animation
+    #[arg(long, value_name = "A..B", conflicts_with_all = ["time", "naive", "openjd", "split"], value_parser = frames)]
+    pub frames: Option<[u32; 2]>,
+    /// How many frames a unit of time has, which is a second in models
+    #[arg(long, value_name = "N", default_value_t = 24.0, hide_default_value = true, value_parser = rate)]
+    pub fps: f64,
+    /// Whether this picture is one of them, which leaves a mark when it is done
+    #[arg(skip)]
+    pub is_frame: bool,
     /// With --part, print how far it is in the words that Open Job Description reads
     #[arg(long, requires = "part")]
     pub openjd: bool,
@@ -264,6 +275,21 @@ fn part(text: &str) -> Result<[u32; 2], String> {
         Some((Ok(number), Ok(of))) if number >= 1 && number <= of && of <= MAX_PARTS => Ok([number, of]),
         _ => Err(format!("a part is its number and how many there are, such as 3/64, up to {MAX_PARTS}")),
     }
+}
+
+/// The first and the last of some frames, such as `0..47`.
+fn frames(text: &str) -> Result<[u32; 2], String> {
+    let numbers =
+        text.split_once("..").map(|(first, last)| (first.trim().parse(), last.trim_start_matches('=').trim().parse()));
+    match numbers {
+        Some((Ok(first), Ok(last))) if first <= last && last <= MAX_FRAME => Ok([first, last]),
+        _ => Err(format!("frames are the first and the last with .. between, such as 0..47, up to {MAX_FRAME}")),
+    }
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let rate = text.trim().parse::<f64>().ok().filter(|rate| *rate > 0.0 && *rate <= 1e6);
+    rate.ok_or("a number of frames in a unit of time is above 0 and at most 1000000, such as 24".into())
 }
 
 fn error(text: &str) -> Result<f64, String> {

@@ -9,7 +9,7 @@ use super::streams::Streams;
 use super::subject::Subject;
 use pinhole::extract::{FilterTable, adaptive_of, validate};
 use pinhole::film::{
-    CheckpointAt, Film, Merged, Part, PartFilm, Replaces, checkpoint_at, keep_checkpoint, merge_parts,
+    CheckpointAt, Film, Merged, Part, PartFilm, Replaces, checkpoint_at, keep_checkpoint, merge_parts, read_checkpoint,
 };
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress, Watch, error_of};
@@ -76,7 +76,17 @@ pub fn render_part(
     let mut render = RenderInProgress::begin(census, &subject.stages(), &execution).map_err(placed)?;
     let waiting = Waiting::with(if options.quiet { Progress::hidden() } else { Progress::bar(0) }, 0);
     let key = render.key(&scene, &waiting).map_err(before_it_began)?;
-    let mut own = render.begin_part(part, adaptive_of(census)?, &waiting).map_err(before_it_began)?;
+    let adaptive = adaptive_of(census)?;
+    let pilot = picture.with_extension("pilot.checkpoint");
+    let has_pilot = adaptive.is_some() && matches!(checkpoint_at(&pilot, key), CheckpointAt::Own(_));
+    if has_pilot {
+        // Whoever writes it meanwhile writes the same; one that cannot be read is made again.
+        if let Ok(film) = read_checkpoint(key, &render.film, true, &pilot) {
+            render.take(film);
+        }
+    }
+    let mut keep = |film: &Film| if has_pilot { Ok(()) } else { keep_checkpoint(film, key, &pilot).map(|_| ()) };
+    let mut own = render.begin_part(part, adaptive, &waiting, &mut keep).map_err(before_it_began)?;
     let there = checkpoint_at(&path, key);
     match there {
         CheckpointAt::Other => {

@@ -150,7 +150,10 @@ pub fn render_with(
         render_at_once(&mut render, &waiting, &files)?;
         None
     };
-    let (outcome, checkpoint) = long.map(|LongRender { outcome, checkpoint }| (outcome, checkpoint)).unzip();
+    if long.as_ref().is_some_and(|long| long.was_done) {
+        return streams.note(&format!("{} is done", files.targets.told(None)));
+    }
+    let (outcome, checkpoint) = long.map(|LongRender { outcome, checkpoint, .. }| (outcome, checkpoint)).unzip();
     let (samples, rendered) = (render.sampling.samples, render.finish());
     files.send(&rendered.film, streams.out)?;
 

@@ -26,6 +26,7 @@ mod file_store;
 mod folder;
 mod image_kind;
 mod integrator;
+mod keys;
 mod lights;
 mod material;
 mod memory;
@@ -67,6 +68,7 @@ pub use image_kind::{KINDS_READ, TELLING_BYTES, image_kind};
 #[doc(hidden)]
 pub use integrator::LightTransport;
 pub use integrator::{Integrator, LightStrategy};
+pub use keys::{KeyCurve, KeyedValues, Keys};
 pub use lights::{DirectionalLight, Emissive, PointLight, Sides, SpotLight};
 pub use material::{BlinnPhong, Glass, Matte, Metal, Mirror, Phong, Principled, RoughGlass, UsesMaterial};
 #[doc(hidden)]

@@ -92,7 +92,7 @@ fn write_part(case: &Case, scene: &World, part: Part, runs: u32, path: &Path) {
     for run in 0..runs {
         let mut render = begun(case, scene, 1 + (part.number + run) as usize % 3);
         let key = render.key(scene, &()).expect("nobody stops it");
-        let mut own = render.begin_part(part, adaptive, &()).expect("begins");
+        let mut own = render.begin_part(part, adaptive, &(), &mut |_| Ok(())).expect("begins");
         if run > 0 {
             own = PartFilm::read(&render.film, key, path).expect("the file of the run before");
         }
@@ -193,7 +193,7 @@ fn a_part_that_is_not_of_this_render_is_refused_by_name() {
         let scene = case.world();
         let mut render = begun(&case, &scene, 1);
         let part = Part { number, of: 2, split: Split::Tiles };
-        let mut own = render.begin_part(part, None, &()).expect("begins");
+        let mut own = render.begin_part(part, None, &(), &mut |_| Ok(())).expect("begins");
         render.advance_part(&mut own, Instant::now() + Duration::from_secs(60), &()).expect("goes on");
         write(own, &render.film).write(&render.film, key, &bad).expect("written");
     };

@@ -33,6 +33,7 @@ const PILOT: u32 = 4;
 pub(super) const PLANNED: u32 = 8;
 const SPLATS: u32 = 16;
 pub(super) const PART: u32 = 32;
+const DONE: u32 = 64;
 
 /// Writes the state of a film atomically, with the key that identifies what it is a film of.
 ///
@@ -43,6 +44,24 @@ pub fn write_checkpoint<'a>(film: &Film, key: u64, target: impl Into<Target<'a>>
         write_film(film, &mut out)?;
         out.end()
     })
+}
+
+/// Writes that a picture is done, in the place of a checkpoint: its beginning alone.
+///
+/// Errors: the path and the error of the operating system.
+pub fn write_done<'a>(film: &Film, key: u64, target: impl Into<Target<'a>>) -> Result {
+    write_whole(target, |file| {
+        let mut shape = shape(film);
+        shape[3] |= DONE;
+        begin(file, key, SamplesKept::of(film), shape)?.end()
+    })
+}
+
+/// Whether a picture with this key, of at least so many samples a pixel, is said to be done.
+pub fn is_done(path: &Path, key: u64, samples: u32) -> bool {
+    let steps = samples.saturating_add(super::FIRST_SAMPLE_STEPS - 1);
+    opened(path, "continue", "continue from")
+        .is_ok_and(|own| own.shape[3] & DONE != 0 && own.heading.key == key && own.heading.kept.steps >= steps)
 }
 
 /// Writes the beginning of a checkpoint.
@@ -92,6 +111,9 @@ pub fn read_checkpoint(key: u64, film: &Film, adaptive: bool, path: &Path) -> Re
     let Opened { heading, shape: found, mut numbers, length } = opened(path, "continue", "continue from")?;
     if found[3] & PART != 0 {
         return Err(failed("it is a part of a render, and `merge` joins parts"));
+    }
+    if found[3] & DONE != 0 {
+        return Err(failed("it says no more than that a frame is done; render without --resume to start over"));
     }
     if heading.key != key {
         return Err(failed(

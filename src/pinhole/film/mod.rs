@@ -39,7 +39,8 @@ pub use accumulate::{FilmMoments, add_to_film, add_to_moments, film_stage, momen
 pub use blocks::{BLOCK, EarlierBlocks};
 #[doc(hidden)]
 pub use checkpoint::{
-    CheckpointAt, SamplesKept, checkpoint_at, checkpoint_place, keep_checkpoint, read_checkpoint, write_checkpoint,
+    CheckpointAt, SamplesKept, checkpoint_at, checkpoint_place, is_done, keep_checkpoint, read_checkpoint,
+    write_checkpoint, write_done,
 };
 #[doc(hidden)]
 pub use denoise::{GUIDES, Guides, denoise, denoise_radiance};

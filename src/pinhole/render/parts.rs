@@ -4,7 +4,7 @@ use super::light_pass::Means;
 use super::render_world::RenderWorld;
 use super::steps::steps_of;
 use super::{RenderInProgress, Watch, planned_samples};
-use crate::film::{BLOCK, LightUnit, Part, PartFilm, Unit, UnitFilm};
+use crate::film::{BLOCK, Film, LightUnit, Part, PartFilm, Unit, UnitFilm};
 use crate::follow::{Splats, Stop};
 use crate::plan::VectorRows;
 use crate::scene::Adaptive;
@@ -16,15 +16,25 @@ use std::time::Instant;
 impl RenderInProgress {
     /// Begins a part of this render, of which nothing is done.
     ///
-    /// Where the number of samples depends on the error, every part takes all pilot samples, so that all parts find the
-    /// same numbers without knowing of each other.
+    /// Where the number of samples depends on the error, every part needs all pilot samples, so that all parts find the
+    /// same numbers without knowing of each other; `keep` gets their film, and whoever has it already hands it over by
+    /// [`take`](Self::take).
     ///
-    /// Errors: the observer stopped it.
-    pub fn begin_part(&mut self, part: Part, adaptive: Option<Adaptive>, watch: &dyn Watch) -> Result<PartFilm> {
+    /// Errors: the observer stopped it, or those of `keep`.
+    pub fn begin_part(
+        &mut self,
+        part: Part,
+        adaptive: Option<Adaptive>,
+        watch: &dyn Watch,
+        keep: &mut dyn FnMut(&Film) -> Result,
+    ) -> Result<PartFilm> {
         let mut samples = if self.is_sampled() { self.sampling.samples } else { 1 };
         if let Some(adaptive) = adaptive {
-            self.begin_pilot();
+            if !self.film.pilot {
+                self.begin_pilot();
+            }
             self.advance(steps_of(adaptive.pilot), watch)?;
+            keep(&self.film)?;
             self.begin_planned(planned_samples(&self.film, adaptive.error));
             samples = samples.min(self.film.most_planned());
         }
