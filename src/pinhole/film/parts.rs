@@ -250,7 +250,7 @@ impl PartFilm {
     pub fn read(film: &Film, key: u64, path: &Path) -> Result<Self> {
         let mut found = Self::new(Part { number: 1, of: 1, split: Split::Chosen }, 0, 0);
         let heading = each_entry(film, key, path, &mut |entry, _| match entry {
-            Entry::Unit(own) => found.units.push(own),
+            Entry::Unit(own) => found.units.push(*own),
             Entry::Light(own) => found.light.push(own),
         })?;
         Ok(Self { part: heading.part, samples: heading.samples, batches: heading.batches, ..found })
@@ -258,7 +258,7 @@ impl PartFilm {
 }
 
 enum Entry {
-    Unit(UnitFilm),
+    Unit(Box<UnitFilm>),
     Light(LightUnit),
 }
 
@@ -302,7 +302,7 @@ fn each_entry(film: &Film, key: u64, path: &Path, each: &mut dyn FnMut(Entry, Pl
             return Err(failed("it holds numbers that no render can have produced"));
         }
         let sum = numbers.sum_of_entry();
-        each(Entry::Unit(own), Place { offset, sum });
+        each(Entry::Unit(Box::new(own)), Place { offset, sum });
     }
     for _ in 0..heading.light {
         let offset = numbers.begin_entry();
