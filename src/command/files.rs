@@ -6,7 +6,8 @@ use pinhole::film::{
     Curve, Film, FilmLayers, Replaces, Target, check_place, may_be_written, png_bytes, write_exr, write_layered_exr,
     write_png,
 };
-use pinhole::plan::{Census, Plan};
+use pinhole::plan::Census;
+use pinhole::render::RenderInProgress;
 use pinhole::scene::printable_path;
 use pinhole_lab::exercise::Mine;
 use std::io::Write;
@@ -127,8 +128,8 @@ pub struct Files {
 
 impl Files {
     /// The files of a scene's pictures.
-    pub fn new(targets: Targets, scene: &Census<'_>, plan: &Plan, mine: Option<Mine>) -> Self {
-        let curve = if plan.view.is_some() { Curve::Straight } else { Curve::Srgb };
+    pub fn new(targets: Targets, scene: &Census<'_>, render: &RenderInProgress, mine: Option<Mine>) -> Self {
+        let (plan, curve) = (&render.plan, render.curve);
         let names = if plan.keeps::<FilmLayers>() { shape_names(scene) } else { Vec::new() };
         Self { targets, names, curve, mine }
     }

@@ -140,7 +140,7 @@ pub fn render_with(
     let Foretold { warnings: said, lit_pixel } =
         before_rendering(subject, census, options, (&render, began), json, streams)?;
 
-    let files = Files::new(targets, census, &render.plan, mine);
+    let files = Files::new(targets, census, &render, mine);
     let waiting = waiting(watched.as_deref(), options, &render, streams);
     let long = if render.is_sampled() {
         Some(render_long(&mut render, census, options, &files, &waiting, &mut |note| {

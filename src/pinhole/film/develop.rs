@@ -1,14 +1,32 @@
-use crate::extract::linear_from_srgb;
+use crate::extract::{exposure_of, linear_from_srgb};
+use crate::plan::{Census, Plan};
+use crate::scene::{Exposure, SceneError, ToneMapping};
 use std::sync::LazyLock;
 
 /// How linear values are encoded as the bytes of a picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Curve {
     /// The sRGB transfer function: for radiance.
     #[default]
     Srgb,
     /// Linear: for a view of a column, whose values are data.
     Straight,
+    /// The sRGB transfer function after an exposure and a tone mapping: for radiance, where the camera has one.
+    Exposed(Exposure, ToneMapping),
+}
+
+impl Curve {
+    /// That of a scene's camera, or of the column that it paints.
+    ///
+    /// Errors: a number of its exposure or tone mapping that is out of range.
+    pub fn of(scene: &Census<'_>, plan: &Plan) -> Result<Self, SceneError> {
+        let (exposure, tone_mapping) = exposure_of(scene)?;
+        Ok(match plan.view {
+            Some(_) => Self::Straight,
+            None if (exposure, tone_mapping) == Default::default() => Self::Srgb,
+            None => Self::Exposed(exposure, tone_mapping),
+        })
+    }
 }
 
 // ANCHOR: srgb_from_linear
@@ -89,10 +107,12 @@ impl SrgbBytes {
 }
 
 /// Encodes a linear value as a byte; values below 0 give 0, values above 1 give 255.
+///
+/// Exposure and tone mapping are left out, for they need a pixel, and may need the whole film.
 #[inline]
 pub fn byte_from_linear(linear: f32, curve: Curve) -> u8 {
     match curve {
-        Curve::Srgb => SrgbBytes::get().byte(linear),
+        Curve::Srgb | Curve::Exposed(..) => SrgbBytes::get().byte(linear),
         Curve::Straight => straight_byte(linear),
     }
 }

@@ -27,6 +27,7 @@ mod png_files;
 mod replaces;
 mod reproject;
 mod splats;
+mod tone;
 mod whole_file;
 
 #[doc(hidden)]
@@ -59,5 +60,7 @@ pub use replaces::{Replaces, Target, marked};
 pub use reproject::History;
 #[doc(hidden)]
 pub use splats::{FilmSplats, SplatFilter};
+#[doc(hidden)]
+pub use tone::tone_mapped;
 #[doc(hidden)]
 pub use whole_file::{check_place, may_be_written, remove_own, set_aside, write_whole, writes_in_progress};
