@@ -76,6 +76,9 @@ pub struct RenderOptions {
     /// both kinds, in out/)
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
+    /// How many bits of a PNG each of red, green and blue has: 8 or 16 (default: 8)
+    #[arg(long, value_name = "BITS", value_parser = bits)]
+    pub bits: Option<u8>,
     /// Whether that was chosen for the reader, who has named no file
     #[arg(skip)]
     pub output_is_chosen: bool,
@@ -135,6 +138,17 @@ impl SceneOptions {
     /// Whether another number of pixels is asked for.
     pub fn sets_resolution(&self) -> bool {
         self.pixels().is_some()
+    }
+
+    /// What to type for the same number of pixels.
+    pub fn typed_size(&self) -> String {
+        match self.pixels() {
+            None => String::new(),
+            Some(Size::Pixels(Resolution { width, height })) => format!(" --size {width}x{height}"),
+            Some(Size::Width(width)) => format!(" --width {width}"),
+            Some(Size::Height(height)) => format!(" --height {height}"),
+            Some(Size::Percent(percent)) => format!(" --size {percent}%"),
+        }
     }
 
     /// What to type so that another command has the same stages to plan.
@@ -271,6 +285,10 @@ fn typed_exposure(Exposure { stops, automatic }: Exposure) -> String {
         (true, stops) => format!("auto{stops:+}"),
         (false, stops) => stops.to_string(),
     }
+}
+
+fn bits(text: &str) -> Result<u8, String> {
+    text.trim().parse().ok().filter(|bits| [8, 16].contains(bits)).ok_or("a PNG has 8 bits or 16".into())
 }
 
 fn seed(text: &str) -> Result<u64, String> {
