@@ -2,6 +2,8 @@
 
 #[path = "command_line/exported.rs"]
 mod exported;
+#[path = "command_line/exposed.rs"]
+mod exposed;
 #[cfg(unix)]
 #[path = "command_line/frames.rs"]
 mod frames;

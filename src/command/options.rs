@@ -7,7 +7,7 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pinhole::extract::MAX_SAMPLES;
 use pinhole::film::{Part, Split};
-use pinhole::scene::{Filter, Layers, Resolution, Sampler, TracePixel};
+use pinhole::scene::{Exposure, Filter, Layers, Resolution, Sampler, ToneMapping, TracePixel};
 use pinhole::{Overrides, SamplingOverrides, Size};
 use pinhole_lab::naive::methods::{METHODS, NaiveMethod};
 use std::path::PathBuf;
@@ -40,6 +40,13 @@ pub struct SceneOptions {
     /// Keep more of every pixel than its light: position,normal,albedo,depth_along_ray,entity,… or all
     #[arg(long, value_name = "LAYERS", value_parser = Layers::of_words)]
     pub layers: Option<Layers>,
+    /// Make the picture brighter by so many stops, each a factor of two, or by as many as fit its light: auto, or auto
+    /// and stops beside it, such as auto-1; an EXR stays as it is
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true, value_parser = exposure)]
+    pub exposure: Option<Exposure>,
+    /// Bring light brighter than white into the picture: reinhard, aces, pbr-neutral, agx or none; an EXR stays as it is
+    #[arg(long, value_name = "WORD", value_parser = |word: &str| one_of(word, "tone mapping", &ToneMapping::ALL))]
+    pub tone_map: Option<ToneMapping>,
     /// Set a value of the scene, such as camera.perspective_camera.fov=62: an entity by its name, a component, a field;
     /// may be given several times
     #[arg(long, value_name = "ENTITY.COMPONENT.FIELD=VALUE")]
@@ -75,6 +82,9 @@ pub struct RenderOptions {
     /// both kinds, in out/)
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
+    /// How many bits of a PNG each of red, green and blue has: 8 or 16 (default: 8)
+    #[arg(long, value_name = "BITS", value_parser = bits)]
+    pub bits: Option<u8>,
     /// Whether that was chosen for the reader, who has named no file
     #[arg(skip)]
     pub output_is_chosen: bool,
@@ -133,6 +143,8 @@ impl SceneOptions {
             endless: false,
             error: self.error,
             layers: self.layers.clone(),
+            exposure: self.exposure,
+            tone_mapping: self.tone_map,
         }
     }
 }
@@ -152,6 +164,17 @@ impl SceneOptions {
         self.pixels().is_some()
     }
 
+    /// What to type for the same number of pixels.
+    pub fn typed_size(&self) -> String {
+        match self.pixels() {
+            None => String::new(),
+            Some(Size::Pixels(Resolution { width, height })) => format!(" --size {width}x{height}"),
+            Some(Size::Width(width)) => format!(" --width {width}"),
+            Some(Size::Height(height)) => format!(" --height {height}"),
+            Some(Size::Percent(percent)) => format!(" --size {percent}%"),
+        }
+    }
+
     /// What to type so that another command has the same stages to plan.
     pub fn typed(&self) -> String {
         let SamplingOptions { samples, seed, sampler, filter } = self.sampling;
@@ -169,6 +192,8 @@ impl SceneOptions {
             ("filter", filter.map(String::from)),
             ("error", self.error.map(|error| error.to_string())),
             ("layers", layers),
+            ("exposure", self.exposure.map(typed_exposure)),
+            ("tone-map", self.tone_map.and_then(|own| word_of(own, &ToneMapping::ALL)).map(String::from)),
         ]
         .into_iter()
         .filter_map(|(name, value)| Some(format!(" --{name} {}", value?)))
@@ -296,6 +321,30 @@ fn error(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| "an error is a number above 0 and at most 1, such as 0.01".into())
 }
 
+/// An exposure as it is typed: `1.5`, `-2`, `auto`, `auto+1`.
+fn exposure(text: &str) -> Result<Exposure, String> {
+    let (automatic, stops) = match text.trim().strip_prefix("auto") {
+        Some("") => return Ok(Exposure { stops: 0.0, automatic: true }),
+        Some(beside) => (true, beside.starts_with(['+', '-']).then_some(beside)),
+        None => (false, Some(text.trim())),
+    };
+    let stops = stops.and_then(|stops| stops.parse().ok());
+    let refused = "an exposure is a number of stops, such as 1.5 or -2, or auto, or both, such as auto+1";
+    stops.map(|stops| Exposure { stops, automatic }).ok_or(refused.into())
+}
+
+fn typed_exposure(Exposure { stops, automatic }: Exposure) -> String {
+    match (automatic, stops) {
+        (true, 0.0) => "auto".into(),
+        (true, stops) => format!("auto{stops:+}"),
+        (false, stops) => stops.to_string(),
+    }
+}
+
+fn bits(text: &str) -> Result<u8, String> {
+    text.trim().parse().ok().filter(|bits| [8, 16].contains(bits)).ok_or("a PNG has 8 bits or 16".into())
+}
+
 fn seed(text: &str) -> Result<u64, String> {
     text.trim().parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
 }
@@ -344,6 +393,23 @@ mod tests {
         }
         assert_eq!(Size::Height(54).of(own), Resolution { width: 96, height: 54 });
         assert_eq!(Size::Width(1).of(Resolution { width: 0, height: 0 }), Resolution { width: 1, height: 1 });
+    }
+
+    #[test]
+    fn an_exposure_is_typed_back_as_it_was_typed() {
+        for (text, stops, automatic) in [
+            ("1.5", 1.5, false),
+            ("-2", -2.0, false),
+            ("auto", 0.0, true),
+            ("auto+1", 1.0, true),
+            ("auto-0.5", -0.5, true),
+        ] {
+            assert_eq!(exposure(text), Ok(Exposure { stops, automatic }), "{text}");
+            assert_eq!(typed_exposure(Exposure { stops, automatic }), text);
+        }
+        for bad in ["", "bright", "autofocus", "auto1", "auto+", "1 stop", "+-1"] {
+            assert!(exposure(bad).is_err(), "{bad}");
+        }
     }
 
     #[test]

@@ -2,6 +2,7 @@ use super::called::called;
 use super::error::{Error, Result};
 use super::files::{Files, Targets};
 use super::format::{Format, print_json};
+use super::hints;
 use super::interrupt::{EndsByItself, Waiting};
 use super::options::RenderOptions;
 use super::progress::Progress;
@@ -9,7 +10,8 @@ use super::streams::Streams;
 use super::subject::Subject;
 use pinhole::extract::{FilterTable, adaptive_of, validate};
 use pinhole::film::{
-    CheckpointAt, Film, Merged, Part, PartFilm, Replaces, checkpoint_at, keep_checkpoint, merge_parts, read_checkpoint,
+    CheckpointAt, Film, Merged, Part, PartFilm, PngKind, Replaces, checkpoint_at, keep_checkpoint, merge_parts,
+    read_checkpoint,
 };
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress, Watch, error_of};
@@ -208,7 +210,8 @@ pub fn merge(
     for (_, why) in &refused {
         streams.note(&format!("warning: {why}"))?;
     }
-    let files = Files::new(targets, census, &render.plan, None);
+    let png = PngKind { is_deep: options.bits == Some(16), text: hints::provenance(subject, options, false) };
+    let files = Files::new(targets, census, &render, (png, None));
     files.write(&film)?;
     files.send(&film, streams.out)?;
     let mut written: Vec<PathBuf> = files.targets.pictures.clone();

@@ -2,7 +2,9 @@ use crate::extract::{camera_entity, integrator_of};
 use crate::look::view_stage;
 use crate::plan::{Census, Column, Stage};
 use crate::render::{Execution, Rendered, render};
-use crate::scene::{Adaptive, Filter, Layers, OPEN_END, Resolution, Sampler, Sampling, Statistics, View};
+use crate::scene::{
+    Adaptive, Exposure, Filter, Layers, OPEN_END, Resolution, Sampler, Sampling, Statistics, ToneMapping, View,
+};
 use crate::{Result, stages};
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
@@ -146,6 +148,10 @@ pub struct Overrides {
     pub error: Option<f64>,
     /// The layers to keep beside radiance.
     pub layers: Option<Layers>,
+    /// The exposure of the picture.
+    pub exposure: Option<Exposure>,
+    /// The tone mapping of the picture.
+    pub tone_mapping: Option<ToneMapping>,
 }
 
 /// The size of an image in pixels, outright or relative to the scene's own [`Resolution`].
@@ -239,6 +245,12 @@ impl Overrides {
         }
         if let Some(layers) = self.layers.clone() {
             camera.insert(layers);
+        }
+        if let Some(exposure) = self.exposure {
+            camera.insert(exposure);
+        }
+        if let Some(tone_mapping) = self.tone_mapping {
+            camera.insert(tone_mapping);
         }
         if self.statistics {
             camera.insert(Statistics);

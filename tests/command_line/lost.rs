@@ -224,6 +224,7 @@ fn every_place_that_writes_is_in_the_list() {
             "write_whole(",
             "write_file(",
             "write_png(",
+            "write_png_as(",
             "write_exr(",
             "write_layered_exr(",
             "set_aside(",

@@ -64,6 +64,8 @@ pub struct Shot<'a> {
 pub struct Progress<'r> {
     /// The plan that it is rendered by.
     pub plan: &'r Plan,
+    /// The curve that turns the film into a picture.
+    pub curve: Curve,
     /// The film so far.
     pub film: &'r Film,
     /// The samples of each pixel so far, and those that the camera asks for.
@@ -130,7 +132,15 @@ impl FrameSource {
             None => own,
         });
         let gathered = self.gathered[1].as_ref().map(|gathered| &gathered.history);
-        Ok(Progress { plan: &render.plan, film: &render.film, samples, laps, time: render.time() - before, gathered })
+        Ok(Progress {
+            plan: &render.plan,
+            curve: render.curve,
+            film: &render.film,
+            samples,
+            laps,
+            time: render.time() - before,
+            gathered,
+        })
     }
 
     /// Forgets what earlier frames have gathered, since the scene is another.
@@ -146,7 +156,7 @@ impl FrameSource {
             Some(Gathered { history, .. }) => Cow::Owned(denoised_film(history, &render.film, levels)),
             None => Cow::Borrowed(&render.film),
         };
-        Some((film, curve(&render.plan)))
+        Some((film, render.curve))
     }
 
     /// The plan of the last frame.
@@ -163,7 +173,7 @@ impl Progress<'_> {
 
     /// The picture, 8-bit RGBA, through so many levels of the denoiser where the frame gathers what it needs.
     pub fn pixels(&self, levels: u32) -> Vec<u8> {
-        let curve = curve(self.plan);
+        let curve = self.curve;
         self.gathered
             .map_or_else(|| rgba_bytes(self.film, curve), |gathered| rgba_of(&denoised(gathered, levels), curve))
     }
@@ -188,11 +198,6 @@ fn denoised_film(gathered: &History, of: &Film, levels: u32) -> Film {
         }
     }
     film
-}
-
-/// A view's values are data; radiance is shown by the sRGB curve.
-fn curve(plan: &Plan) -> Curve {
-    if plan.view.is_some() { Curve::Straight } else { Curve::Srgb }
 }
 
 /// Whether an error says no more than that the observer stopped the frame.

@@ -6,8 +6,8 @@ use super::{PerspectiveProjection, SMALLEST_PIXEL, SamplingTable};
 use crate::cameras::{Camera, CameraNames, ImageFrame, Listed, RaySpread, with_cameras};
 use crate::plan::{Census, Evidence, Table, counted, declared, entities};
 use crate::scene::{
-    Adaptive, Aperture, ChildOf, Layers, Lens, PerspectiveCamera, Placement, Rasterisation, Resolution, Sampling,
-    SceneError, called, some_of,
+    Adaptive, Aperture, ChildOf, Exposure, Layers, Lens, PerspectiveCamera, Placement, Rasterisation, Resolution,
+    Sampling, SceneError, ToneMapping, called, some_of,
 };
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2, DVec3};
@@ -235,11 +235,13 @@ pub(super) fn named_camera(scene: &Census<'_>) -> Result<(String, Entity), Scene
 // Components that mean nothing but on the camera.
 
 /// Such components, each with its word in messages, unless a table of their own asks where they are.
-const ON_CAMERA: [(&str, fn(&Census<'_>) -> Arc<[Entity]>); 4] = [
+const ON_CAMERA: [(&str, fn(&Census<'_>) -> Arc<[Entity]>); 6] = [
     ("resolution", |scene| scene.entities::<With<Resolution>>()),
     ("sampling", |scene| scene.entities::<With<Sampling>>()),
     ("rasterisation", |scene| scene.entities::<With<Rasterisation>>()),
     ("adaptive", |scene| scene.entities::<With<Adaptive>>()),
+    ("exposure", |scene| scene.entities::<With<Exposure>>()),
+    ("tone_mapping", |scene| scene.entities::<With<ToneMapping>>()),
 ];
 
 /// Checks that no other entity carries one of them.

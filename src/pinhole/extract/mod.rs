@@ -24,6 +24,7 @@ mod area_lights;
 mod camera_join;
 mod cameras;
 mod contact;
+mod exposure;
 mod glass;
 mod image_files;
 mod integrator;
@@ -60,6 +61,7 @@ pub use cameras::{
     eye, lens_evidence, ray_origins_evidence,
 };
 pub use contact::{Contact, ContactTable, contact_evidence, glass_contact_evidence, unresolved};
+pub use exposure::exposure_of;
 pub use glass::{GlassBody, GlassBodyTable, GlassTable, absorption_evidence, deep_glass, glass_overlaps, list_around};
 pub use image_files::{ImageHead, RemarkedTexels, image_head, image_remarks, one_line, read_exr};
 pub use integrator::{
@@ -152,6 +154,7 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<EnvironmentTable>,
     |scene| check::at_most_one::<View>(scene, "view", "View").map(drop),
     |scene| adaptive_of(scene).map(drop),
+    |scene| exposure_of(scene).map(drop),
     answer::<LayerTable>,
 ];
 

@@ -1,14 +1,32 @@
-use crate::extract::linear_from_srgb;
+use crate::extract::{exposure_of, linear_from_srgb};
+use crate::plan::{Census, Plan};
+use crate::scene::{Exposure, SceneError, ToneMapping};
 use std::sync::LazyLock;
 
 /// How linear values are encoded as the bytes of a picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Curve {
     /// The sRGB transfer function: for radiance.
     #[default]
     Srgb,
     /// Linear: for a view of a column, whose values are data.
     Straight,
+    /// The sRGB transfer function after an exposure and a tone mapping: for radiance, where the camera has one.
+    Exposed(Exposure, ToneMapping),
+}
+
+impl Curve {
+    /// That of a scene's camera, or of the column that it paints.
+    ///
+    /// Errors: a number of its exposure or tone mapping that is out of range.
+    pub fn of(scene: &Census<'_>, plan: &Plan) -> Result<Self, SceneError> {
+        let (exposure, tone_mapping) = exposure_of(scene)?;
+        Ok(match plan.view {
+            Some(_) => Self::Straight,
+            None if (exposure, tone_mapping) == Default::default() => Self::Srgb,
+            None => Self::Exposed(exposure, tone_mapping),
+        })
+    }
 }
 
 // ANCHOR: srgb_from_linear
@@ -89,12 +107,21 @@ impl SrgbBytes {
 }
 
 /// Encodes a linear value as a byte; values below 0 give 0, values above 1 give 255.
+///
+/// Exposure and tone mapping are left out, for they need a pixel, and may need the whole film.
 #[inline]
 pub fn byte_from_linear(linear: f32, curve: Curve) -> u8 {
     match curve {
-        Curve::Srgb => SrgbBytes::get().byte(linear),
+        Curve::Srgb | Curve::Exposed(..) => SrgbBytes::get().byte(linear),
         Curve::Straight => straight_byte(linear),
     }
+}
+
+/// Encodes a linear value in 16 bits; values below 0 give 0, values above 1 give 65535.
+pub(super) fn sixteen_bits(linear: f32, curve: Curve) -> u16 {
+    let linear = f64::from(linear).clamp(0.0, 1.0);
+    let encoded = if curve == Curve::Straight { linear } else { srgb_from_linear(linear) };
+    (encoded * 65_535.0).round() as u16
 }
 
 /// Encodes data as a byte.

@@ -1,8 +1,8 @@
 //! Radiance → pixels → files.
 //!
 //! Reads: [`Radiance`](crate::shade::Radiance), the columns that layers are made of, and the splats of light tracing.
-//! Writes: [`FilmTile`], sums in f64 and counts; checkpoints; at the end an image of 8-bit sRGB (PNG) or linear floats
-//! (EXR).
+//! Writes: [`FilmTile`], sums in f64 and counts; checkpoints; at the end an image of 8-bit or 16-bit sRGB (PNG), which
+//! the camera's exposure and tone mapping may change, or of linear floats (EXR), which nothing does.
 //! The renderer writes to disk nowhere else, and never leaves a partial file behind.
 //!
 //! ```
@@ -29,6 +29,7 @@ mod png_files;
 mod replaces;
 mod reproject;
 mod splats;
+mod tone;
 mod whole_file;
 
 #[doc(hidden)]
@@ -59,12 +60,14 @@ pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
 pub use parts::{LightUnit, Merged, Part, PartFilm, Split, Unit, UnitFilm, merge_parts};
 pub use png_files::write_png;
 #[doc(hidden)]
-pub use png_files::{png_bytes, png_bytes_by, rgba_bytes, rgba_of};
+pub use png_files::{PngKind, png_bytes, png_bytes_as, png_bytes_by, rgba_bytes, rgba_of, write_png_as};
 #[doc(hidden)]
 pub use replaces::{MARK, Replaces, Target, marked};
 #[doc(hidden)]
 pub use reproject::History;
 #[doc(hidden)]
 pub use splats::{FilmSplats, SplatFilter};
+#[doc(hidden)]
+pub use tone::tone_mapped;
 #[doc(hidden)]
 pub use whole_file::{check_place, may_be_written, remove_own, set_aside, write_whole, writes_in_progress};

@@ -142,10 +142,12 @@ pub struct Rendered {
     pub time: Duration,
     /// Memory of the tables, in bytes.
     pub table_bytes: usize,
+    pub(super) curve: Curve,
 }
 
 impl Rendered {
-    /// Writes the picture: a PNG by the sRGB curve for a name that ends in `.png`, linear OpenEXR for every other.
+    /// Writes the picture: a PNG by its [curve](Self::curve) for a name that ends in `.png`, linear OpenEXR for every
+    /// other.
     ///
     /// Errors: the path and what the system said; no part of a file is left behind.
     ///
@@ -166,8 +168,9 @@ impl Rendered {
         if is_png { write_png(&self.film, self.curve(), path) } else { write_exr(&self.film, path) }
     }
 
-    /// The curve that turns the film into a picture: sRGB for radiance, the identity for a view's values.
+    /// The curve that turns the film into a picture: sRGB for radiance, after the camera's exposure and tone mapping if
+    /// it has them, and the identity for a view's values.
     pub fn curve(&self) -> Curve {
-        if self.plan.view.is_some() { Curve::Straight } else { Curve::Srgb }
+        self.curve
     }
 }

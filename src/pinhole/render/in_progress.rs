@@ -6,7 +6,7 @@ use super::render_world::{RenderWorld, prepare};
 use super::steps::{Run, WHOLE, runs, steps_of};
 use super::{Execution, Rendered, Watch, Worlds};
 use crate::extract::{ImageFrame, LayerTable, SamplingTable};
-use crate::film::{BLOCK, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
+use crate::film::{BLOCK, Curve, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
 use crate::follow::{Splats, Stop};
 use crate::plan::{Census, ExtractedTable, Plan, Shared, Stage};
 use crate::rays::PixelSamples;
@@ -29,6 +29,8 @@ pub struct RenderInProgress {
     pub film: Film,
     /// How the camera samples its pixels.
     pub sampling: SamplingTable,
+    /// The curve that turns the film into a picture.
+    pub curve: Curve,
     pub(super) tables: Vec<ExtractedTable>,
     pub(super) execution: Execution,
     pub(super) pool: Option<ThreadPool>,
@@ -75,6 +77,7 @@ impl RenderInProgress {
         let light = LightPass::of(scene, &plan, worlds)?;
         Ok(Self {
             light,
+            curve: Curve::of(scene, &plan)?,
             plan,
             film,
             sampling,
@@ -107,7 +110,7 @@ impl RenderInProgress {
         } else {
             self.film = film_for(scene, &plan, Film::new(image.width, image.height, self.execution.tile_side));
         }
-        self.sampling = *scene.table::<SamplingTable>()?;
+        (self.sampling, self.curve) = (*scene.table::<SamplingTable>()?, Curve::of(scene, &plan)?);
         for world in &mut self.worlds {
             let Some(world) = world.get_mut().unwrap_or_else(PoisonError::into_inner) else { continue };
             tables.iter().for_each(|table| (table.insert)(&mut world.world));
@@ -228,7 +231,7 @@ impl RenderInProgress {
         let threads = self.threads();
         let laps = self.laps();
         let table_bytes = self.tables.iter().map(|table| table.bytes).sum();
-        Rendered { plan: self.plan, film: self.film, laps, threads, time: self.time, table_bytes }
+        Rendered { plan: self.plan, film: self.film, laps, threads, time: self.time, table_bytes, curve: self.curve }
     }
 }
 

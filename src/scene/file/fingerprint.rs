@@ -1,8 +1,8 @@
 use super::word::Word;
 use super::write::spawned;
 use crate::{
-    ChildOf, Disabled, EmbeddedFiles, Environment, IMAGE_FILE, MeshGeometry, MeshInstance, ModelFiles, Name, Sampler,
-    Sampling, SceneFolder, Statistics, UsesMaterial, read_file, texture_files,
+    ChildOf, Disabled, EmbeddedFiles, Environment, Exposure, IMAGE_FILE, MeshGeometry, MeshInstance, ModelFiles, Name,
+    Sampler, Sampling, SceneFolder, Statistics, ToneMapping, UsesMaterial, read_file, texture_files,
 };
 use bevy_ecs::prelude::*;
 use std::any::TypeId;
@@ -14,7 +14,8 @@ use std::path::PathBuf;
 /// Entities are identified by their position in spawn order, since names need not be unique.
 /// An image file that the scene names enters with a hash of its contents, except on a disabled entity, whose file has
 /// not been checked and may be anything.
-/// Statistics are left out, and so is the number of samples: a render that is continued may take more.
+/// Statistics are left out, and so are the exposure and the tone mapping, which no film depends on, and the number of
+/// samples: a render that is continued may take more.
 pub fn fingerprint(scene: &World) -> String {
     let entities = spawned(scene);
     let places: HashMap<Entity, usize> = entities.iter().enumerate().map(|(at, entity)| (entity.id(), at)).collect();
@@ -22,12 +23,14 @@ pub fn fingerprint(scene: &World) -> String {
     let mut images: HashMap<PathBuf, Option<u64>> = HashMap::new();
     let mut meshes: Vec<(&MeshGeometry, u64)> = Vec::new();
     let mut text = String::new();
+    let left_out =
+        [TypeId::of::<Statistics>(), TypeId::of::<Sampling>(), TypeId::of::<Exposure>(), TypeId::of::<ToneMapping>()];
     for entity in &entities {
         let name = entity.get::<Name>().map(Name::as_str);
         let parent = entity.get::<ChildOf>().map(|parent| place(parent.parent()));
         let material = entity.get::<UsesMaterial>().map(|used| place(used.0));
         text += &format!("{name:?} {parent:?} {material:?} {}", entity.contains::<Disabled>());
-        let counts = |word: &&Word| ![TypeId::of::<Statistics>(), TypeId::of::<Sampling>()].contains(&(word.kind)());
+        let counts = |word: &&Word| !left_out.contains(&(word.kind)());
         for word in Word::all().filter(counts) {
             if let Some(Ok(value)) = (word.write)(entity) {
                 text += &format!(" {}: {value}", word.word);

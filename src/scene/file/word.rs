@@ -1,10 +1,10 @@
 use crate::material::MATERIALS;
 use crate::{
     Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, EmissionMap, Emissive, Environment,
-    EquirectangularCamera, FisheyeCamera, Gradient, ImageTexture, Integrator, Keys, Layers, Lens, LightTracing, LookAt,
-    Mesh, MetallicRoughnessMap, Motion, NormalMap, Opacity, OpacityMap, OrthographicCamera, PerspectiveCamera,
-    Placement, Plane, PointLight, Rasterisation, Rectangle, Resolution, Sampling, Shutter, SingleSided, Sphere,
-    SpotLight, Statistics, Stripes, Tint, Torus, Triangle, View,
+    EquirectangularCamera, Exposure, FisheyeCamera, Gradient, ImageTexture, Integrator, Keys, Layers, Lens,
+    LightTracing, LookAt, Mesh, MetallicRoughnessMap, Motion, NormalMap, Opacity, OpacityMap, OrthographicCamera,
+    PerspectiveCamera, Placement, Plane, PointLight, Rasterisation, Rectangle, Resolution, Sampling, Shutter,
+    SingleSided, Sphere, SpotLight, Statistics, Stripes, Tint, ToneMapping, Torus, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -47,6 +47,8 @@ const WORDS: &[Word] = &[
     Word::of::<Rasterisation>("rasterisation"),
     Word::of::<Integrator>("integrator"),
     Word::of::<LightTracing>("light_tracing"),
+    Word::of::<Exposure>("exposure"),
+    Word::of::<ToneMapping>("tone_mapping"),
     Word::of::<Emissive>("emissive"),
     Word::of::<Checker>("checker"),
     Word::of::<Stripes>("stripes"),
