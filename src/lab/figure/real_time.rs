@@ -20,7 +20,7 @@ const SMALL: [u32; 2] = [226, 127];
 /// Two in a row.
 const LARGE: [u32; 2] = [345, 194];
 /// Where the denoiser's curves and the ghosts are measured.
-pub(super) const MEASURED: [u32; 2] = [128, 72];
+pub(super) const MEASURED: [u32; 2] = [160, 90];
 /// Samples a pixel of what is shown as the truth.
 const TRUTH: u32 = 32;
 /// Frames of a camera that moves, and how far it moves from one to the next, in scene units.
@@ -225,7 +225,7 @@ pub fn draw_accumulated(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         let samples = format!("{samples} {} a pixel", if samples == 1 { "sample" } else { "samples" });
         Ok(Exhibit { picture: painted(SMALL, &light)?, lines: vec![samples, truth.error_in_words(&light)] })
     };
-    let exhibits = [of(1)?, of(8)?, of(64)?];
+    let exhibits = [of(1)?, of(6)?, of(36)?];
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SMALL)))
 }
 
