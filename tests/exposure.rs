@@ -8,7 +8,7 @@ use pinhole::film::{
     Curve, FIRST_SAMPLE_STEPS, Film, PngKind, exr_bytes, png_bytes, png_bytes_as, rgba_bytes, rgba_of, tone_mapped,
 };
 use pinhole::plan::Census;
-use pinhole::render::{Execution, RenderInProgress, film_key, render};
+use pinhole::render::{Execution, RenderInProgress, render};
 use pinhole::scene::{Exposure, Name, PerspectiveCamera, ToneMapping, View};
 use scenes::{Setup, full, offer};
 
@@ -192,7 +192,8 @@ fn no_film_no_exr_and_no_view_depends_on_them() {
         let camera = camera(&mut scene);
         insert(&mut scene.entity_mut(camera));
         let rendered = render(&scene, &offer(), &Execution::default(), &()).expect("renders");
-        let key = film_key(&scene, &rendered.plan);
+        let begun = RenderInProgress::begin(&Census::of(&scene), &offer(), &Execution::default()).expect("begins");
+        let key = begun.key(&scene, &()).expect("nobody stops it");
         (scene, rendered, key)
     };
     let (_, plain, plain_key) = of(&|_| ());

@@ -50,6 +50,57 @@ fn mistakes_are_told_and_right_programs_accepted() {
     assert!(tried >= 20 && 10 * named >= 7 * tried);
 }
 
+/// Exercise 8 of page 10: a step off the surface that grows with the scene is right where a constant is not.
+#[test]
+fn a_step_that_grows_is_right_in_every_size() {
+    const STEP: &str = "1e-9";
+    const GROWS: &str = "1e-12 * (point.0.abs() + point.1.abs() + point.2.abs())";
+    const BOUND: &str = "2.0 * f64::EPSILON * (point.0.abs() + point.1.abs() + point.2.abs())";
+    let far = [
+        ("centre: V(0.0", "centre: V(1e8"),
+        ("EYE: V = V(2.5", "EYE: V = V(1e8 + 2.5"),
+        ("TARGET: V = V(0.0", "TARGET: V = V(1e8"),
+        ("(V(3.0", "(V(1e8 + 3.0"),
+        ("(V(-4.0", "(V(1e8 - 4.0"),
+    ];
+    let small = [
+        ("-3.0), radius: 1.0", "-3e-9), radius: 1e-9"),
+        ("-101.0, -3.0), radius: 100.0", "-101e-9, -3e-9), radius: 100e-9"),
+        ("V(2.5, 1.4, 1.4)", "V(2.5e-9, 1.4e-9, 1.4e-9)"),
+        ("V(0.0, -0.3, -3.0)", "V(0.0, -0.3e-9, -3e-9)"),
+        ("V(3.0, 4.0, 0.0)", "V(3e-9, 4e-9, 0.0)"),
+        ("V(-4.0, 3.0, -1.0)", "V(-4e-9, 3e-9, -1e-9)"),
+        ("V(60.0, 54.0, 45.0)", "V(60e-18, 54e-18, 45e-18)"),
+        ("V(8.0, 14.0, 24.0)", "V(8e-18, 14e-18, 24e-18)"),
+    ];
+    let drawn = |edits: &[(&str, &str)], step: &str| {
+        let program = program_after(10).expect("applies");
+        let program = edits.iter().fold(program, |program, (old, new)| {
+            assert!(program.contains(old), "{old}");
+            program.replace(old, new)
+        });
+        assert!(program.contains(&format!("normal.times({STEP})")));
+        picture_of_program(&program.replace(&format!("normal.times({STEP})"), &format!("normal.times({step})")))
+            .expect("a picture")
+            .1
+    };
+    let home = drawn(&[], STEP);
+    let differ = |edits: &[(&str, &str)], step: &str| {
+        let other = drawn(edits, step);
+        let differ = home
+            .iter()
+            .zip(&other)
+            .filter(|(one, other)| (0..3).any(|part| one[part].abs_diff(other[part]) > 8))
+            .count();
+        differ as f64 / home.len() as f64
+    };
+    for (edits, at_least) in [(&[][..], 0.0), (&far, 0.01), (&small, 0.2)] {
+        assert!(differ(edits, STEP) >= at_least, "the constant step");
+        assert!(differ(edits, GROWS) < 1e-3, "the step that grows");
+    }
+    assert!(differ(&[], BOUND) > 0.2, "the bound of a hit that is exact before it is rounded");
+}
+
 #[test]
 fn what_is_no_picture_of_the_program_is_refused_in_one_sentence() {
     let folder = tempfile::tempdir().expect("a temporary folder");

@@ -74,7 +74,7 @@ pub fn render_frames(
             output: targets.pictures.iter().map(|picture| frame_file(picture, frame)).collect(),
             output_is_chosen: !targets.named,
             part: None,
-            is_frame: true,
+            frame: Some(frame),
             quiet: true,
             ..options.clone()
         };

@@ -34,8 +34,11 @@ pub fn provenance(subject: &Subject<'_>, options: &RenderOptions, mine: bool) ->
     let naive = options.naive.map(|method| format!(" --naive {}", method.name)).unwrap_or_default();
     let mine = if mine { " --mine" } else { "" };
     let size = options.scene.typed_size();
-    let command = format!("pinhole render {name}{size}{}{naive}{mine}", options.scene.typed());
-    vec![("Scene", subject.name().to_owned()), ("Command", command)]
+    let frame =
+        options.frame.map(|frame| format!(" --frames {frame}..{frame} --fps {}", options.fps)).unwrap_or_default();
+    let command = format!("pinhole render {name}{size}{}{frame}{naive}{mine}", options.scene.typed());
+    let number = options.frame.map(|frame| ("Frame", frame.to_string()));
+    [("Scene", subject.name().to_owned()), ("Command", command)].into_iter().chain(number).collect()
 }
 
 /// What names a subject again, for a shell; nothing does for what came through a pipe, or cannot be shown.

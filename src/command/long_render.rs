@@ -47,7 +47,7 @@ pub fn render_long(
 ) -> Result<LongRender> {
     let (key, first) = (render.key(scene, waiting)?, files.targets.checkpoint());
     let limits = Limits { time: options.time, write_every: options.write_every, adaptive: adaptive_of(scene)? };
-    if let (true, Some(first)) = (options.is_frame, &first) {
+    if let (Some(_), Some(first)) = (options.frame, &first) {
         let is_there = files.targets.pictures.iter().all(|picture| picture.exists());
         if options.resume && is_there && is_done(first, key, render.sampling.samples) {
             return Ok(LongRender { outcome: Outcome::default(), checkpoint: None, was_done: true });
@@ -85,7 +85,7 @@ pub fn render_long(
     // Beside the checkpoint of another render, that of a finished one would be one more with each change of the scene.
     let worth_keeping = (outcome.time >= WORTH_KEEPING && has_first_name)
         || options.write_every.is_some()
-        || options.resume && !options.is_frame;
+        || options.resume && options.frame.is_none();
     let keeps = outcome.stopped || worth_keeping || found.is_some();
     let written = kept.at_the_end(&render.film, keeps, outcome.stopped, say)?;
     drop(ends_by_itself);
@@ -107,7 +107,7 @@ pub fn render_long(
             None
         }
     };
-    if let (true, Some(first)) = (options.is_frame, &first) {
+    if let (Some(_), Some(first)) = (options.frame, &first) {
         kept.done(&render.film, first)?;
         return Ok(LongRender { outcome, checkpoint: None, was_done: false });
     }

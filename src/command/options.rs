@@ -112,9 +112,9 @@ pub struct RenderOptions {
     /// How many frames a unit of time has, which is a second in models
     #[arg(long, value_name = "N", default_value_t = 24.0, hide_default_value = true, value_parser = rate)]
     pub fps: f64,
-    /// Whether this picture is one of them, which leaves a mark when it is done
+    /// The one of them that this picture is, which leaves a mark when it is done
     #[arg(skip)]
-    pub is_frame: bool,
+    pub frame: Option<u32>,
     /// With --part, print how far it is in the words that Open Job Description reads
     #[arg(long, requires = "part")]
     pub openjd: bool,

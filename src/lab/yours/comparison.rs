@@ -1,11 +1,10 @@
 //! Whether a picture of bytes shows what another one of light shows, block by block.
 
 use super::known::{Picture, known_mistakes};
-use super::scene::{SIZE, film_after, picture_of, scene_after, variants};
+use super::scene::{SIZE, film_after, picture_of, sample_at_most, scene_after, variants};
 use pinhole::Error;
 use pinhole::extract::linear_from_srgb;
 use pinhole::film::{Film, srgb_from_linear};
-use pinhole::scene::Sampling;
 use std::cell::OnceCell;
 
 /// The sides of a block, in pixels.
@@ -119,7 +118,7 @@ impl Expected {
     ///
     /// Errors: those of a render.
     pub fn after(chapter: u32) -> Result<Self, Error> {
-        let right = light_of(&film_after(chapter)?);
+        let right = light_of(&film_after(chapter, u32::MAX)?);
         let (rewritten_or_changed, known) = <(OnceCell<_>, OnceCell<_>)>::default();
         Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known })
     }
@@ -187,8 +186,7 @@ impl Expected {
             let mut world = scene_after(self.chapter);
             (variant.change)(&mut world);
             // Enough to be told from the others.
-            let mut samplings = world.query::<&mut Sampling>();
-            samplings.iter_mut(&mut world).for_each(|mut fewer| fewer.samples = fewer.samples.min(32));
+            sample_at_most(&mut world, 32);
             Ok((variant.looks_like.to_owned(), light_of(&picture_of(&world)?)))
         });
         let all = rewritten.chain(changed).collect::<Result<_, Error>>()?;
