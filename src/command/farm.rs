@@ -178,8 +178,11 @@ impl Job<'_> {
              wait $!\n\
              status=$?\n\
              if [ $status -gt 128 ]; then wait $!; status=$?; fi\n\
-             # 75 is a part that is not done, 130 one that was not even begun. Where RequeueExit=75 is set, Slurm does this too.\n\
-             if [ $status -eq 75 ] || [ $status -eq 130 ]; then scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\"; fi\n\
+             # 75 is a part that is not done, 130 one that was not begun, other signals may pass. Where RequeueExit=75 is set,\n\
+             # Slurm does this too.\n\
+             if [ $status -eq 75 ] || [ $status -ge 128 -a \"${{SLURM_RESTART_COUNT:-0}}\" -lt {TRIES} ]; then\n\
+             scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\"\n\
+             fi\n\
              exit $status\n",
             mark = MARK,
             hours = seconds / 3600,

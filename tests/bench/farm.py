@@ -104,18 +104,25 @@ class Slurm:
         raise SystemExit(f"Slurm does not come up: {folder}/log")
 
     def kill(self, node):
-        """As if the machine were gone: the daemon, its steps and what they run."""
+        """As if the machine were gone: the daemon first, then what watches the jobs, then these, so that nobody reports."""
+        named = f"SLURMD_NODENAME=node{node}".encode()
+        jobs, watchers = [], []
         for line in out(["ps", "-eo", "pid,args"]).splitlines():
             pid, args = line.split(None, 1)
-            if f"-N node{node}" in args or f"spool.node{node}" in args:
+            if args.startswith("slurmd ") and args.endswith(f"-N node{node}"):
                 kill(int(pid))
-        # The steps of a node are told by the variable that they are given.
         for entry in pathlib.Path("/proc").glob("[0-9]*/environ"):
             try:
-                if f"SLURMD_NODENAME=node{node}".encode() in entry.read_bytes().split(b"\0"):
-                    kill(int(entry.parent.name))
-            except OSError:
+                if named in entry.read_bytes().split(b"\0"):
+                    pid = int(entry.parent.name)
+                    parent = int((entry.parent / "stat").read_text().rsplit(")", 1)[1].split()[1])
+                    jobs.append(pid)
+                    if b"slurmstepd" in pathlib.Path(f"/proc/{parent}/cmdline").read_bytes():
+                        watchers.append(parent)
+            except (OSError, ValueError):
                 pass
+        for pid in watchers + jobs:
+            kill(pid)
 
     def back(self, node):
         run(["slurmd", "-N", f"node{node}"])

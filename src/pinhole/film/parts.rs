@@ -537,6 +537,10 @@ pub fn merge_parts(film: &Film, key: u64, filter: Filter, paths: &[PathBuf]) -> 
 /// The parts that are missing or unfinished, where all files agree on how many there are.
 fn missing(files: &[Indexed], tiles: u32) -> Vec<Part> {
     let first = files[0].heading.part;
+    let is_alike = |file: &Indexed| (file.heading.part.of, file.heading.part.split) == (first.of, first.split);
+    if !files.iter().all(is_alike) {
+        return Vec::new();
+    }
     let is_done = |number: u32| {
         let part = Part { number, ..first };
         files.iter().map(|file| file.heading).any(|heading| {
