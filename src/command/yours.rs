@@ -49,7 +49,7 @@ pub fn yours(asked: &CompareYours, format: Format, streams: &mut Streams<'_>) ->
 }
 
 /// Samples a pixel of a picture to look at, which is then about as noisy as the program's own.
-const SHOWN: u32 = 32;
+const SHOWN: u32 = 16;
 
 fn list(format: Format, out: &mut dyn Write) -> Result {
     let mut all: Vec<Value> = Vec::new();
