@@ -15,11 +15,11 @@ use super::summary::Summary;
 use super::warnings::{notes, too_dark, warnings};
 use pinhole::Chapter;
 use pinhole::extract::{ChosenIntegrator, LayerTable, adaptive_of, camera_entity, integrator_of, validate};
-use pinhole::film::{PngKind, png_bytes};
+use pinhole::film::{Curve, PngKind, png_bytes, stops_of};
 use pinhole::look::{Foretold, RenderStats};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
-use pinhole::scene::{FileKind, Integrator, Sampling, read_file};
+use pinhole::scene::{Exposure, FileKind, Integrator, Sampling, read_file};
 use pinhole_lab::exercise::Mine;
 use pinhole_lab::review::{PictureDifference, compare_pictures, picture_contrast};
 use std::borrow::Cow;
@@ -164,6 +164,15 @@ pub fn render_with(
     let mut warnings = warnings(subject, options, &rendered.film, &rendered.plan)?;
     warnings.extend(too_dark(&rendered.film, rendered.curve()).filter(|_| !is_dark_foretold));
     let told = files.targets.told(checkpoint.as_deref());
+    if let Curve::Exposed(exposure @ Exposure { automatic: true, .. }, _) = rendered.curve()
+        && !json
+        && !options.quiet
+    {
+        let stops = stops_of(&rendered.film, exposure);
+        streams.note(&format!(
+            "note: the automatic exposure comes to {stops:.2} stops, as --exposure {stops:.2} has them"
+        ))?;
+    }
     if !json {
         warnings.iter().try_for_each(|warning| streams.note(&format!("warning: {warning}")))?;
     }

@@ -165,6 +165,28 @@ fn an_exposure_that_is_none_is_refused_in_a_sentence() {
     eprintln!("refused: {tried} options, a sentence each");
 }
 
+/// What an automatic exposure has found can be held for other pictures.
+#[test]
+fn an_automatic_exposure_says_what_it_has_found() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path();
+    let mut told = Vec::new();
+    for more in ["auto", "auto-2"] {
+        let noted = run(path, &[&SIZE[..], &["--exposure", more, "-o", "a.png"]].concat());
+        let noted = text(&noted.stderr);
+        let stops = noted.split("--exposure ").nth(1).and_then(|rest| rest.split(' ').next()).expect("stops");
+        let automatic = pixels(&fs::read(path.join("a.png")).expect("written"));
+        let held = pixels(&bytes(path, &["--exposure", stops, "-o", "b.png"], "b.png"));
+        let apart = automatic.iter().zip(&held).map(|(one, other)| one.abs_diff(*other)).max();
+        assert!(apart <= Some(1), "{more} is not {stops} stops: {apart:?} of 255");
+        told.push(stops.parse::<f64>().expect("a number"));
+    }
+    assert!((told[0] - told[1] - 2.0).abs() < 0.011, "{told:?}");
+    let quiet = run(path, &[&SIZE[..], &["-q", "--exposure", "auto", "-o", "a.png"]].concat());
+    assert!(!text(&quiet.stderr).contains("stops"));
+    eprintln!("automatic: {told:?} stops, the same picture when typed");
+}
+
 /// What is said of a picture's light is said of it as it is exposed.
 #[test]
 fn warnings_know_the_exposure() {

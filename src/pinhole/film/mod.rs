@@ -68,6 +68,6 @@ pub use reproject::History;
 #[doc(hidden)]
 pub use splats::{FilmSplats, SplatFilter};
 #[doc(hidden)]
-pub use tone::tone_mapped;
+pub use tone::{stops_of, tone_mapped};
 #[doc(hidden)]
 pub use whole_file::{check_place, may_be_written, remove_own, set_aside, write_whole, writes_in_progress};

@@ -44,12 +44,22 @@ impl Exposed {
         Self { scale: automatic * libm::exp2(exposure.stops), tone_mapping }
     }
 
+    /// By how many stops radiance is multiplied.
+    pub fn stops(&self) -> f64 {
+        libm::log2(self.scale)
+    }
+
     /// The light of a pixel, each component from 0 on; above 1 is as bright as 1.
     #[inline(always)]
     pub fn light(&self, mean: [f32; 3]) -> [f32; 3] {
         let light = mean.map(|part| f64::from(part) * self.scale);
         tone_mapped(light, self.tone_mapping).map(shown)
     }
+}
+
+/// By how many stops an exposure multiplies a film's radiance, with those that an automatic one finds.
+pub fn stops_of(film: &Film, exposure: Exposure) -> f64 {
+    Exposed::of_film(film, exposure, ToneMapping::None).stops()
 }
 
 /// The log-mean luminance that an automatic exposure brings to this: the key of a normal scene (Reinhard et al. 2002).

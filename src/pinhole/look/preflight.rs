@@ -118,7 +118,7 @@ fn by_pilot(scene: &Census<'_>, pilot: &Pilot, shapes: &ShapeTable, samples: f64
                 "the camera is in glass whose index of refraction is {ior}, where radiance is {:.3} times that outside",
                 ior * ior
             ),
-            None => "dimmer lights avoid it".into(),
+            None => "dimmer lights or fewer stops of exposure avoid it".into(),
         };
         warnings.push(format!(
             "{:.0} % of the test rays return more than white, which a PNG clips: the EXR keeps it, and {why}",
@@ -185,12 +185,12 @@ pub(super) fn exposure_factor(exposure: Exposure) -> f64 {
 /// seen.
 pub fn looks_black(brightest: f64, exposure: Exposure) -> Option<String> {
     let exposed = brightest * exposure_factor(exposure);
-    (exposed <= LOOKS_BLACK).then(|| {
+    (exposed > 0.0 && exposed <= LOOKS_BLACK).then(|| {
         let byte = (255.0 * srgb_from_linear(exposed)).round();
-        let factor = two_digits(1.0 / exposed);
+        let (factor, stops) = (two_digits(1.0 / exposed), libm::ceil(-libm::log2(exposed)));
         format!(
             "its brightest parts have a radiance of about {brightest:.1e}, {byte} of 255 in a PNG; lights {factor} times \
-             as bright would bring them to white"
+             as bright, or {stops} more stops of exposure, would bring them to white"
         )
     })
 }

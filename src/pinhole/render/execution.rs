@@ -146,7 +146,7 @@ pub struct Rendered {
 }
 
 impl Rendered {
-    /// Writes the picture: a PNG by its [curve](Self::curve) for a name that ends in `.png`, linear OpenEXR for every
+    /// Writes the picture: a PNG by its [curve](method@Self::curve) for a name that ends in `.png`, linear OpenEXR for every
     /// other.
     ///
     /// Errors: the path and what the system said; no part of a file is left behind.

@@ -21,7 +21,7 @@ const FOV: Degrees = Degrees(36.0);
 const FILLED: f64 = 0.9;
 
 /// What is said of the exposure.
-const EXPOSED: &str = "the picture is exposed by";
+const EXPOSED: &str = "its camera is given";
 /// The greatest aspect ratio that a picture takes from a camera.
 const MAX_OBLONG: f64 = 20.0;
 
@@ -78,8 +78,8 @@ impl ModelScene {
         let exposure = exposure(&model.model);
         if !model.model.lights.is_empty() {
             said.push(format!(
-                "{EXPOSED} {:.1} stops, for a white surface at the model's centre to be white (--exposure 0 leaves its light \
-                 as the file says)",
+                "{EXPOSED} {:.1} stops of exposure, for a white surface at the model's centre to be white; --exposure gives \
+                 it others",
                 stops_of(exposure)
             ));
         }
