@@ -4,12 +4,16 @@
 mod attacks;
 #[path = "view/browser.rs"]
 mod browser;
+#[path = "view/desk.rs"]
+mod desk;
 #[path = "view/kept.rs"]
 mod kept;
 #[path = "view/page.rs"]
 mod page;
 #[path = "view/scanner.rs"]
 mod scanner;
+#[path = "view/shown.rs"]
+mod shown;
 
 use std::ffi::OsString;
 use std::fs;

@@ -1,6 +1,6 @@
 use super::called::called;
 use super::format::Format;
-use super::options::{MAX_PARTS, RenderOptions, STYLES, SamplingOptions, SceneOptions, pixel, size};
+use super::options::{MAX_PARTS, RenderOptions, STYLES, SamplingOptions, SceneOptions, pixel, size, workers};
 use super::report_arguments::{MeasureAnew, ReportErrors};
 use super::span::span;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -385,6 +385,12 @@ pub struct ViewScene {
     /// How many pixels the image has: 960x540, 1080p, a width alone such as 960, or a part such as 50%
     #[arg(long, value_name = "SIZE", allow_hyphen_values = true, value_parser = size)]
     pub size: Option<Size>,
+    /// How many workers render at most (default: RAYON_NUM_THREADS, or as many as the machine has cores)
+    #[arg(short = 'j', long, value_name = "N", allow_hyphen_values = true, value_parser = workers)]
+    pub threads: Option<u16>,
+    /// A picture of the same size to compare with: .exr, or .png, which holds 8 bits and nothing brighter than white
+    #[arg(long, value_name = "FILE")]
+    pub reference: Option<PathBuf>,
     /// The port of this machine to be answered at (default: one that is free)
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     pub port: u16,

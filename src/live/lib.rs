@@ -17,4 +17,4 @@ pub use answer::Answer;
 pub use guard::Guard;
 pub use http::{LONGEST_HEAD, MAX_CONNECTIONS, PATIENCE, start};
 #[cfg(feature = "view")]
-pub use view::{FrameSource, LiveFigure, MODES, Mode, Progress, Scene, Shot, View};
+pub use view::{FrameSource, LiveFigure, MODES, Mode, Progress, Reference, Scene, Shot, Showing, View};

@@ -108,7 +108,8 @@ impl Browser {
             "Runtime.consoleAPICalled" => params["type"] == "error",
             // A refusal is an answer, which the page shows.
             "Log.entryAdded" => {
-                params["entry"]["level"] == "error" && !params["entry"]["text"].to_string().contains("422")
+                let is_refusal = |status| params["entry"]["text"].to_string().contains(status);
+                params["entry"]["level"] == "error" && !is_refusal("422") && !is_refusal("400")
             }
             _ => false,
         };
@@ -154,8 +155,13 @@ impl Browser {
     }
 
     /// Turns the wheel at a point of the window.
-    pub fn wheel(&mut self, [x, y]: [f64; 2], by: f64) {
-        let params = json!({ "type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": by });
+    pub fn wheel(&mut self, at: [f64; 2], by: f64) {
+        self.wheel_with(at, by, 0);
+    }
+
+    /// The same with keys held.
+    pub fn wheel_with(&mut self, [x, y]: [f64; 2], by: f64, modifiers: u32) {
+        let params = json!({ "type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": by, "modifiers": modifiers });
         self.call("Input.dispatchMouseEvent", &params);
     }
 
@@ -163,6 +169,22 @@ impl Browser {
     pub fn key(&mut self, text: &str) {
         for kind in ["keyDown", "keyUp"] {
             self.call("Input.dispatchKeyEvent", &json!({ "type": kind, "key": text, "text": text }));
+        }
+    }
+
+    /// Presses a key that types nothing, with other keys held.
+    pub fn press(&mut self, key: &str, modifiers: u32) {
+        for kind in ["rawKeyDown", "keyUp"] {
+            self.call("Input.dispatchKeyEvent", &json!({ "type": kind, "key": key, "modifiers": modifiers }));
+        }
+    }
+
+    /// Presses a digit by its place on the keyboard.
+    pub fn digit(&mut self, digit: char, modifiers: u32) {
+        for kind in ["rawKeyDown", "keyUp"] {
+            let code = format!("Digit{digit}");
+            let params = json!({ "type": kind, "key": digit.to_string(), "code": code, "modifiers": modifiers });
+            self.call("Input.dispatchKeyEvent", &params);
         }
     }
 

@@ -20,7 +20,7 @@ impl Viewing {
     }
 
     /// The status and the body of the answer to an order.
-    fn order(&self, order: &Value) -> (u16, String) {
+    pub fn order(&self, order: &Value) -> (u16, String) {
         let (body, host, token) = (order.to_string(), self.host(), self.token());
         let head = format!(
             "POST /{token}/order HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\nContent-Length: {}\r\n\r\n",
@@ -31,11 +31,11 @@ impl Viewing {
         (status, answer.split_once("\r\n\r\n").map_or(String::new(), |(_, body)| body.to_owned()))
     }
 
-    fn sheet(&self) -> Value {
+    pub fn sheet(&self) -> Value {
         serde_json::from_slice(&self.get("sheet")).expect("JSON")
     }
 
-    fn text(&self) -> String {
+    pub fn text(&self) -> String {
         self.sheet()["text"].as_str().expect("a text").to_owned()
     }
 }

@@ -11,10 +11,10 @@ use std::time::{Duration, Instant};
 
 /// The pixels of the picture, as a text that differs where they do.
 const PIXELS: &str = "document.getElementById('picture').toDataURL()";
-const DONE: &str = "document.body?.dataset.done === 'true'";
+pub const DONE: &str = "document.body?.dataset.done === 'true'";
 
 /// The page of a scene once its picture is complete.
-fn opened(viewing: &Viewing) -> Option<Browser> {
+pub fn opened(viewing: &Viewing) -> Option<Browser> {
     let Some(mut browser) = Browser::open(&viewing.address) else {
         eprintln!("no Chromium is installed, so the page is not looked at");
         return None;
@@ -24,18 +24,18 @@ fn opened(viewing: &Viewing) -> Option<Browser> {
 }
 
 /// The picture once it is complete again after a change.
-fn next_picture(browser: &mut Browser, change: impl FnOnce(&mut Browser)) -> String {
+pub fn next_picture(browser: &mut Browser, change: impl FnOnce(&mut Browser)) -> String {
     let before = browser.number("document.body.dataset.change");
     change(browser);
     browser.until(&format!("Number(document.body.dataset.change) > {before} && {DONE}"));
     picture(browser)
 }
 
-fn picture(browser: &mut Browser) -> String {
+pub fn picture(browser: &mut Browser) -> String {
     browser.value(PIXELS).as_str().expect("a picture").to_owned()
 }
 
-fn middle(browser: &mut Browser) -> [f64; 2] {
+pub fn middle(browser: &mut Browser) -> [f64; 2] {
     let part = |side: &str, size: &str| {
         format!(
             "(() => {{ const r = document.getElementById('picture').getBoundingClientRect(); return r.{side} + r.{size} / 2; }})()"
@@ -45,7 +45,7 @@ fn middle(browser: &mut Browser) -> [f64; 2] {
 }
 
 /// Drags from a point in steps, and waits for each step's frame; returns the milliseconds from input to frame.
-fn drag(browser: &mut Browser, [x, y]: [f64; 2], step: [f64; 2], steps: u32, modifiers: u32) -> Vec<f64> {
+pub fn drag(browser: &mut Browser, [x, y]: [f64; 2], step: [f64; 2], steps: u32, modifiers: u32) -> Vec<f64> {
     let mut took = Vec::new();
     browser.mouse("mousePressed", [x, y], "left", modifiers);
     for number in 1..=steps {
@@ -59,7 +59,7 @@ fn drag(browser: &mut Browser, [x, y]: [f64; 2], step: [f64; 2], steps: u32, mod
     took
 }
 
-fn told(what: &str, mut took: Vec<f64>) -> f64 {
+pub fn told(what: &str, mut took: Vec<f64>) -> f64 {
     took.sort_by(f64::total_cmp);
     let median = took[took.len() / 2];
     let (max, count) = (took[took.len() - 1], took.len());

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 /// The part of the page's script that finds entities, and what prints what it found in the text on standard input.
 fn script() -> String {
-    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/live/view/page/view.js"))
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/live/view/page/text.js"))
         .expect("the page's script");
     let begin = page.find("/** Where what begins at a place").expect("its beginning");
     let end = page.find("const NUMBERS").expect("its end");

@@ -11,14 +11,18 @@ use super::format::{Format, print_json};
 use super::streams::Streams;
 use super::subject::Subject;
 use crate::command::warnings::notes;
+use pinhole::film::linear_from_srgb;
 use pinhole::plan::Census;
+use pinhole::scene::printable_path;
 use pinhole::{Chapter, Overrides};
-use pinhole_live::View;
+use pinhole_lab::measure::image_file::{ImageKind, read_numbers};
+use pinhole_live::{Reference, Showing, View};
 use scene::ViewedScene;
 use serde_json::json;
 use std::ffi::OsStr;
 use std::io::ErrorKind;
 use std::net::TcpListener;
+use std::path::Path;
 use std::rc::Rc;
 
 /// Shows a scene at an address of this machine, until the program is stopped.
@@ -33,6 +37,7 @@ pub fn view(chapters: &[Chapter], asked: &ViewScene, format: Format, streams: &m
     }
     let subject = Subject::find(chapters, name)?;
     let shown = subject.shown();
+    let reference = asked.reference.as_deref().map(reference).transpose()?;
     let listener = listen(asked.port)?;
     if !format.is_json() {
         // What cannot be rendered is said on the page.
@@ -40,7 +45,8 @@ pub fn view(chapters: &[Chapter], asked: &ViewScene, format: Format, streams: &m
         notes(&Census::of(&world)).unwrap_or_default().iter().try_for_each(|note| streams.note(note))?;
     }
     let scene = Rc::new(ViewedScene::of(subject));
-    let view = View::open(scene, asked.size, listener).map_err(Error::usage)?;
+    let showing = Showing { size: asked.size, threads: asked.threads.map(usize::from), reference };
+    let view = View::open(scene, showing, listener).map_err(Error::usage)?;
     let address = &view.address;
     if format.is_json() {
         print_json(&json!({ "address": address }), streams.out)?;
@@ -52,6 +58,15 @@ pub fn view(chapters: &[Chapter], asked: &ViewScene, format: Format, streams: &m
     streams.out.flush()?;
     view.run();
     Ok(())
+}
+
+/// A picture from a file, as light.
+fn reference(file: &Path) -> Result<Reference> {
+    let kind = ImageKind::of(file).map_err(Error::usage)?;
+    let numbers = read_numbers(file).map_err(Error::usage)?;
+    let light = |part: f64| if kind == ImageKind::Png { linear_from_srgb(part) } else { part };
+    let means = numbers.pixels.iter().map(|pixel| pixel.map(|part| light(part) as f32)).collect();
+    Ok(Reference { name: printable_path(file), size: numbers.size, means })
 }
 
 fn listen(port: u16) -> Result<TcpListener> {

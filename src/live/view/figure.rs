@@ -26,7 +26,8 @@ impl LiveFigure {
     pub fn png(&mut self, samples: u32, watch: &dyn Watch) -> pinhole::Result<Option<Vec<u8>>> {
         let Some((scene, offer)) = &self.shown else { return Ok(None) };
         loop {
-            let shot = Shot { scene, offer, changed: self.changed, patience: Duration::ZERO, gathers: false };
+            let shot =
+                Shot { scene, offer, changed: self.changed, patience: Duration::ZERO, gathers: false, region: None };
             match self.source.film(&shot, watch) {
                 Ok(progress) if progress.is_done() || progress.samples[0] >= samples => break,
                 Ok(_) => self.changed = false,
@@ -39,6 +40,6 @@ impl LiveFigure {
             }
         }
         self.changed = false;
-        Ok(self.source.last(0).map(|(film, curve)| png_bytes(&film, curve)).transpose()?)
+        Ok(self.source.picture(0).map(|picture| png_bytes(picture.film, picture.curve)).transpose()?)
     }
 }

@@ -6,6 +6,7 @@ use pinhole::Result;
 use pinhole::extract::{camera_entity, world_from_entity};
 use pinhole::plan::Census;
 use pinhole::scene::{ChildOf, LookAt, Motion, OrthographicCamera, PerspectiveCamera, Placement};
+use serde::{Deserialize, Serialize};
 
 /// Half a turn in radians, for a drag across the whole height of the picture.
 const TURN: f64 = std::f64::consts::PI;
@@ -34,6 +35,17 @@ enum Extent {
     Fixed(f64),
 }
 
+/// A camera as an address carries it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraAt {
+    eye: [f64; 3],
+    target: [f64; 3],
+    up: [f64; 3],
+    /// The height of what is seen at the target; only an orthographic camera takes it.
+    height: f64,
+}
+
 impl Orbit {
     /// The scene's camera, which turns around a point at this distance, or around the point that it looks at.
     ///
@@ -53,6 +65,24 @@ impl Orbit {
         let fov = scene.get::<PerspectiveCamera>(camera).map_or(60.0, |own| own.fov.0);
         let over_distance = || Extent::OverDistance(2.0 * libm::tan(fov.to_radians().min(3.0) / 2.0));
         Ok(Self { eye, target, up, extent: fixed.unwrap_or_else(over_distance) })
+    }
+
+    /// As an address carries it.
+    pub fn at(&self) -> CameraAt {
+        let [eye, target, up] = [self.eye, self.target, self.up].map(|own| own.to_array());
+        CameraAt { eye, target, up, height: self.view_height() }
+    }
+
+    /// The same camera there; none where it could not stand.
+    pub fn put_at(self, there: &CameraAt) -> Option<Self> {
+        let [eye, target, up] = [there.eye, there.target, there.up].map(DVec3::from);
+        let extent = match self.extent {
+            Extent::Fixed(_) => Extent::Fixed(there.height),
+            own @ Extent::OverDistance(_) => own,
+        };
+        let own = Self { eye, target, up: up.try_normalize()?, extent };
+        let sideways = own.up.cross((eye - target).try_normalize()?).length();
+        (own.is_in_range() && sideways > libm::sin(STEEPEST) / 2.0).then_some(own)
     }
 
     /// Turns around the target: by fractions of the picture's height, to the right and down.

@@ -1,4 +1,6 @@
 use super::attention::Attention;
+use super::look::{Look, PageSize, Region};
+use super::orbit::CameraAt;
 use crate::answer::Answer;
 use serde::Deserialize;
 use std::sync::Arc;
@@ -19,10 +21,27 @@ pub enum Order {
     Focus([f64; 2]),
     /// Go back to the camera as the scene says.
     Reset,
+    /// Put the camera there.
+    Camera(CameraAt),
+    /// Take the last movement or edit back.
+    Undo,
+    /// Take that back in turn.
+    Redo,
     /// Render as the mode of this key does.
     Mode(char),
-    /// Paint this column, or the picture again.
+    /// Paint this column, a component of it such as `ndc.x`, a number of the picture such as `.luminance`, or the picture
+    /// again.
     Column(Option<String>),
+    /// Show the film so.
+    Look(Look),
+    /// Keep the picture as the reference, or forget the reference.
+    Reference(bool),
+    /// Take no further samples, or go on.
+    Pause(bool),
+    /// Take further samples within this part of the picture alone, or everywhere.
+    Region(Option<Region>),
+    /// Render so many pixels, or as many as the scene or the command line says.
+    Size(Option<PageSize>),
     /// Offer a stage, or take it out of the offer.
     Stage(String, bool),
     /// Show the scene of this text.
@@ -33,6 +52,8 @@ pub enum Order {
     PutView,
     /// Say what every stage wrote for the pixel at a point of the picture.
     Trace([f64; 2]),
+    /// Read these pixels with every frame from now on, and say now what their rays hit.
+    Pin(Vec<[f64; 2]>),
     /// Say what can be chosen and what is chosen.
     Sheet,
     /// Encode the picture so far.

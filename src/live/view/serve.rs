@@ -1,3 +1,4 @@
+use super::colours::VIRIDIS;
 use super::order::{Kind, Order, Orders};
 use super::shown::Shown;
 use crate::answer::Answer;
@@ -7,6 +8,7 @@ use http_body_util::{BodyExt, Limited};
 use hyper::body::Incoming;
 use hyper::header::{self, HeaderValue};
 use hyper::{Method, Request, StatusCode};
+use pinhole::scene::printable;
 use std::time::Duration;
 use tokio::sync::watch;
 use tokio::time::timeout;
@@ -19,11 +21,20 @@ const WAIT_FOR_FRAME: Duration = Duration::from_secs(4);
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self'; \
                       base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 const HTML: &str = "text/html; charset=utf-8";
+const JAVASCRIPT: &str = "text/javascript; charset=utf-8";
+/// The most letters of a mistake in an order that are told.
+const LONGEST_MISTAKE: usize = 400;
 
 /// The page and what it is made of.
-const PAGE: [(&str, &str, &str); 4] = [
+const PAGE: [(&str, &str, &str); 10] = [
     ("", HTML, include_str!("page/view.html")),
-    ("view.js", "text/javascript; charset=utf-8", include_str!("page/view.js")),
+    ("view.js", JAVASCRIPT, include_str!("page/view.js")),
+    ("camera.js", JAVASCRIPT, include_str!("page/camera.js")),
+    ("look.js", JAVASCRIPT, include_str!("page/look.js")),
+    ("pixel.js", JAVASCRIPT, include_str!("page/pixel.js")),
+    ("text.js", JAVASCRIPT, include_str!("page/text.js")),
+    ("keys.js", JAVASCRIPT, include_str!("page/keys.js")),
+    ("viridis", "text/plain; charset=utf-8", VIRIDIS),
     ("view.css", "text/css; charset=utf-8", include_str!("page/view.css")),
     ("icon.svg", "image/svg+xml", include_str!("page/icon.svg")),
 ];
@@ -105,7 +116,12 @@ impl Desk {
         };
         match serde_json::from_slice(&body.to_bytes()) {
             Ok(order) => self.ask(order).await,
-            Err(_) => Answer::plain(StatusCode::BAD_REQUEST, "there is no such order"),
+            Err(mistake) => {
+                let mistake = mistake.to_string();
+                // An order is one line, of which the place says nothing.
+                let what = mistake.split(" at line ").next().unwrap_or_default();
+                Answer::plain(StatusCode::BAD_REQUEST, format!("no such order: {}", printable(what, LONGEST_MISTAKE)))
+            }
         }
     }
 

@@ -1,5 +1,8 @@
+use super::look::{Look, Region};
 use super::modes::MODES;
-use pinhole::plan::{Plan, PlanRow};
+use super::orbit::CameraAt;
+use super::painted::{ColumnRow, QUANTITIES};
+use pinhole::plan::PlanRow;
 use serde::Serialize;
 
 /// What can be chosen on the page, and what is chosen.
@@ -16,9 +19,29 @@ pub struct Sheet {
     /// The key of the chosen mode.
     pub mode: char,
     /// The columns that can be painted.
-    pub columns: Vec<&'static str>,
-    /// The one that is painted.
+    pub columns: Vec<ColumnRow>,
+    /// The numbers of the picture that can be, each with its unit.
+    pub quantities: Vec<(&'static str, &'static str)>,
+    /// What is painted, as an order names it.
     pub column: Option<String>,
+    /// The curves by their words.
+    pub curves: Vec<&'static str>,
+    /// How the film is shown.
+    pub look: Look,
+    /// What it can be compared with.
+    pub reference: Option<String>,
+    /// Whether no further samples are taken.
+    pub paused: bool,
+    /// Where alone further samples are taken.
+    pub region: Option<Region>,
+    /// Whether the page has asked for a size.
+    pub fills: bool,
+    /// The pixels that are read with every frame.
+    pub pins: Vec<[f64; 2]>,
+    /// The camera where it has been moved.
+    pub camera: Option<CameraAt>,
+    /// How many steps can be taken back, and forward again.
+    pub undo: [usize; 2],
     /// The stages on offer, and those taken out of it.
     pub stages: Vec<StageRow>,
     /// The number of changes so far.
@@ -51,7 +74,7 @@ pub fn modes() -> Vec<(char, &'static str)> {
     MODES.iter().map(|mode| (mode.key, mode.name)).collect()
 }
 
-/// The columns of a plan that can be painted.
-pub fn columns(plan: &Plan) -> Vec<&'static str> {
-    plan.columns.iter().filter(|column| column.is_viewed()).map(|column| column.name).collect()
+/// The numbers of the picture, each with its unit.
+pub fn quantities() -> Vec<(&'static str, &'static str)> {
+    QUANTITIES.iter().map(|&(name, _, unit)| (name, unit)).collect()
 }

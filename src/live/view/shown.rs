@@ -1,7 +1,9 @@
+use super::develop::Scale;
+use super::reading::Reading;
 use hyper::body::Bytes;
 use serde::Serialize;
 
-/// What a page is head beside the pixels of a frame.
+/// What a page is told beside the pixels of a frame.
 #[derive(Serialize)]
 pub struct FrameHead<'a> {
     /// The frame's number, from 1.
@@ -16,11 +18,17 @@ pub struct FrameHead<'a> {
     pub milliseconds: f64,
     /// What the stages took for it, each by its name, in milliseconds summed over the workers.
     pub stages: Vec<(&'a str, f64)>,
+    /// What the colours of false colour mean.
+    pub scale: Option<Scale>,
+    /// How far the picture is from the reference.
+    pub rel_mse: Option<f64>,
+    /// The pixel under the pointer, and those that are pinned.
+    pub pixels: Vec<Option<Reading>>,
     /// Why there is no newer picture.
     pub error: Option<String>,
 }
 
-/// A frame as it is sent: the length of what is head, that as JSON, and the pixels, 8-bit RGBA row by row.
+/// A frame as it is sent: the length of what is told, that as JSON, and the pixels, 8-bit RGBA row by row.
 #[derive(Clone, Default)]
 pub struct Shown {
     /// The frame's number; 0 before the first.

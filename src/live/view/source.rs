@@ -1,13 +1,14 @@
+use super::develop::Picture;
 use bevy_ecs::prelude::World;
 use glam::DVec3;
 use pinhole::extract::{camera_entity, eye};
-use pinhole::film::{Curve, Film, History, rgba_bytes, rgba_of};
+use pinhole::film::{Film, History};
 use pinhole::plan::{Census, Plan, Stage};
 use pinhole::rasterise::Projection;
+use pinhole::rays::Tile;
 use pinhole::render::{Execution, Lap, RenderInProgress, Watch, samples_after, steps_of};
 use pinhole::scene::Resolution;
 use pinhole::{Error, Result};
-use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
 /// Where frames come from: one render at a time, which a change of the scene replaces.
@@ -19,6 +20,8 @@ pub struct FrameSource {
     laps: Vec<Lap>,
     /// What the frame before the last change has gathered, and what the last frame has.
     gathered: [Option<Gathered>; 2],
+    /// How each render is executed.
+    execution: Execution,
 }
 
 /// Radiance with its surfaces, and where it was seen from.
@@ -58,26 +61,36 @@ pub struct Shot<'a> {
     pub patience: Duration,
     /// Whether a frame takes over what earlier ones know of the same surfaces.
     pub gathers: bool,
+    /// The pixels that take further samples than their first, from left and top to right and bottom; none for all.
+    pub region: Option<[u32; 4]>,
+}
+
+impl Shot<'_> {
+    fn is_refined(&self, tile: &Tile) -> bool {
+        self.region.is_none_or(|[left, top, right, bottom]| {
+            tile.x < right && tile.y < bottom && tile.x + tile.width > left && tile.y + tile.height > top
+        })
+    }
 }
 
 /// How far a picture is.
 pub struct Progress<'r> {
     /// The plan that it is rendered by.
     pub plan: &'r Plan,
-    /// The curve that turns the film into a picture.
-    pub curve: Curve,
-    /// The film so far.
-    pub film: &'r Film,
     /// The samples of each pixel so far, and those that the camera asks for.
     pub samples: [u32; 2],
     /// What each kept stage took since the last frame, summed over the workers.
     pub laps: Vec<Lap>,
     /// How long the stages ran, from the first tile to the last.
     pub time: Duration,
-    gathered: Option<&'r History>,
 }
 
 impl FrameSource {
+    /// One whose renders are executed so.
+    pub fn new(execution: Execution) -> Self {
+        Self { execution, ..Self::default() }
+    }
+
     /// The next frame of a scene: its first samples, or what further samples make of the last frame.
     ///
     /// Errors: an invalid scene, no plan, or that the observer stopped it; the samples so far are then kept.
@@ -94,7 +107,7 @@ impl FrameSource {
             None => {
                 self.laps.clear();
                 self.begun_with = pixels;
-                RenderInProgress::begin(&scene(), shot.offer, &Execution::default())?
+                RenderInProgress::begin(&scene(), shot.offer, &self.execution)?
             }
             Some(mut render) => {
                 if shot.changed {
@@ -105,10 +118,20 @@ impl FrameSource {
         };
         let render = self.render.insert(begun);
         let (before, last, end) = (render.time(), render.steps(), Instant::now() + shot.patience);
-        let mut step = render.film.done.iter().copied().min().unwrap_or(0).max(steps_of(1) - 1);
+        let refined = render.film.tiles.iter().zip(&render.film.done).filter(|(own, _)| shot.is_refined(&own.tile));
+        let mut step = refined.map(|(_, &done)| done).min().unwrap_or(0).max(steps_of(1) - 1);
         while step < last {
             step += 1;
-            render.advance(step, watch)?;
+            // Where nothing is to be refined, a tile is taken to have had all of its steps.
+            let mut kept = Vec::new();
+            if step > steps_of(1) && shot.region.is_some() {
+                for (at, _) in render.film.tiles.iter().enumerate().filter(|(_, own)| !shot.is_refined(&own.tile)) {
+                    kept.push((at, std::mem::replace(&mut render.film.done[at], u32::MAX)));
+                }
+            }
+            let advanced = render.advance(step, watch);
+            kept.into_iter().for_each(|(at, done)| render.film.done[at] = done);
+            advanced?;
             if Instant::now() > end || !render.is_sampled() {
                 break;
             }
@@ -131,16 +154,7 @@ impl FrameSource {
             Some(earlier) => own.with_earlier(earlier),
             None => own,
         });
-        let gathered = self.gathered[1].as_ref().map(|gathered| &gathered.history);
-        Ok(Progress {
-            plan: &render.plan,
-            curve: render.curve,
-            film: &render.film,
-            samples,
-            laps,
-            time: render.time() - before,
-            gathered,
-        })
+        Ok(Progress { plan: &render.plan, samples, laps, time: render.time() - before })
     }
 
     /// Forgets what earlier frames have gathered, since the scene is another.
@@ -148,15 +162,13 @@ impl FrameSource {
         self.gathered = [None, None];
     }
 
-    /// The film so far, if there is one; with levels, as the page shows it.
-    pub fn last(&self, levels: u32) -> Option<(Cow<'_, Film>, Curve)> {
+    /// The film so far, if there is one; with levels, through so many of the denoiser where the frame gathers what it
+    /// needs.
+    pub fn picture(&self, levels: u32) -> Option<Picture<'_>> {
         let render = self.render.as_ref()?;
         let gathered = self.gathered[1].as_ref().filter(|_| levels > 0);
-        let film = match gathered {
-            Some(Gathered { history, .. }) => Cow::Owned(denoised_film(history, &render.film, levels)),
-            None => Cow::Borrowed(&render.film),
-        };
-        Some((film, render.curve))
+        let denoised = gathered.map(|gathered| denoised(&gathered.history, levels));
+        Some(Picture { film: &render.film, denoised, curve: render.curve })
     }
 
     /// The plan of the last frame.
@@ -170,13 +182,6 @@ impl Progress<'_> {
     pub fn is_done(&self) -> bool {
         self.samples[0] >= self.samples[1]
     }
-
-    /// The picture, 8-bit RGBA, through so many levels of the denoiser where the frame gathers what it needs.
-    pub fn pixels(&self, levels: u32) -> Vec<u8> {
-        let curve = self.curve;
-        self.gathered
-            .map_or_else(|| rgba_bytes(self.film, curve), |gathered| rgba_of(&denoised(gathered, levels), curve))
-    }
 }
 
 /// The radiance that a frame has gathered, smoothed in so many levels.
@@ -185,19 +190,6 @@ impl Progress<'_> {
 fn denoised(gathered: &History, levels: u32) -> [Vec<f32>; 3] {
     let samples = gathered.mean_samples().max(1.0) as u32;
     gathered.denoised(levels.saturating_sub(samples.ilog2() / 2))
-}
-
-/// The same as a film with one sample of each pixel.
-fn denoised_film(gathered: &History, of: &Film, levels: u32) -> Film {
-    let radiance = denoised(gathered, levels);
-    let mut film = Film::new(of.width, of.height, of.tile_side);
-    for tile in &mut film.tiles {
-        for row in 0..tile.tile.rows() {
-            let [x, y] = tile.tile.pixel_of(row);
-            tile.add(row, radiance.each_ref().map(|part| part[(y * of.width + x) as usize]));
-        }
-    }
-    film
 }
 
 /// Whether an error says no more than that the observer stopped the frame.

@@ -1,9 +1,11 @@
 //! The pixel under the pointer, through all spaces.
 
+use super::reading::Reading;
 use bevy_ecs::prelude::World;
 use glam::DVec3;
+use pinhole::film::PixelErrors;
 use pinhole::intersect::Surfaces;
-use pinhole::look::{Recorded, Trace};
+use pinhole::look::{Recorded, Trace, ViewComponent};
 use pinhole::plan::{ComponentNumber, Stage};
 use pinhole::scene::{Integrator, TracePixel, View};
 use pinhole::{extract, look, plan};
@@ -18,6 +20,8 @@ const LAST_BOUNCE: u32 = 7;
 pub struct Traced {
     pixel: [u32; 2],
     columns: Vec<Written>,
+    /// What the film has of it.
+    reading: Option<Reading>,
 }
 
 #[derive(Serialize)]
@@ -38,6 +42,8 @@ struct Written {
 pub fn trace(scene: &mut World, offer: &[Stage], [x, y]: [u32; 2]) -> pinhole::Result<Trace> {
     let camera = extract::camera_entity(scene)?;
     let view = scene.entity_mut(camera).take::<View>();
+    let component = scene.entity_mut(camera).take::<ViewComponent>();
+    let errors = scene.entity_mut(camera).take::<PixelErrors>();
     let integrator = scene.get::<Integrator>(camera).copied();
     if let Some(
         Integrator::Path { max_depth, .. } | Integrator::Whitted { max_depth } | Integrator::Distribution { max_depth },
@@ -49,9 +55,10 @@ pub fn trace(scene: &mut World, offer: &[Stage], [x, y]: [u32; 2]) -> pinhole::R
     if let Some(integrator) = integrator {
         scene.entity_mut(camera).insert(integrator);
     }
-    if let Some(view) = view {
-        scene.entity_mut(camera).insert(view);
-    }
+    let mut camera = scene.entity_mut(camera);
+    view.into_iter().for_each(|own| _ = camera.insert(own));
+    component.into_iter().for_each(|own| _ = camera.insert(own));
+    errors.into_iter().for_each(|own| _ = camera.insert(own));
     trace
 }
 
@@ -68,9 +75,16 @@ pub fn surface(trace: &Trace) -> Option<DVec3> {
     point.is_finite().then_some(point)
 }
 
+/// The name of the first shape that a pixel's ray hits.
+pub fn entity(trace: &Trace) -> Option<String> {
+    let of_camera_ray = trace.stages.iter().rev().filter(|recorded| recorded.depth == 0);
+    let mut shapes = of_camera_ray.flat_map(|recorded| &recorded.rows).flatten().filter(|(name, _)| *name == "shape");
+    shapes.find_map(|&(_, number)| trace.shape_name(number).map(|name| name.trim_matches('"').to_owned()))
+}
+
 impl Traced {
     /// Of a column that several stages wrote at one bounce, the last is what light goes on with.
-    pub fn of(trace: &Trace) -> Self {
+    pub fn of(trace: &Trace, reading: Option<Reading>) -> Self {
         let mut last = HashMap::new();
         for (at, recorded) in trace.stages.iter().enumerate() {
             last.insert((recorded.depth, recorded.column.id), at);
@@ -81,7 +95,7 @@ impl Traced {
             is_last && !listing && recorded.depth <= LAST_BOUNCE
         });
         let columns = shown.map(|(_, recorded)| Written::of(trace, recorded)).collect();
-        Self { pixel: [trace.pixel.x, trace.pixel.y], columns }
+        Self { pixel: [trace.pixel.x, trace.pixel.y], columns, reading }
     }
 }
 

@@ -1,19 +1,24 @@
+use super::Showing;
 use super::attention::Attention;
+use super::look::{Look, PageSize, Region, ShownBy};
 use super::memory::check_frames_fit;
 use super::modes::{MODES, every_stage};
 use super::orbit::Orbit;
 use super::order::{Letter, Order};
 use super::pace::Pace;
-use super::paint::paint;
+use super::painted::{ColumnRow, Painted, paint};
+use super::reference::Reference;
 use super::scene::Scene;
-use super::sheet::{Sheet, StageRow, modes};
+use super::sheet::{Sheet, StageRow, modes, quantities};
 use super::shown::{FrameHead, Shown};
 use super::source::{FrameSource, Shot, was_stopped};
 use super::traced::{self, Traced};
+use super::undo::{Step, Undo};
 use crate::answer::Answer;
 use bevy_ecs::prelude::World;
 use pinhole::extract::camera_entity;
 use pinhole::plan::{Census, Stage};
+use pinhole::render::Execution;
 use pinhole::scene::{Resolution, Statistics, View};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -23,6 +28,8 @@ use tokio::sync::watch;
 
 /// How long samples are taken before the next frame is shown, so that showing them costs little.
 const BETWEEN_FRAMES: Duration = Duration::from_millis(60);
+/// How many times as long, where showing a frame takes long itself.
+const SAMPLES_TO_SHOWING: u32 = 4;
 /// How often someone looks whether the camera has come to rest, or a page is open.
 const LOOK_AGAIN: Duration = Duration::from_millis(20);
 
@@ -31,7 +38,24 @@ const LOOK_AGAIN: Duration = Duration::from_millis(20);
 struct Choice {
     scene: Rc<dyn Scene>,
     mode: usize,
-    column: Option<String>,
+    painted: Painted,
+    taken_out: Vec<&'static str>,
+}
+
+/// What is told of the last frame that was shown.
+#[derive(Clone, Default)]
+struct Told {
+    change: u64,
+    size: Option<Resolution>,
+    samples: [u32; 2],
+    milliseconds: f64,
+    stages: Vec<(&'static str, f64)>,
+}
+
+/// Where a step of the reader began.
+struct State {
+    orbit: Option<Orbit>,
+    scene: Rc<dyn Scene>,
     taken_out: Vec<&'static str>,
 }
 
@@ -46,13 +70,25 @@ pub struct Viewer {
     size: Option<pinhole::Size>,
     world: World,
     offer: Vec<Stage>,
-    columns: Vec<&'static str>,
+    columns: Vec<ColumnRow>,
     full: Resolution,
     orbit: Option<Orbit>,
+    undo: Undo<State>,
+    look: Look,
+    reference: Option<Reference>,
+    paused: bool,
+    region: Option<Region>,
+    /// The size that the page asks for.
+    fills: Option<PageSize>,
+    pointer: Option<[f64; 2]>,
+    pins: Vec<[f64; 2]>,
     source: FrameSource,
     pace: Pace,
     /// The size of the last frame; none where the next one begins anew.
     begun: Option<Resolution>,
+    told: Told,
+    /// How long it took to show the last frame.
+    presenting: Duration,
     done: bool,
     error: Option<String>,
     change: u64,
@@ -66,7 +102,7 @@ impl Viewer {
     /// Errors: the scene cannot be rendered, in one sentence.
     pub fn new(
         scene: Rc<dyn Scene>,
-        size: Option<pinhole::Size>,
+        showing: Showing,
         shown: watch::Sender<Shown>,
         attention: Arc<Attention>,
     ) -> Result<Self, String> {
@@ -74,18 +110,30 @@ impl Viewer {
         let world = scene.world();
         let camera = camera_entity(&world).map_err(|error| scene.explain(error.into()))?;
         let column = world.get::<View>(camera).map(|view| view.column.clone());
-        let choice = Choice { scene, mode: 0, column, taken_out: Vec::new() };
+        let painted = column.map_or(Painted::Picture, Painted::Column);
+        let choice = Choice { scene, mode: 0, painted, taken_out: Vec::new() };
+        let execution = Execution { threads: showing.threads, ..Execution::default() };
         let mut viewer = Self {
             choice: choice.clone(),
-            size,
+            size: showing.size,
             world: World::new(),
             offer: Vec::new(),
             columns: Vec::new(),
             full: Resolution::default(),
             orbit: None,
-            source: FrameSource::default(),
+            undo: Undo::default(),
+            look: Look::default(),
+            reference: None,
+            paused: false,
+            region: None,
+            fills: None,
+            pointer: None,
+            pins: Vec::new(),
+            source: FrameSource::new(execution),
             pace: Pace::default(),
             begun: None,
+            told: Told::default(),
+            presenting: Duration::ZERO,
             done: false,
             error: None,
             change: 0,
@@ -93,6 +141,7 @@ impl Viewer {
             attention,
         };
         viewer.choose(choice)?;
+        showing.reference.map_or(Ok(()), |reference| viewer.take_reference(reference))?;
         Ok(viewer)
     }
 
@@ -104,7 +153,8 @@ impl Viewer {
                 self.answer(letter);
             }
             let coarse = self.begun.is_some_and(|size| size != self.full);
-            let unfinished = !self.done || (coarse && !self.pace.is_moving());
+            let rests = self.done || (self.paused && self.is_shown());
+            let unfinished = !rests || (coarse && !self.pace.is_moving());
             if unfinished && self.attention.is_looked_at() {
                 self.frame();
                 continue;
@@ -138,12 +188,13 @@ impl Viewer {
         let mut camera = world.entity_mut(camera);
         camera.insert(Statistics);
         let own = camera.get::<Resolution>().copied().unwrap_or_default();
-        let full = self.size.map_or(own, |size| size.of(own));
+        let asked = self.fills.map(|PageSize([width, height])| Resolution { width, height });
+        let full = asked.unwrap_or_else(|| self.size.map_or(own, |size| size.of(own)));
         camera.insert(full);
         (MODES[choice.mode].prepare)(&mut camera);
         let stages = stages_of(&choice);
         let offer: Vec<Stage> = stages.into_iter().filter(|stage| !choice.taken_out.contains(&stage.name)).collect();
-        let (columns, plan) = paint(&mut world, &offer, choice.column.as_deref()).map_err(explain)?;
+        let (columns, plan) = paint(&mut world, &offer, &choice.painted, explain)?;
         check_frames_fit(&Census::of(&world), &plan, full, MODES[choice.mode].denoised > 0).map_err(explain)?;
         if let Some(orbit) = &self.orbit {
             orbit.put(&mut world);
@@ -168,10 +219,19 @@ impl Viewer {
         let size = Resolution { width: self.full.width.div_ceil(divisor), height: self.full.height.div_ceil(divisor) };
         let moving = divisor > 1 || self.pace.is_moving();
         self.set_size(size);
-        let patience = if moving { Duration::ZERO } else { BETWEEN_FRAMES };
+        let patience = if moving || self.paused {
+            Duration::ZERO
+        } else {
+            BETWEEN_FRAMES.max(self.presenting * SAMPLES_TO_SHOWING)
+        };
         let changed = self.begun != Some(size);
         let levels = MODES[self.choice.mode].denoised;
-        let shot = Shot { scene: &self.world, offer: &self.offer, changed, patience, gathers: levels > 0 };
+        let part = |part: f64, pixels: u32| (part * f64::from(pixels)).round() as u32;
+        let region = self.region.map(|Region([left, top, right, bottom])| {
+            let [right, bottom] = [part(right, size.width), part(bottom, size.height)];
+            [part(left, size.width).min(right - 1), part(top, size.height).min(bottom - 1), right, bottom]
+        });
+        let shot = Shot { scene: &self.world, offer: &self.offer, changed, patience, gathers: levels > 0, region };
         // A frame of a camera that moves is short, and is shown before the next movement, unless it is not so short.
         let watch = self.attention.watch(moving);
         (self.begun, self.done) = (Some(size), false);
@@ -184,17 +244,9 @@ impl Viewer {
                     self.pace.note(rendered, progress.time);
                 }
                 self.done = progress.is_done() || (moving && divisor > 1);
-                let pixels = progress.pixels(levels);
-                let head = FrameHead {
-                    frame: self.shown.borrow().frame + 1,
-                    change: self.change,
-                    size: [size.width, size.height],
-                    samples: progress.samples,
-                    milliseconds: began.elapsed().as_secs_f64() * 1e3,
-                    stages: names.zip(costs).collect(),
-                    error: None,
-                };
-                self.shown.send_replace(Shown::new(&head, &pixels));
+                let (samples, stages) = (progress.samples, names.zip(costs).collect());
+                self.told = Told { change: self.change, size: Some(size), samples, milliseconds: 0.0, stages };
+                self.present(Some(began));
             }
             Err(error) if was_stopped(&error) => {}
             Err(error) => {
@@ -208,7 +260,9 @@ impl Viewer {
     fn fail(&mut self, sentence: String) {
         let (frame, error) = (self.shown.borrow().frame + 1, Some(sentence.clone()));
         let (size, samples, stages) = ([0, 0], [0, 0], Vec::new());
-        let head = FrameHead { frame, change: self.change, size, samples, milliseconds: 0.0, stages, error };
+        let (scale, rel_mse, pixels) = (None, None, Vec::new());
+        let (change, milliseconds) = (self.change, 0.0);
+        let head = FrameHead { frame, change, size, samples, milliseconds, stages, scale, rel_mse, pixels, error };
         self.shown.send_replace(Shown::new(&head, &[]));
         (self.error, self.done, self.begun) = (Some(sentence), true, Some(self.full));
     }
@@ -227,14 +281,31 @@ impl Viewer {
             Order::Zoom(factor) => self.moved(|orbit| orbit.zoom(factor.clamp(0.01, 100.0))),
             Order::Focus(at) => self.focus(at),
             Order::Reset => {
+                self.undo.took(Step::Other, self.state());
                 self.orbit = None;
                 self.choose(choice)
             }
+            Order::Camera(there) => self.put_camera(&there),
+            Order::Undo => self.go(Undo::back),
+            Order::Redo => self.go(Undo::forward),
             Order::Mode(key) => match MODES.iter().position(|mode| mode.key == key) {
                 Some(mode) => self.choose(Choice { mode, ..choice }),
                 None => Err(format!("no mode has the key {key:?}")),
             },
-            Order::Column(column) => self.choose(Choice { column, ..choice }),
+            Order::Column(name) => {
+                Painted::of(name.as_deref()).and_then(|painted| self.choose(Choice { painted, ..choice }))
+            }
+            Order::Look(look) => self.take_look(look),
+            Order::Reference(kept) => self.keep_reference(kept),
+            Order::Pause(paused) => {
+                self.paused = paused;
+                Ok(())
+            }
+            Order::Region(region) => {
+                (self.region, self.done) = (region, false);
+                Ok(())
+            }
+            Order::Size(fills) => self.fill(fills, choice),
             Order::Stage(name, offered) => self.offer_stage(&name, offered),
             Order::Apply(text) => self.edit(text),
             Order::Save(text) => {
@@ -244,8 +315,12 @@ impl Viewer {
                     .map_or_else(Answer::refused, |file| Answer::json(&file));
             }
             Order::Trace(at) => {
-                return self.trace(at).map_or_else(Answer::refused, |trace| Answer::json(&Traced::of(&trace)));
+                self.pointer = Some(at);
+                let reading = self.reading(at);
+                let traced = self.trace(at).map(|trace| Traced::of(&trace, reading));
+                return traced.map_or_else(Answer::refused, |traced| Answer::json(&traced));
             }
+            Order::Pin(pins) => return self.pin(pins).map_or_else(Answer::refused, |pinned| Answer::json(&pinned)),
             Order::Sheet => return Answer::json(&self.sheet()),
             Order::PutView => self.put_view(),
             Order::Picture(kind) => return self.picture(kind),
@@ -266,6 +341,7 @@ impl Viewer {
         if !orbit.is_in_range() {
             return Err("the camera cannot be moved so far, nor so near".into());
         }
+        self.undo.took(Step::Move, self.state());
         orbit.put(&mut self.world);
         self.orbit = Some(orbit);
         self.pace.moved();
@@ -294,7 +370,8 @@ impl Viewer {
         if !offered {
             choice.taken_out.push(name);
         }
-        self.choose(choice)
+        let before = self.state();
+        self.choose(choice).map(|()| self.undo.took(Step::Other, before))
     }
 
     fn edit(&mut self, text: String) -> Result<(), String> {
@@ -305,13 +382,13 @@ impl Viewer {
         let known: Vec<&str> = scene.stages().iter().map(|stage| stage.name).collect();
         let mut choice = Choice { scene, ..self.choice.clone() };
         choice.taken_out.retain(|name| known.contains(name));
-        let [before, after] =
-            [&self.choice.scene, &choice.scene].map(|scene| Orbit::of(&scene.world(), Some(1.0)).ok());
-        let moved = self.orbit;
-        self.orbit = moved.zip(before.zip(after)).and_then(|(orbit, (before, after))| orbit.after_edit(before, after));
+        let [own, edited] = [&self.choice.scene, &choice.scene].map(|scene| Orbit::of(&scene.world(), Some(1.0)).ok());
+        let (moved, before) = (self.orbit, self.state());
+        self.orbit = moved.zip(own.zip(edited)).and_then(|(orbit, (own, edited))| orbit.after_edit(own, edited));
         let chosen = self.choose(choice);
-        if chosen.is_err() {
-            self.orbit = moved;
+        match chosen {
+            Ok(()) => self.undo.took(Step::Edit, before),
+            Err(_) => self.orbit = moved,
         }
         chosen
     }
@@ -326,7 +403,17 @@ impl Viewer {
             modes: modes(),
             mode: MODES[self.choice.mode].key,
             columns: self.columns.clone(),
-            column: self.choice.column.clone(),
+            quantities: quantities(),
+            column: self.choice.painted.name(),
+            curves: ShownBy::all().map(|(word, _)| word).collect(),
+            look: self.look.clone(),
+            reference: self.reference.as_ref().map(|own| own.name.clone()),
+            paused: self.paused,
+            region: self.region,
+            fills: self.fills.is_some(),
+            pins: self.pins.clone(),
+            camera: self.orbit.map(|orbit| orbit.at()),
+            undo: self.undo.steps(),
             stages: rows.into_iter().flatten().chain(out).collect(),
             change: self.change,
         }
@@ -334,5 +421,7 @@ impl Viewer {
 }
 
 mod keep;
+mod past;
+mod show;
 #[cfg(test)]
 mod tests;

@@ -47,7 +47,7 @@ pub fn film_stage() -> Stage {
 
 /// The second central moments of one tile's pixels: sums of squared deviations in f64, with a row per pixel.
 ///
-/// Exists only if the variance layer or adaptive sampling needs it.
+/// Exists only if the variance layer, adaptive sampling or [`PixelErrors`] needs it.
 /// It is updated by Welford's recurrence (1962) on the film's own sums, which avoids the cancellation of large sums.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmMoments {
@@ -132,8 +132,16 @@ pub fn add_to_moments(mut tiles: Query<(&Radiance, Option<&PixelSamples>, &FilmT
     }
 }
 
+/// On the camera: keep the second moments of the pixels, so that their standard errors can be read while it renders.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PixelErrors;
+
 /// Evidence that the variance of pixels is needed.
 pub fn variance_evidence(scene: &Census<'_>) -> Evidence {
+    let asked_for = Evidence::of::<PixelErrors>(scene, "camera that keeps its pixels' errors");
+    if asked_for.needed {
+        return asked_for;
+    }
     let adaptive = Evidence::of::<Adaptive>(scene, "adaptive camera");
     let layer = layer_evidence(scene, "variance layer", |kind| kind == LayerKind::Variance);
     adaptive.or(layer)

@@ -289,6 +289,17 @@ impl Film {
         self.mean_in(tile, row, [x, y])
     }
 
+    /// The same of all pixels, line by line.
+    #[doc(hidden)]
+    pub fn means(&self) -> Vec<[f32; 3]> {
+        let mut means = vec![[0.0; 3]; self.width as usize * self.height as usize];
+        let (bands, pixels) = self.bands();
+        means.par_chunks_mut(pixels).zip(bands).for_each(|(means, tiles)| {
+            tiles.for_each(|tile| self.for_each_mean(tile, |at, mean| means[at] = mean));
+        });
+        means
+    }
+
     /// The mean of a pixel that is this row of this tile.
     #[inline]
     pub(super) fn mean_in(&self, tile: usize, row: usize, [x, y]: [u32; 2]) -> [f32; 3] {

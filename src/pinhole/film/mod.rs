@@ -35,7 +35,9 @@ mod whole_file;
 #[doc(hidden)]
 pub use crate::extract::linear_from_srgb;
 #[doc(hidden)]
-pub use accumulate::{FilmMoments, add_to_film, add_to_moments, film_stage, moments_stage, variance_evidence};
+pub use accumulate::{
+    FilmMoments, PixelErrors, add_to_film, add_to_moments, film_stage, moments_stage, variance_evidence,
+};
 #[doc(hidden)]
 pub use blocks::{BLOCK, EarlierBlocks};
 #[doc(hidden)]

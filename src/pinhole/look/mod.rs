@@ -45,4 +45,4 @@ pub use stats::{RenderStats, StageStats};
 pub use trace::{Recorded, trace_sample};
 pub use trace::{Trace, trace};
 #[doc(hidden)]
-pub use view::{ViewTable, paths, view_stage};
+pub use view::{ViewComponent, ViewTable, paths, view_stage};

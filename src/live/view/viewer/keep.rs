@@ -1,10 +1,11 @@
 //! What a reader keeps: the picture, the text, and the view in the text.
 
+use super::super::develop::png_of;
 use super::super::modes::MODES;
 use super::super::order::Kind;
 use super::Viewer;
 use crate::answer::Answer;
-use pinhole::film::{exr_bytes, png_bytes};
+use pinhole::film::exr_bytes;
 use pinhole::scene::SceneFile;
 use std::path::Path;
 
@@ -26,12 +27,12 @@ impl Viewer {
     pub(super) fn picture(&self, kind: Kind) -> Answer {
         // A PNG is what is seen; an EXR is what was rendered, with its layers.
         let levels = if kind == Kind::Png { MODES[self.choice.mode].denoised } else { 0 };
-        let Some((film, curve)) = self.source.last(levels) else {
+        let Some(picture) = self.source.picture(levels) else {
             return Answer::refused("there is no picture yet".into());
         };
         let (media, ending, bytes) = match kind {
-            Kind::Png => ("image/png", "png", png_bytes(&film, curve)),
-            Kind::Exr => ("image/x-exr", "exr", exr_bytes(&film)),
+            Kind::Png => ("image/png", "png", png_of(&self.developed(&picture))),
+            Kind::Exr => ("image/x-exr", "exr", exr_bytes(picture.film)),
         };
         let stem: String =
             self.choice.scene.stem().chars().filter(|c| c.is_ascii_alphanumeric() || "-_".contains(*c)).collect();

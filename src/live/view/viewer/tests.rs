@@ -45,7 +45,7 @@ impl Scene for Ball {
 #[test]
 fn a_frame_that_an_order_stops_is_begun_again() {
     let (attention, (shown, frames)) = (Arc::<Attention>::default(), watch::channel(Shown::default()));
-    let mut viewer = Viewer::new(Rc::new(Ball), None, shown, Arc::clone(&attention)).expect("a scene");
+    let mut viewer = Viewer::new(Rc::new(Ball), Showing::default(), shown, Arc::clone(&attention)).expect("a scene");
     viewer.frame();
     assert!(viewer.done && viewer.begun != Some(viewer.full), "the first frame is coarse: {:?}", viewer.begun);
     std::thread::sleep(Duration::from_millis(400));
