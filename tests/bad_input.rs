@@ -286,7 +286,7 @@ fn bad_command_lines() {
         let message = match &error {
             command::Error::Clap(answer) => answer.to_string().trim_end().replace("\n\n", "\n").replace('\n', "\n    "),
             command::Error::Pinhole(error) => sentence(error, &shown),
-            command::Error::CommandLine(_) => sentence(&error, &shown),
+            command::Error::CommandLine(_) | command::Error::Unfinished(_) => sentence(&error, &shown),
         };
         for word in *expected {
             assert!(message.contains(word), "`{shown}`: no {word} in: {message}");

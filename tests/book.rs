@@ -35,6 +35,28 @@ fn every_anchor_is_in_the_book() {
     none(&check::listing::orphans(root(), &["src", "chapters", "tests"], &pages()));
 }
 
+/// A step that a page shows in parts is there whole, and in the order in which the edits follow each other.
+#[test]
+fn every_step_stands_whole_on_its_page() {
+    let mut steps = 0;
+    for page in pages() {
+        let scan = check::scan::Scan::new(&page.text);
+        let includes = scan.lines.iter().filter_map(|line| match directive::parse(line.text) {
+            Some(Ok(Directive::Include { path, anchor })) if path.ends_with("yours.step") => Some((path, anchor)),
+            _ => None,
+        });
+        let includes: Vec<_> = includes.collect();
+        let Some(&(path, _)) = includes.first() else { continue };
+        let read = |anchor| check::listing::read(&page, path, anchor).expect("a step");
+        let lines = |text: String| text.lines().filter(|line| !line.is_empty()).map(str::to_owned).collect::<Vec<_>>();
+        let shown: Vec<String> = includes.iter().flat_map(|(_, anchor)| lines(read(*anchor))).collect();
+        assert_eq!(shown, lines(read(None)), "{}", page.label);
+        steps += 1;
+    }
+    eprintln!("book: the steps of {steps} pages stand there whole");
+    assert!(steps >= 14);
+}
+
 /// The parts of a chapter's page, in their order.
 const PARTS: [&str; 8] = [
     "{{#figure ",

@@ -2,6 +2,11 @@
 
 #[path = "command_line/exported.rs"]
 mod exported;
+#[path = "command_line/exposed.rs"]
+mod exposed;
+#[cfg(unix)]
+#[path = "command_line/frames.rs"]
+mod frames;
 #[cfg(unix)]
 #[path = "command_line/lost.rs"]
 mod lost;
@@ -12,6 +17,8 @@ pub mod model;
 #[cfg(unix)]
 #[path = "command_line/names.rs"]
 mod names_shown;
+#[path = "command_line/parts.rs"]
+mod parts;
 #[path = "command_line/said.rs"]
 mod said;
 

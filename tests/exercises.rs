@@ -11,6 +11,9 @@ use std::process::{Command, Output};
 use std::time::Duration;
 use wrong_answers::Fresh;
 
+#[path = "exercises/answers.rs"]
+mod answers;
+
 #[path = "exercises/folders.rs"]
 mod folders;
 
@@ -26,23 +29,6 @@ mod wrong_answers;
 /// What chapters ask their readers to write, as the program has it.
 mod listed {
     include!(concat!(env!("OUT_DIR"), "/exercises.rs"));
-}
-
-/// What there is to an exercise beside its check: the solution, and wrong answers that were recorded.
-mod answers {
-    use pinhole_lab::exercise::Exercise;
-
-    /// Answers to a chapter's exercise.
-    pub struct Answers {
-        /// Right for every input.
-        pub solution: Exercise,
-        /// The formula straight from the page, right for ordinary inputs, where there are extreme ones.
-        pub textbook: Option<Exercise>,
-        /// Wrong answers of as many kinds, with words of what must be said of each.
-        pub wrong: [(Exercise, &'static str); 6],
-    }
-
-    include!(concat!(env!("OUT_DIR"), "/answers.rs"));
 }
 
 /// The line that a stub has and a reader's own function has not.

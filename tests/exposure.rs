@@ -4,9 +4,11 @@ use crate::scenes;
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::luminance;
-use pinhole::film::{Curve, FIRST_SAMPLE_STEPS, Film, exr_bytes, png_bytes, rgba_bytes, rgba_of, tone_mapped};
+use pinhole::film::{
+    Curve, FIRST_SAMPLE_STEPS, Film, PngKind, exr_bytes, png_bytes, png_bytes_as, rgba_bytes, rgba_of, tone_mapped,
+};
 use pinhole::plan::Census;
-use pinhole::render::{Execution, RenderInProgress, film_key, render};
+use pinhole::render::{Execution, RenderInProgress, render};
 use pinhole::scene::{Exposure, Name, PerspectiveCamera, ToneMapping, View};
 use scenes::{Setup, full, offer};
 
@@ -190,7 +192,8 @@ fn no_film_no_exr_and_no_view_depends_on_them() {
         let camera = camera(&mut scene);
         insert(&mut scene.entity_mut(camera));
         let rendered = render(&scene, &offer(), &Execution::default(), &()).expect("renders");
-        let key = film_key(&scene, &rendered.plan);
+        let begun = RenderInProgress::begin(&Census::of(&scene), &offer(), &Execution::default()).expect("begins");
+        let key = begun.key(&scene, &()).expect("nobody stops it");
         (scene, rendered, key)
     };
     let (_, plain, plain_key) = of(&|_| ());
@@ -215,8 +218,85 @@ fn no_film_no_exr_and_no_view_depends_on_them() {
         }
     }
     let (_, of_default, _) = of(&|camera| _ = camera.insert((Exposure::default(), ToneMapping::default())));
-    assert_eq!(of_default.curve(), Curve::Srgb, "what changes nothing takes the way of a scene without it");
+    assert_eq!(of_default.curve(), Curve::Srgb, "what changes nothing is not there");
     eprintln!("films: {tried} exposures, the same EXR, checkpoint key and view of a column");
+}
+
+/// The chunks of a PNG: their names and what is in them.
+fn chunks(png: &[u8]) -> Vec<(String, Vec<u8>)> {
+    let mut rest = &png[8..];
+    let mut found = Vec::new();
+    while let Some((head, after)) = rest.split_at_checked(8) {
+        let length = u32::from_be_bytes([head[0], head[1], head[2], head[3]]) as usize;
+        found.push((String::from_utf8_lossy(&head[4..]).into_owned(), after[..length].to_vec()));
+        rest = &after[length + 4..];
+    }
+    found
+}
+
+#[test]
+fn a_png_of_16_bits_is_read_back_as_the_film() {
+    let scene = full(Setup { size: [61, 33], ..Setup::default() });
+    let film = render(&scene, &offer(), &Execution::default(), &()).expect("renders").film;
+    let deep = PngKind { is_deep: true, ..PngKind::default() };
+    let srgb = |linear: f64| if linear <= 0.0031308 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
+    let (mut tried, mut distinct) = (0, 0);
+    for (curve, light) in [
+        (Curve::Srgb, None),
+        (Curve::Straight, None),
+        (Curve::Exposed(stops(1.5), ToneMapping::Agx), Some((1.5, ToneMapping::Agx))),
+        (Curve::Exposed(stops(-2.0), REINHARD), Some((-2.0, REINHARD))),
+    ] {
+        let png = png_bytes_as(&film, curve, &deep).expect("encoded");
+        assert_eq!(png, png_bytes_as(&film, curve, &deep).expect("encoded"), "twice the same");
+        let image = image::load_from_memory(&png).expect("a PNG");
+        assert_eq!(image.color(), image::ColorType::Rgb16);
+        let mut values = std::collections::BTreeSet::new();
+        for (x, y, pixel) in image.into_rgb16().enumerate_pixels() {
+            let mean = film.mean(x, y).map(f64::from);
+            let light = light.map_or(mean, |(stops, by)| tone_mapped(mean.map(|part| part * f64::exp2(stops)), by));
+            for (&value, light) in pixel.0.iter().zip(light) {
+                let light = light.clamp(0.0, 1.0);
+                let encoded = if curve == Curve::Straight { light } else { srgb(light) };
+                let error = (f64::from(value) / 65535.0 - encoded).abs();
+                assert!(error <= 0.51 / 65535.0, "{curve:?} at {x},{y}: {value}, and {encoded} was to be stored");
+                values.insert(value);
+                tried += 1;
+            }
+        }
+        distinct = distinct.max(values.len());
+    }
+    assert!(distinct > 300, "{distinct} values would fit 8 bits");
+    eprintln!("16 bits: {tried} values within half a step of 1/65535, up to {distinct} different ones in a picture");
+}
+
+#[test]
+fn a_png_says_which_colours_it_has_and_where_it_is_from() {
+    let film = film_of(2, 2, &[[0.25; 3]; 4]);
+    let text = vec![("Scene", "room.ron".to_owned()), ("Command", "pinhole render Küche.ron".to_owned())];
+    let mut kinds = 0;
+    for is_deep in [false, true] {
+        for curve in [Curve::Srgb, Curve::Straight, Curve::Exposed(AUTOMATIC, ToneMapping::Aces)] {
+            let png = png_bytes_as(&film, curve, &PngKind { is_deep, text: text.clone() }).expect("encoded");
+            let found = chunks(&png);
+            let mut names: Vec<&str> = found.iter().map(|(name, _)| name.as_str()).collect();
+            names.dedup_by(|one, other| one == other && *one == "IDAT");
+            let colours = if curve == Curve::Straight { &[][..] } else { &["sRGB", "gAMA", "cHRM"] };
+            let expected = [&["IHDR"], colours, &["tEXt", "tEXt", "iTXt", "IDAT", "IEND"]].concat();
+            assert_eq!(names, expected, "{curve:?}");
+            let of =
+                |name: &str| found.iter().filter(|(own, _)| own == name).map(|(_, data)| &data[..]).collect::<Vec<_>>();
+            assert_eq!(of("tEXt"), [&b"Software\0pinhole"[..], b"Scene\0room.ron"], "the program's mark comes first");
+            assert!(of("iTXt")[0].ends_with("Küche.ron".as_bytes()), "what Latin-1 lacks is kept as UTF-8");
+            if curve != Curve::Straight {
+                assert_eq!(of("gAMA"), [45_455_u32.to_be_bytes()]);
+                let primaries = [31270_u32, 32900, 64000, 33000, 30000, 60000, 15000, 6000];
+                assert_eq!(of("cHRM"), [primaries.map(u32::to_be_bytes).as_flattened()], "those of Rec. 709");
+            }
+            kinds += 1;
+        }
+    }
+    eprintln!("chunks: of {kinds} kinds of PNG, as the specification orders them");
 }
 
 #[test]

@@ -119,7 +119,8 @@ fn more_light_than_a_picture_holds_is_its_largest_number() {
 
     let kinds = [LayerKind::Variance];
     film.layers = vec![FilmLayers::new(6, &kinds)];
-    film.moments = vec![FilmMoments { sum: [vec![1e77; 6], vec![0.0; 6], vec![f64::MAX; 6]] }];
+    film.moments =
+        vec![FilmMoments { sum: [vec![1e77; 6], vec![0.0; 6], vec![f64::MAX; 6]], ..FilmMoments::default() }];
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("bright.exr");
     write_layered_exr(&film, &[], &path).expect("written");

@@ -13,19 +13,17 @@ mod kill;
 mod killed;
 #[path = "long_renders/layers.rs"]
 mod layers;
+#[path = "long_renders/parts.rs"]
+mod parts;
 #[path = "long_renders/rare_light.rs"]
 mod rare_light;
-#[path = "long_renders/sources.rs"]
-mod sources;
 #[path = "long_renders/stopped.rs"]
 mod stopped;
 
 use bevy_ecs::prelude::*;
 use pinhole::Error;
 use pinhole::film::{Film, read_checkpoint, write_checkpoint};
-use pinhole::render::{
-    Execution, Limits, RenderInProgress, Watch, Worlds, film_key, render, render_in_passes, steps_of,
-};
+use pinhole::render::{Execution, Limits, RenderInProgress, Watch, Worlds, render, render_in_passes, steps_of};
 use pinhole::scene::*;
 use pinhole_lab::measure::film_bits::FilmBits;
 use scenes::{Setup, full, named};
@@ -44,6 +42,12 @@ pub fn sampled(size: [u32; 2], sampling: Sampling, more: impl Bundle) -> World {
     let camera = named(&mut scene, "camera");
     scene.entity_mut(camera).insert((sampling, more));
     scene
+}
+
+/// The key of a scene's film.
+pub fn key_of(scene: &World) -> u64 {
+    let render = RenderInProgress::begin(&Census::of(scene), &offer(), &Execution::default()).expect("begins");
+    render.key(scene, &()).expect("nobody stops it")
 }
 
 const SIZE: [u32; 2] = [45, 37];
@@ -146,7 +150,7 @@ fn a_render_that_is_stopped_between_two_tiles_goes_on_from_its_checkpoint() {
     let sampling = seven(Sampler::Sobol);
     let scene = sampled(SIZE, sampling, Layers::all());
     let census = &Census::of(&scene);
-    let key = film_key(&scene, &RenderInProgress::begin(census, &offer(), &Execution::default()).expect("begins").plan);
+    let key = key_of(&scene);
     let whole = render(&scene, &offer(), &Execution::default(), &()).expect("renders").film;
     let mut stops = 0;
     for tiles in 1..20 {
@@ -191,13 +195,7 @@ fn a_render_that_is_stopped_between_two_tiles_goes_on_from_its_checkpoint() {
 fn a_checkpoint_that_is_not_this_render_s_is_refused_in_one_sentence() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("picture.checkpoint");
-    let plan_of = |scene: &World| {
-        RenderInProgress::begin(&Census::of(scene), &offer(), &Execution::default()).expect("begins").plan
-    };
-    let key_of = |sampling: Sampling, more: Layers| {
-        let scene = sampled(SIZE, sampling, more);
-        film_key(&scene, &plan_of(&scene))
-    };
+    let key_of = |sampling: Sampling, more: Layers| key_of(&sampled(SIZE, sampling, more));
     let (sobol, layers) = (seven(Sampler::Sobol), Layers { kinds: vec![LayerKind::Position] });
     let key = key_of(sobol, layers.clone());
     assert_eq!(key, key_of(Sampling { samples: 70, ..sobol }, layers.clone()), "more samples continue it");

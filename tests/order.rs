@@ -290,7 +290,6 @@ fn every_file_is_opened_through_one_door() {
         ("pinhole/render/memory.rs", "read_to_string("),
         ("lab/report/provenance.rs", "read_to_string("),
         ("pinhole/film/whole_file.rs", "File::open(folder_of("),
-        ("pinhole/build.rs", "read_to_string("),
         ("pinhole/film/replaces.rs", "OpenOptions::new("),
         ("live/peer.rs", "read_to_string("),
     ];

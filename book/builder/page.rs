@@ -1,7 +1,9 @@
 //! The one preprocessor: a page as its author wrote it becomes the markdown that mdBook shows.
 
 use crate::check::directive::{Directive, parse};
+use crate::check::lesson::is_taught;
 use crate::check::scan::{Fence, Scan};
+use crate::check::work::Work;
 use crate::check::{Page, Problem, fit, listing};
 use crate::edit::{Edit, apply, escape};
 use crate::figure::{self, Pictures};
@@ -51,7 +53,9 @@ impl Preprocessor for Pages {
         book.for_each_chapter_mut(|chapter| {
             let name = chapter.source_path.as_ref().map(|path| path.display().to_string());
             let page = self.written.iter().find(|page| Some(&page.name) == name.as_ref());
-            match page.map(|page| expand(page, &self.written, program, pictures)) {
+            let expanded =
+                page.map(|page| expand(page, &self.written, program, pictures).map(|content| timed(page, &content)));
+            match expanded {
                 Some(Ok(content)) => chapter.content = figure::with_drawings_apart(&content, pictures),
                 Some(Err(found)) => problems.extend(found),
                 None => {}
@@ -168,6 +172,16 @@ fn tabled(text: &str) -> String {
     out + "</table></div>\n"
 }
 
+/// A page that says under its title how long it takes, if it is one to learn from.
+fn timed(page: &Page, content: &str) -> String {
+    match content.split_once('\n').filter(|_| is_taught(&page.name)) {
+        Some((title, rest)) => {
+            format!("{title}\n\n<p class=\"minutes\">{}</p>\n{rest}", Work::of(page).at_a_glance())
+        }
+        None => content.to_owned(),
+    }
+}
+
 fn indented(listing: &str, margin: &str) -> String {
     let lines: Vec<String> = listing.lines().map(|line| format!("{margin}{line}")).collect();
     lines.join("\n")
@@ -198,6 +212,14 @@ mod tests {
         });
         let expanded = expand(&made_up("a.md", text), &[], &mut program.borrow_mut(), &mut Pictures::default());
         expanded.map_err(|problems| problems.iter().map(ToString::to_string).collect())
+    }
+
+    #[test]
+    fn a_page_to_learn_from_says_how_long_it_takes() {
+        let page = made_up("02_b.md", "# B\n\nWhy?\n");
+        assert_eq!(timed(&page, &page.text), "# B\n\n<p class=\"minutes\">About 0 minutes.</p>\n\nWhy?\n");
+        let page = made_up("glossary.md", "# G\n\nTerms.\n");
+        assert_eq!(timed(&page, &page.text), page.text);
     }
 
     #[test]

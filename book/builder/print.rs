@@ -1,5 +1,6 @@
 //! The print edition: mdBook's page of the whole book, unfolded as paper needs it.
 
+use crate::check::pattern::STEP;
 use std::path::Path;
 
 /// The file in the built book.
@@ -17,7 +18,8 @@ pub fn unfold(out: &Path) -> Result<(), String> {
 }
 
 fn unfolded(page: &str) -> String {
-    page.replace("<details>", "<details open>").replace(AT_ONCE, "")
+    let step = STEP.replace('>', " open>");
+    page.replace("<details>", "<details open>").replace(STEP, &step).replace(AT_ONCE, "")
 }
 
 /// Names the folded answers, so that sheets of style can tell them from what else is folded.
@@ -34,6 +36,7 @@ mod tests {
     fn everything_but_the_answers_is_unfolded() {
         let folded =
             "<details>\n<summary>More</summary>\n</details>\n<details>\n<summary>Answers</summary>\n</details>";
+        assert!(unfolded(STEP).starts_with("<details class=\"step\" open>"));
         let unfolded = unfolded(&with_answers_named(folded));
         assert_eq!(unfolded.matches("<details open>").count(), 1);
         assert!(unfolded.contains("<details class=\"answers\">\n<summary>Answers"), "{unfolded}");

@@ -1,7 +1,8 @@
 use super::called::called;
 use super::format::Format;
-use super::options::{RenderOptions, STYLES, SamplingOptions, SceneOptions, pixel, size, workers};
+use super::options::{MAX_PARTS, RenderOptions, STYLES, SamplingOptions, SceneOptions, pixel, size, workers};
 use super::report_arguments::{MeasureAnew, ReportErrors};
+use super::span::span;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use pinhole::Size;
@@ -10,6 +11,7 @@ use pinhole::scene::TracePixel;
 use pinhole_lab::measure::extremes::Group;
 use std::ffi::OsString;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// pinhole: a ray tracing book you can run
 #[derive(Parser)]
@@ -52,6 +54,10 @@ pub enum Command {
     List,
     /// Render a chapter's scene or a scene file, or paint one of its columns
     Render(RenderChapter),
+    /// Add the parts of a picture that `render --part` made up to the picture that one machine would have rendered
+    Merge(MergeParts),
+    /// Write a job that renders a picture in parts on Slurm, by Open Job Description or by GNU parallel; or run it here
+    Farm(FarmOut),
     /// Print which stages a chapter's scene needs, which are left out, and why
     Plan(PlanChapter),
     /// Print the warnings that a render would begin with; without a scene, those of scenes gone wrong
@@ -299,6 +305,51 @@ pub struct RenderChapter {
     pub mine: bool,
     #[command(flatten)]
     pub options: RenderOptions,
+}
+
+#[derive(Args)]
+pub struct MergeParts {
+    /// The chapter, scene file or model file that was rendered, with the options that it was rendered with
+    pub chapter: OsString,
+    /// The parts (default: those beside the picture)
+    #[arg(value_name = "PART")]
+    pub parts: Vec<PathBuf>,
+    #[command(flatten)]
+    pub options: RenderOptions,
+}
+
+#[derive(Args)]
+pub struct FarmOut {
+    /// A chapter, a scene file or a model file, with all options of a render
+    pub chapter: OsString,
+    /// In how many parts
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_PARTS)))]
+    pub parts: u32,
+    /// For what: slurm, openjd or parallel
+    #[arg(long, value_enum, value_name = "WORD", required_unless_present = "local")]
+    pub to: Option<Engine>,
+    /// Render the parts on this machine, each by a process of its own, and merge them
+    #[arg(long, conflicts_with = "to")]
+    pub local: bool,
+    /// Hand the job to the scheduler, watch it, and merge the parts as they arrive
+    #[arg(long, requires = "to")]
+    pub submit: bool,
+    /// How long a part may take before it is stopped, kept and begun again where it was
+    #[arg(long, value_name = "TIME", default_value = "1h", value_parser = span)]
+    pub limit: Duration,
+    #[command(flatten)]
+    pub options: RenderOptions,
+}
+
+/// What runs the parts of a picture on several machines.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Engine {
+    /// Slurm: an array of jobs
+    Slurm,
+    /// Open Job Description: a template
+    Openjd,
+    /// GNU parallel: a line
+    Parallel,
 }
 
 #[derive(Args)]

@@ -118,11 +118,26 @@ impl ChapterText {
         for setting in more {
             file = file.set(setting.as_ref()).map_err(Error::usage)?;
         }
+        Ok(self.with(file))
+    }
+
+    /// The chapter at a frame of a film; none where nothing in it has keys.
+    ///
+    /// Errors: as for [`set`](Self::set).
+    pub fn at(&self, frame: f64, rate: f64) -> Result<Option<Chapter>> {
+        if !self.file.has_keys() {
+            return Ok(None);
+        }
+        let file = self.file.at(frame, rate).map_err(Error::usage)?;
+        Ok(Some(self.with(file)))
+    }
+
+    fn with(&self, file: SceneFile) -> Chapter {
         let held = Arc::clone(&self.held);
-        Ok(self.chapter.clone().with_scene(move |world| {
+        self.chapter.clone().with_scene(move |world| {
             *world = file.world();
             held.fill_in(world);
-        }))
+        })
     }
 
     /// The text of a value, or that of its default.

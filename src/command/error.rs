@@ -15,6 +15,9 @@ pub enum Error {
     /// The command line cannot be parsed, or asks for help.
     #[error("{0}")]
     Clap(Box<clap::Error>),
+    /// Something is left to do, which the same command can do later.
+    #[error("{0}")]
+    Unfinished(String),
     /// A word of the command line names nothing that there is.
     #[error("{0}")]
     CommandLine(String),

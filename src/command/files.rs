@@ -3,11 +3,11 @@ use super::options::RenderOptions;
 use super::subject::Subject;
 use pinhole::extract::shape_names;
 use pinhole::film::{
-    Curve, Film, FilmLayers, Replaces, Target, check_place, may_be_written, png_bytes, write_exr, write_layered_exr,
-    write_png,
+    Curve, Film, FilmLayers, PngKind, Replaces, Target, check_place, may_be_written, png_bytes_as, write_exr,
+    write_layered_exr, write_png_as,
 };
 use pinhole::plan::Census;
-use pinhole::render::RenderInProgress;
+use pinhole::render::{RenderInProgress, samples_after};
 use pinhole::scene::printable_path;
 use pinhole_lab::exercise::Mine;
 use std::io::Write;
@@ -50,6 +50,10 @@ impl Targets {
             } else if !targets.pictures.contains(file) {
                 targets.pictures.push(file.clone());
             }
+        }
+        if options.bits.is_some() && !targets.standard_output && targets.pictures.iter().all(|file| is(file, "exr")) {
+            let what = "--bits is the depth of a PNG, and no PNG is written: an EXR holds floats of 32 bits";
+            return Err(Error::CommandLine(what.into()));
         }
         Ok(targets)
     }
@@ -122,16 +126,24 @@ pub struct Files {
     /// The names of shapes by their numbers, for the layer that tells them.
     names: Vec<String>,
     curve: Curve,
+    png: PngKind,
+    /// The seed of the random numbers, where the camera takes any.
+    seed: Option<u64>,
     /// The reader's function, where it stands in a stage; nothing is written once it fails.
     mine: Option<Mine>,
 }
 
 impl Files {
     /// The files of a scene's pictures.
-    pub fn new(targets: Targets, scene: &Census<'_>, render: &RenderInProgress, mine: Option<Mine>) -> Self {
-        let (plan, curve) = (&render.plan, render.curve);
-        let names = if plan.keeps::<FilmLayers>() { shape_names(scene) } else { Vec::new() };
-        Self { targets, names, curve, mine }
+    pub fn new(
+        targets: Targets,
+        scene: &Census<'_>,
+        render: &RenderInProgress,
+        (png, mine): (PngKind, Option<Mine>),
+    ) -> Self {
+        let seed = render.is_sampled().then_some(render.sampling.seed);
+        let names = if render.plan.keeps::<FilmLayers>() { shape_names(scene) } else { Vec::new() };
+        Self { targets, names, curve: render.curve, png, seed, mine }
     }
 
     /// Writes the files anew, each whole, and each whether or not another can be written.
@@ -147,18 +159,30 @@ impl Files {
         self.mine.as_ref().map_or(Ok(()), Mine::answers)?;
         let place = self.targets.place(picture);
         match (is(picture, "exr"), film.layers.is_empty()) {
-            (false, _) => write_png(film, self.curve, place)?,
+            (false, _) => write_png_as(film, self.curve, &self.png_of(film), place)?,
             (true, true) => write_exr(film, place)?,
             (true, false) => write_layered_exr(film, &self.names, place)?,
         }
         Ok(())
     }
 
+    /// The kind of a PNG that says how far the film has come.
+    fn png_of(&self, film: &Film) -> PngKind {
+        let mut png = self.png.clone();
+        png.text.extend(self.seed.map(|seed| ("Seed", seed.to_string())));
+        let samples = film.done.iter().copied().min().map_or(0, samples_after);
+        // Adaptive sampling gives each pixel another number.
+        if self.seed.is_some() && film.planned.is_empty() {
+            png.text.push(("Samples", samples.to_string()));
+        }
+        png
+    }
+
     /// Sends the picture to standard output, where that is asked for.
     pub fn send(&self, film: &Film, out: &mut dyn Write) -> Result {
         self.mine.as_ref().map_or(Ok(()), Mine::answers)?;
         if self.targets.standard_output {
-            out.write_all(&png_bytes(film, self.curve)?)?;
+            out.write_all(&png_bytes_as(film, self.curve, &self.png_of(film))?)?;
             out.flush()?;
         }
         Ok(())

@@ -26,6 +26,21 @@ pub fn next(
     Some(called(&format!("trace {name} --pixel {pixel}{size}{}", options.scene.typed_settings())))
 }
 
+/// What a PNG says of where it is from: the scene, and a command that renders it.
+///
+/// The command is made of what its light depends on, so that neither the name of a file nor a stop on the way changes it.
+pub fn provenance(subject: &Subject<'_>, options: &RenderOptions, mine: bool) -> Vec<(&'static str, String)> {
+    let Some(name) = name(subject) else { return Vec::new() };
+    let naive = options.naive.map(|method| format!(" --naive {}", method.name)).unwrap_or_default();
+    let mine = if mine { " --mine" } else { "" };
+    let size = options.scene.typed_size();
+    let frame =
+        options.frame.map(|frame| format!(" --frames {frame}..{frame} --fps {}", options.fps)).unwrap_or_default();
+    let command = format!("pinhole render {name}{size}{}{frame}{naive}{mine}", options.scene.typed());
+    let number = options.frame.map(|frame| ("Frame", frame.to_string()));
+    [("Scene", subject.name().to_owned()), ("Command", command)].into_iter().chain(number).collect()
+}
+
 /// What names a subject again, for a shell; nothing does for what came through a pipe, or cannot be shown.
 fn name(subject: &Subject<'_>) -> Option<String> {
     match subject.name() {

@@ -4,11 +4,11 @@ use super::interrupt::{EndsByItself, Waiting, interrupted};
 use super::options::RenderOptions;
 use pinhole::extract::adaptive_of;
 use pinhole::film::{
-    CheckpointAt, Film, Replaces, SamplesKept, checkpoint_at, checkpoint_place, keep_checkpoint, read_checkpoint,
-    remove_own,
+    CheckpointAt, Film, Replaces, SamplesKept, checkpoint_at, checkpoint_place, is_done, keep_checkpoint,
+    read_checkpoint, remove_own, write_done,
 };
 use pinhole::plan::Census;
-use pinhole::render::{Limits, Outcome, RenderInProgress, film_key, render_in_passes, samples_after};
+use pinhole::render::{Limits, Outcome, RenderInProgress, render_in_passes, samples_after};
 use pinhole::scene::printable_path;
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -27,6 +27,8 @@ pub struct LongRender {
     pub outcome: Outcome,
     /// The checkpoint that it left.
     pub checkpoint: Option<PathBuf>,
+    /// Whether it was done before, so that nothing was rendered.
+    pub was_done: bool,
 }
 
 /// Renders a camera's samples in passes, and writes the picture and a checkpoint between them; `say` gets what is to be
@@ -43,8 +45,18 @@ pub fn render_long(
     waiting: &Waiting,
     say: &mut dyn FnMut(&str) -> Result,
 ) -> Result<LongRender> {
-    let (key, first) = (film_key(scene, &render.plan), files.targets.checkpoint());
+    let (key, first) = (render.key(scene, waiting)?, files.targets.checkpoint());
     let limits = Limits { time: options.time, write_every: options.write_every, adaptive: adaptive_of(scene)? };
+    if let (Some(_), Some(first)) = (options.frame, &first) {
+        let is_there = files.targets.pictures.iter().all(|picture| picture.exists());
+        if options.resume && is_there && is_done(first, key, render.sampling.samples) {
+            return Ok(LongRender { outcome: Outcome::default(), checkpoint: None, was_done: true });
+        }
+        if is_done(first, key, 0) {
+            // What it says no longer holds.
+            remove_own(Replaces::If(&|path: &Path| is_done(path, key, 0)).at(first))?;
+        }
+    }
     let (mut found, mut has_first_name) = (None, true);
     if let Some(first) = &first {
         let place = checkpoint_place(first, key);
@@ -66,13 +78,14 @@ pub fn render_long(
             true => Err(pinhole::Error::Interrupted.into()),
             false => {
                 files.write(&render.film)?;
-                Ok(LongRender { outcome, checkpoint: None })
+                Ok(LongRender { outcome, checkpoint: None, was_done: false })
             }
         };
     }
     // Beside the checkpoint of another render, that of a finished one would be one more with each change of the scene.
-    let worth_keeping =
-        (outcome.time >= WORTH_KEEPING && has_first_name) || options.write_every.is_some() || options.resume;
+    let worth_keeping = (outcome.time >= WORTH_KEEPING && has_first_name)
+        || options.write_every.is_some()
+        || options.resume && options.frame.is_none();
     let keeps = outcome.stopped || worth_keeping || found.is_some();
     let written = kept.at_the_end(&render.film, keeps, outcome.stopped, say)?;
     drop(ends_by_itself);
@@ -94,10 +107,14 @@ pub fn render_long(
             None
         }
     };
+    if let (Some(_), Some(first)) = (options.frame, &first) {
+        kept.done(&render.film, first)?;
+        return Ok(LongRender { outcome, checkpoint: None, was_done: false });
+    }
     if !keeps {
         kept.remove(&render.film)?;
     }
-    Ok(LongRender { outcome, checkpoint })
+    Ok(LongRender { outcome, checkpoint, was_done: false })
 }
 
 /// What is kept of a render on the way.
@@ -177,6 +194,16 @@ impl Kept<'_> {
             }
         }
         Ok(Written { pictures, checkpoint })
+    }
+
+    /// Writes that a frame is done in the place of its checkpoint, unless that is the place of another file.
+    fn done(&self, film: &Film, first: &Path) -> Result {
+        let may_go =
+            |path: &Path| matches!(checkpoint_at(path, self.key), CheckpointAt::Own(_) | CheckpointAt::Missing);
+        if may_go(first) {
+            write_done(film, self.key, Replaces::If(&may_go).at(first))?;
+        }
+        Ok(())
     }
 
     /// Removes a checkpoint that is not worth keeping, if this render wrote it.

@@ -114,7 +114,7 @@ fn render_beside(
         if let (0, Some((_, PicturePair { rendered: Some(rendered), .. }))) = (number, pairs.first()) {
             let subject = Subject::Chapter(Cow::Owned(exercise.pictured(chapter, 0)));
             let mut warned = warnings(&subject, options, &rendered.film, &rendered.plan)?;
-            warned.extend(too_dark(&rendered.film, &rendered.plan));
+            warned.extend(too_dark(&rendered.film, rendered.curve()));
             warned.iter().try_for_each(|warning| streams.note(&format!("warning: {warning}")))?;
         }
     }

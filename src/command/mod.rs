@@ -19,10 +19,12 @@ mod export_images;
 mod export_meshes;
 mod export_model;
 mod extremes;
+mod farm;
 mod figure;
 mod files;
 mod find;
 mod format;
+mod frames;
 mod hints;
 mod interrupt;
 mod list;
@@ -34,6 +36,7 @@ mod mutation;
 mod options;
 mod own_file;
 mod parse;
+mod parts;
 mod plan;
 mod preflight;
 mod progress;
@@ -137,10 +140,26 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
         Some(Command::Render(asked)) => {
             let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.scene.set)?;
             match asked.options.naive {
+                _ if asked.options.frames.is_some() => {
+                    let (options, frames) = (asked.options(), asked.options.frames.unwrap_or_default());
+                    frames::render_frames(&subject, &options, frames, format, streams)
+                }
+                _ if asked.options.part.is_some() => {
+                    let options = asked.options();
+                    parts::render_part(&subject, &options, options.part(), format, streams)
+                }
                 Some(_) => render::render_naive(&subject, &asked.options(), format, streams),
                 None => render::render_subject(&subject, &asked.options(), format, streams),
             }
         }
+        Some(Command::Merge(asked)) => {
+            let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.scene.set)?;
+            match asked.options.frames {
+                Some(frames) => frames::missing_frames(&subject, &asked.options, frames, streams),
+                None => parts::merge(&subject, &asked.options, &asked.parts, format, streams),
+            }
+        }
+        Some(Command::Farm(asked)) => farm::farm(chapters, &asked, &words, format, streams),
         Some(Command::Plan(asked)) => {
             let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.set)?;
             plan::print_plan(&subject, &asked.options, format, out)
@@ -172,7 +191,8 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
 }
 
 /// Says how a command ended, and gives the status that the program ends with: 0 if all is well, and where the reader of
-/// a pipe has seen enough; 1 for a failure; 2 for a command line that makes no sense; 130 for a stop by Ctrl-C.
+/// a pipe has seen enough; 1 for a failure; 2 for a command line that makes no sense; 75 where the same command is to be
+/// run again; 130 for a stop by Ctrl-C.
 pub fn status(result: Result) -> u8 {
     let (error, status) = match result {
         Ok(()) => return 0,
@@ -184,6 +204,8 @@ pub fn status(result: Result) -> u8 {
         },
         Err(stop @ Error::Pinhole(pinhole::Error::Interrupted | pinhole::Error::Stopped(_))) => (stop, 130),
         Err(words @ Error::CommandLine(_)) => (words, 2),
+        // EX_TEMPFAIL of sysexits.h, by which a scheduler knows that it is to run the same again.
+        Err(later @ Error::Unfinished(_)) => (later, 75),
         Err(error) => (error, 1),
     };
     let _ = writeln!(stderr(), "pinhole: {}", printable_message(&error));

@@ -6,11 +6,17 @@ use clap::Args;
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pinhole::extract::MAX_SAMPLES;
+use pinhole::film::{Part, Split};
 use pinhole::scene::{Exposure, Filter, Layers, Resolution, Sampler, ToneMapping, TracePixel};
 use pinhole::{Overrides, SamplingOverrides, Size};
 use pinhole_lab::naive::methods::{METHODS, NaiveMethod};
 use std::path::PathBuf;
 use std::time::Duration;
+
+/// The last frame that a film may have.
+const MAX_FRAME: u32 = 9_999_999;
+/// The greatest number of parts.
+pub const MAX_PARTS: u32 = 1_000_000;
 
 #[derive(Args, Clone, Default)]
 pub struct SceneOptions {
@@ -76,6 +82,9 @@ pub struct RenderOptions {
     /// both kinds, in out/)
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
+    /// How many bits of a PNG each of red, green and blue has: 8 or 16 (default: 8)
+    #[arg(long, value_name = "BITS", value_parser = bits)]
+    pub bits: Option<u8>,
     /// Whether that was chosen for the reader, who has named no file
     #[arg(skip)]
     pub output_is_chosen: bool,
@@ -91,6 +100,24 @@ pub struct RenderOptions {
     /// Write the picture and its checkpoint this often while samples are taken (default: for 5 % of the time at most)
     #[arg(long, value_name = "TIME", value_parser = span)]
     pub write_every: Option<Duration>,
+    /// Compute one part of the picture, such as 3/64, and leave it in a file beside the picture, for `merge`
+    #[arg(long, value_name = "I/N", conflicts_with_all = ["time", "naive"], value_parser = part)]
+    pub part: Option<[u32; 2]>,
+    /// How the picture is divided into parts: by tiles, samples, both, or as chosen for the number of parts
+    #[arg(long, value_name = "WORD", requires = "part", value_parser = |word: &str| one_of(word, "split", &Split::ALL))]
+    pub split: Option<Split>,
+    /// Render these frames of a film, such as 0..47, both ends included: by the keys of a scene file or a model's animation
+    #[arg(long, value_name = "A..B", conflicts_with_all = ["time", "naive", "openjd", "split"], value_parser = frames)]
+    pub frames: Option<[u32; 2]>,
+    /// How many frames a unit of time has, which is a second in models
+    #[arg(long, value_name = "N", default_value_t = 24.0, hide_default_value = true, value_parser = rate)]
+    pub fps: f64,
+    /// The one of them that this picture is, which leaves a mark when it is done
+    #[arg(skip)]
+    pub frame: Option<u32>,
+    /// With --part, print how far it is in the words that Open Job Description reads
+    #[arg(long, requires = "part")]
+    pub openjd: bool,
     /// The older form of --format json
     #[arg(long, hide = true, conflicts_with_all = ["quiet", "verbose"])]
     pub stats: bool,
@@ -137,6 +164,17 @@ impl SceneOptions {
         self.pixels().is_some()
     }
 
+    /// What to type for the same number of pixels.
+    pub fn typed_size(&self) -> String {
+        match self.pixels() {
+            None => String::new(),
+            Some(Size::Pixels(Resolution { width, height })) => format!(" --size {width}x{height}"),
+            Some(Size::Width(width)) => format!(" --width {width}"),
+            Some(Size::Height(height)) => format!(" --height {height}"),
+            Some(Size::Percent(percent)) => format!(" --size {percent}%"),
+        }
+    }
+
     /// What to type so that another command has the same stages to plan.
     pub fn typed(&self) -> String {
         let SamplingOptions { samples, seed, sampler, filter } = self.sampling;
@@ -170,6 +208,12 @@ impl SceneOptions {
 }
 
 impl RenderOptions {
+    /// The part that is asked for, or the whole as one.
+    pub fn part(&self) -> Part {
+        let [number, of] = self.part.unwrap_or([1, 1]);
+        Part { number, of, split: self.split.unwrap_or_default() }
+    }
+
     pub fn asked(&self, statistics: bool) -> Overrides {
         Overrides { endless: self.time.is_some(), ..self.scene.asked(statistics) }
     }
@@ -249,6 +293,30 @@ fn samples(text: &str) -> Result<u32, String> {
     number.map(|number| number as u32).ok_or_else(refused)
 }
 
+/// Which part of how many, such as `3/64`.
+fn part(text: &str) -> Result<[u32; 2], String> {
+    let numbers = text.split_once('/').map(|(number, of)| (number.trim().parse(), of.trim().parse()));
+    match numbers {
+        Some((Ok(number), Ok(of))) if number >= 1 && number <= of && of <= MAX_PARTS => Ok([number, of]),
+        _ => Err(format!("a part is its number and how many there are, such as 3/64, up to {MAX_PARTS}")),
+    }
+}
+
+/// The first and the last of some frames, such as `0..47`.
+fn frames(text: &str) -> Result<[u32; 2], String> {
+    let numbers =
+        text.split_once("..").map(|(first, last)| (first.trim().parse(), last.trim_start_matches('=').trim().parse()));
+    match numbers {
+        Some((Ok(first), Ok(last))) if first <= last && last <= MAX_FRAME => Ok([first, last]),
+        _ => Err(format!("frames are the first and the last with .. between, such as 0..47, up to {MAX_FRAME}")),
+    }
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let rate = text.trim().parse::<f64>().ok().filter(|rate| *rate > 0.0 && *rate <= 1e6);
+    rate.ok_or("a number of frames in a unit of time is above 0 and at most 1000000, such as 24".into())
+}
+
 fn error(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| "an error is a number above 0 and at most 1, such as 0.01".into())
 }
@@ -271,6 +339,10 @@ fn typed_exposure(Exposure { stops, automatic }: Exposure) -> String {
         (true, stops) => format!("auto{stops:+}"),
         (false, stops) => stops.to_string(),
     }
+}
+
+fn bits(text: &str) -> Result<u8, String> {
+    text.trim().parse().ok().filter(|bits| [8, 16].contains(bits)).ok_or("a PNG has 8 bits or 16".into())
 }
 
 fn seed(text: &str) -> Result<u64, String> {

@@ -15,7 +15,7 @@ use super::summary::Summary;
 use super::warnings::{notes, too_dark, warnings};
 use pinhole::Chapter;
 use pinhole::extract::{ChosenIntegrator, LayerTable, adaptive_of, camera_entity, integrator_of, validate};
-use pinhole::film::png_bytes;
+use pinhole::film::{PngKind, png_bytes};
 use pinhole::look::{Foretold, RenderStats};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
@@ -140,7 +140,8 @@ pub fn render_with(
     let Foretold { warnings: said, lit_pixel } =
         before_rendering(subject, census, options, (&render, began), json, streams)?;
 
-    let files = Files::new(targets, census, &render, mine);
+    let png = PngKind { is_deep: options.bits == Some(16), text: hints::provenance(subject, options, mine.is_some()) };
+    let files = Files::new(targets, census, &render, (png, mine));
     let waiting = waiting(watched.as_deref(), options, &render, streams);
     let long = if render.is_sampled() {
         Some(render_long(&mut render, census, options, &files, &waiting, &mut |note| {
@@ -150,7 +151,10 @@ pub fn render_with(
         render_at_once(&mut render, &waiting, &files)?;
         None
     };
-    let (outcome, checkpoint) = long.map(|LongRender { outcome, checkpoint }| (outcome, checkpoint)).unzip();
+    if long.as_ref().is_some_and(|long| long.was_done) {
+        return streams.note(&format!("{} is done", files.targets.told(None)));
+    }
+    let (outcome, checkpoint) = long.map(|LongRender { outcome, checkpoint, .. }| (outcome, checkpoint)).unzip();
     let (samples, rendered) = (render.sampling.samples, render.finish());
     files.send(&rendered.film, streams.out)?;
 
@@ -158,7 +162,7 @@ pub fn render_with(
     let is_dark_foretold =
         said.iter().any(|warning| warning.starts_with("the picture will") && warning.contains("black"));
     let mut warnings = warnings(subject, options, &rendered.film, &rendered.plan)?;
-    warnings.extend(too_dark(&rendered.film, &rendered.plan).filter(|_| !is_dark_foretold));
+    warnings.extend(too_dark(&rendered.film, rendered.curve()).filter(|_| !is_dark_foretold));
     let told = files.targets.told(checkpoint.as_deref());
     if !json {
         warnings.iter().try_for_each(|warning| streams.note(&format!("warning: {warning}")))?;

@@ -162,7 +162,7 @@ impl<'c> Subject<'c> {
     }
 }
 
-/// A model with what a setting says: a factor of its light, or that its single-sided materials are so.
+/// A model with what a setting says: a factor of its picture's light, or that its single-sided materials are so.
 fn set_on_model(model: ModelScene, typed: &str, setting: &str) -> Result<ModelScene> {
     let shown = |written: &str| find::shown(written.as_ref());
     let what = match setting.trim().split_once('=').map(|(field, written)| (field, written.trim())) {

@@ -4,10 +4,10 @@ use super::error::Result;
 use super::options::RenderOptions;
 use super::subject::Subject;
 use pinhole::extract::{ImageFrame, PerspectiveProjection, SMALLEST_PIXEL, camera_entity, image_remarks};
-use pinhole::film::{Film, column_of_layer};
+use pinhole::film::{Curve, Film, column_of_layer};
 use pinhole::look::looks_black;
 use pinhole::plan::{Census, Plan, Table};
-use pinhole::scene::{ModelNotes, PerspectiveCamera};
+use pinhole::scene::{Exposure, ModelNotes, PerspectiveCamera};
 
 /// What was dropped, replaced or added where a scene's models and images were read, a line each.
 ///
@@ -37,16 +37,18 @@ fn too_much_light(film: &Film) -> Option<String> {
 }
 
 /// How dark a picture is that looks black all over; none where it shows a column in place of light.
-pub fn too_dark(film: &Film, plan: &Plan) -> Option<String> {
-    if plan.view.is_some() {
-        return None;
-    }
+pub fn too_dark(film: &Film, curve: Curve) -> Option<String> {
+    let exposure = match curve {
+        Curve::Straight => return None,
+        Curve::Srgb => Exposure::default(),
+        Curve::Exposed(exposure, _) => exposure,
+    };
     let pixels = (0..film.height).flat_map(|y| (0..film.width).map(move |x| film.mean(x, y)));
     let brightest = pixels.flatten().fold(0.0, f32::max);
     if brightest == 0.0 {
         return Some("the picture is black: the radiance of every pixel is 0".into());
     }
-    looks_black(f64::from(brightest)).map(|how| format!("the picture looks black: {how}"))
+    looks_black(f64::from(brightest), exposure).map(|how| format!("the picture looks black: {how}"))
 }
 
 fn rejected(film: &Film) -> Option<String> {

@@ -39,7 +39,7 @@ pub fn yours(asked: &CompareYours, format: Format, streams: &mut Streams<'_>) ->
         let named = asked.output.is_some();
         let file = asked.output.clone().unwrap_or_else(|| format!("out/yours_{:02}.png", step.number).into());
         check_file(named, &file)?;
-        write_file(named, &file, &png_bytes(&film_after(step.number)?, Curve::Srgb)?)?;
+        write_file(named, &file, &png_bytes(&film_after(step.number, SHOWN)?, Curve::Srgb)?)?;
         return print_written(&file, format, out);
     };
     let picture = read_ppm(picture)?;
@@ -47,6 +47,9 @@ pub fn yours(asked: &CompareYours, format: Format, streams: &mut Streams<'_>) ->
         || _ = writeln!(notes, "note: it differs; known mistakes are tried in the program, for a minute or two");
     tell(&Expected::after(step.number)?.compare(&picture, &mut waits)?, format, out)
 }
+
+/// Samples a pixel of a picture to look at, which is then about as noisy as the program's own.
+const SHOWN: u32 = 32;
 
 fn list(format: Format, out: &mut dyn Write) -> Result {
     let mut all: Vec<Value> = Vec::new();
@@ -63,7 +66,7 @@ fn list(format: Format, out: &mut dyn Write) -> Result {
 
 fn tell(found: &Comparison, format: Format, out: &mut dyn Write) -> Result {
     if format.is_json() {
-        let told = match *found {
+        let told = match found {
             Comparison::Same { resolved } => json!({ "same": true, "resolved": resolved }),
             Comparison::Shifted { by } => json!({ "same": false, "shifted": by }),
             Comparison::Differs { blocks, of, brightness, most, looks_like } => json!({
@@ -72,18 +75,20 @@ fn tell(found: &Comparison, format: Format, out: &mut dyn Write) -> Result {
         };
         return print_json(&told, out);
     }
-    match *found {
+    match found {
         Comparison::Same { resolved } => {
             let percent = 100.0 * resolved;
             writeln!(out, "The same picture: no block of 16 × 10 pixels differs by more than noise and rounding.")?;
             writeln!(out, "In half of the blocks, {percent:.1} % more or less light would have been told.")?;
         }
         Comparison::Shifted { by: [right, down] } => {
-            writeln!(out, "The same picture, but shifted by {right:+.2} pixels to the right and {down:+.2} downward.")?;
-            writeln!(out, "Does a ray go through the middle of its pixel?")?;
+            let by = format!("{right:+.2} pixels to the right and {down:+.2} downward");
+            writeln!(out, "The same picture but for its edges, which lie as if it were shifted by {by}.")?;
+            let question = "Do rays go through the middle of their pixel, and is the mean taken before the curve?";
+            writeln!(out, "{question}")?;
         }
         Comparison::Differs { blocks, of, brightness, most: [x, y], looks_like } => {
-            let (percent, than) = (100.0 * brightness.abs(), if brightness < 0.0 { "less" } else { "more" });
+            let (percent, than) = (100.0 * brightness.abs(), if *brightness < 0.0 { "less" } else { "more" });
             writeln!(
                 out,
                 "Another picture: {blocks} of {of} blocks of 16 × 10 pixels differ, with {percent:.1} % {than} light in all."

@@ -138,6 +138,11 @@ pub use error::{Error, Result};
 pub use example::run;
 
 // The unit tests include files of the laboratory, which name this crate from outside.
+/// What stands on the package's page.
+#[cfg(doctest)]
+#[doc = include_str!("README.md")]
+struct Readme;
+
 #[cfg(test)]
 extern crate self as pinhole;
 #[cfg(test)]

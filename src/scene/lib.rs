@@ -27,6 +27,7 @@ mod file_store;
 mod folder;
 mod image_kind;
 mod integrator;
+mod keys;
 mod lights;
 mod material;
 mod memory;
@@ -70,6 +71,7 @@ pub use image_kind::{KINDS_READ, TELLING_BYTES, image_kind};
 #[doc(hidden)]
 pub use integrator::LightTransport;
 pub use integrator::{Integrator, LightStrategy};
+pub use keys::{KeyCurve, KeyedValues, Keys};
 pub use lights::{DirectionalLight, Emissive, PointLight, Sides, SpotLight};
 pub use material::{BlinnPhong, Glass, Matte, Metal, Mirror, Phong, Principled, RoughGlass, UsesMaterial};
 #[doc(hidden)]
@@ -82,7 +84,7 @@ pub use model::{
 };
 pub use model::{Mesh, load_meshes};
 #[doc(hidden)]
-pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, read_file};
+pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, opened_files, read_file};
 pub use picture::{
     Adaptive, Filter, Layers, LightTracing, Rasterisation, Resolution, Sampler, Sampling, Statistics, View,
 };

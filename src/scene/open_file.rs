@@ -4,10 +4,21 @@
 //! Therefore nothing here blocks, only regular files are read, and no more bytes of them than their kind allows.
 
 use super::{TooLittleMemory, check_memory, printable_path};
+use std::collections::BTreeSet;
 use std::fmt;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// The files that were opened since the program began.
+static OPENED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// The files that this program has opened for reading, by the paths by which it did: what another machine needs to render
+/// the same.
+pub fn opened_files() -> Vec<PathBuf> {
+    OPENED.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
+}
 
 /// A kind of file: its name in messages, and its largest size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,6 +119,7 @@ fn open(path: &Path, kind: FileKind) -> Result<(File, Metadata), Unopened> {
     let file = options.open(path)?;
     let metadata = file.metadata()?;
     check_kind(&metadata, kind)?;
+    OPENED.lock().unwrap_or_else(PoisonError::into_inner).insert(path.into());
     Ok((file, metadata))
 }
 

@@ -11,7 +11,7 @@
 use pinhole::film::{film_stage, write_checkpoint, write_exr};
 use pinhole::material::{MatteTable, MirrorTable, PhongTable};
 use pinhole::plan::{Census, Stage, plan};
-use pinhole::render::{Execution, Limits, RenderInProgress, WHOLE, film_key, render_in_passes};
+use pinhole::render::{Execution, Limits, RenderInProgress, WHOLE, render_in_passes};
 use pinhole::scene::{Resolution, SceneFile};
 use pinhole::{follow, intersect, rays, shade, stages};
 use std::fs;
@@ -252,7 +252,7 @@ fn render_case(words: &[String], offers_all: bool) {
     let mut in_progress = RenderInProgress::begin(census, &offer, &execution).expect("a plan");
     if in_progress.is_sampled() {
         render_in_passes(&mut in_progress, &Limits::default(), &(), &mut |_| Ok(())).expect("renders");
-        let key = film_key(&world, &in_progress.plan);
+        let key = in_progress.key(&world, &()).expect("nobody stops it");
         write_checkpoint(&in_progress.film, key, &Path::new(output).with_extension("checkpoint")).expect("a file");
     } else {
         in_progress.advance(WHOLE, &()).expect("renders");

@@ -6,27 +6,11 @@
 #![allow(clippy::disallowed_methods, reason = "a reader may call any function")]
 #![allow(dead_code, reason = "the answers that are right are for the tests")]
 
+#[path = "../exercises/answers.rs"]
+mod answers;
+
 #[path = "../exercises/shown.rs"]
 mod shown;
-
-/// What chapters ask their readers to write, as the program has it.
-mod listed {
-    include!(concat!(env!("OUT_DIR"), "/exercises.rs"));
-}
-
-/// The solution, and wrong answers that were recorded.
-mod answers {
-    use pinhole_lab::exercise::Exercise;
-
-    /// Answers to a chapter's exercise.
-    pub struct Answers {
-        pub solution: Exercise,
-        pub textbook: Option<Exercise>,
-        pub wrong: [(Exercise, &'static str); 6],
-    }
-
-    include!(concat!(env!("OUT_DIR"), "/answers.rs"));
-}
 
 use pinhole::Overrides;
 use pinhole_lab::exercise::{PicturePair, Seen, sheet};

@@ -9,13 +9,20 @@ use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 
 /// A command, and the files that it writes without having been told their names.
-const PLACES: [(&str, &[&str]); 17] = [
+const PLACES: [(&str, &[&str]); 21] = [
     ("render 5 --size 8x5", &["out/05_pinhole.png", "out/05_pinhole.exr"]),
     ("render 5 --size 8x5 -n 2", &["out/05_pinhole.png", "out/05_pinhole.exr", "out/05_pinhole.checkpoint"]),
     ("render 5 --size 8x5 -n 2 -o named.png", &["named.checkpoint"]),
     ("render 5 --size 8x5 -n 2 --write-every 1ms -o named.png", &["named.checkpoint", "named-2.checkpoint"]),
     ("render 5 --size 8x5 -n 2 --resume -o named.png", &["named.checkpoint"]),
     ("render 5 --size 8x5 --mine", &["out/05_mine.png"]),
+    ("render 5 --size 8x5 --part 1/2", &["out/05_pinhole.part-1-of-2.checkpoint"]),
+    (
+        "farm 5 --size 8x5 --parts 2 --to slurm",
+        &["out/05_pinhole.sbatch", "out/05_pinhole.submit.sh", "out/05_pinhole.files"],
+    ),
+    ("farm 5 --size 8x5 --parts 2 --to openjd", &["out/05_pinhole.template.json"]),
+    ("farm 5 --size 8x5 --parts 2 --to parallel", &["out/05_pinhole.parallel.sh"]),
     ("figure 05_pinhole", &["out/05_pinhole.svg"]),
     ("draw card.png", &["out/card.png"]),
     ("yours 5", &["out/yours_05.png"]),
@@ -33,7 +40,7 @@ const PLACES: [(&str, &[&str]); 17] = [
 ];
 
 /// The sources that write by the rule, each with the number of calls; those without a remark make what `PLACES` lists.
-const WRITERS: [(&str, usize); 23] = [
+const WRITERS: [(&str, usize); 25] = [
     ("src/command/compare.rs", 1), // where the reader says
     ("src/command/conventions.rs", 1),
     ("src/command/cost.rs", 1), // the repository's costs.txt, by --write
@@ -42,12 +49,14 @@ const WRITERS: [(&str, usize); 23] = [
     ("src/command/export_images.rs", 1),
     ("src/command/export_meshes.rs", 1),
     ("src/command/extremes.rs", 1), // where the reader says
+    ("src/command/farm.rs", 1),
     ("src/command/figure.rs", 1),
     ("src/command/files.rs", 3),
-    ("src/command/long_render.rs", 2),
+    ("src/command/long_render.rs", 4),
     ("src/command/mine.rs", 1),
     ("src/command/mutation.rs", 2),
     ("src/command/own_file.rs", 1),
+    ("src/command/parts.rs", 2),
     ("src/command/render.rs", 2),
     ("src/command/report.rs", 2),
     ("src/command/review.rs", 1),
@@ -215,11 +224,13 @@ fn every_place_that_writes_is_in_the_list() {
             "write_whole(",
             "write_file(",
             "write_png(",
+            "write_png_as(",
             "write_exr(",
             "write_layered_exr(",
             "set_aside(",
             "remove_own(",
             "keep_checkpoint(",
+            "write_done(",
         ];
         let count =
             code.iter().filter(|line| !line.contains("fn ") && by_rule.iter().any(|call| line.contains(call))).count();

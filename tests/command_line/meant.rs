@@ -52,7 +52,7 @@ const ROWS: &[Row] = &[
     ("render 5 -o out.hdr", 2, &[], &["cannot write out.hdr", ".png", ".exr"]),
     ("render 5 -o folder/", 2, &[], &["cannot write folder/", ".png", ".exr"]),
     ("render 5 --time 1", 2, &[], &["such as 10s", "--help"]),
-    ("render 5 --exposure 2", 2, &[], &["unexpected argument '--exposure'", "Usage: "]),
+    ("render 5 --gamma 2", 2, &[], &["unexpected argument '--gamma'", "Usage: "]),
     ("render 5 --widht 96", 2, &[], &["'--width'"]),
     ("render 5 --sample 4", 2, &[], &["'--samples'", "Usage: "]),
     ("render 5 --sample=4", 2, &[], &["'--samples'"]),

@@ -46,6 +46,10 @@ const LINES: &[(&[&str], Says)] = &[
     (&["review", "accept", "all", "--chapters", "@"], |_| vec!["no snapshot waits".into()]),
     (&["review", "--mutate", "half-pixel", "-o", "@/page.html"], mutation),
     (&["compare", CARD, CARD, "-o", "@/difference.png"], compare),
+    (&["farm", "5", "--parts", "4", "--to", "parallel", "-o", "@/a.png"], |it| {
+        let written = list(it, "written").iter().map(|file| file.as_str().expect("a name"));
+        vec![format!("wrote {}; to begin: {}", written.collect::<Vec<_>>().join(", "), word(it, "begin"))]
+    }),
     (&["yours"], |it| each(it, "steps", |it| format!("{} {} lines", word(it, "chapter"), it["lines"]))),
     (&["yours", "5", "-o", "@/yours.png"], wrote),
     (&["yours", "5", "--program"], |it| vec![word(it, "program").into()]),
@@ -53,7 +57,7 @@ const LINES: &[(&[&str], Says)] = &[
 const CARD: &str = "chapters/16_textures/card.png";
 /// Help and scripts for shells are no data; what `render` says is tried beside the pictures that it writes, and what
 /// `measure` says beside the records.
-const TRIED_ELSEWHERE: [&str; 6] = ["help", "completions", "render", "view", "live", "measure"];
+const TRIED_ELSEWHERE: [&str; 7] = ["help", "completions", "render", "merge", "view", "live", "measure"];
 
 /// What a command line prints, and the sentence that it ends with where it fails.
 fn printed(chapters: &[Chapter], line: &[&str], format: &str) -> (String, Option<String>) {

@@ -2,6 +2,7 @@
 
 use super::*;
 use glam::{DAffine3, DVec3};
+use pinhole::scene::Exposure;
 
 /// A thing that glows dimly is no lamp; a ceiling that shines is one.
 #[test]
@@ -31,10 +32,11 @@ fn lights_and_surfaces_are_exposed_by_one_factor() {
         ]);
         let folder = tempfile::tempdir().expect("a folder");
         let mut world = world(&write(folder.path(), "m.gltf", &file)).expect("read");
-        assert!(world.resource::<ModelNotes>().0.iter().any(|note| note.contains("multiplied")));
+        assert!(world.resource::<ModelNotes>().0.iter().any(|note| note.contains("stops")));
         let light = world.query::<&PointLight>().iter(&world).next().expect("a light").intensity.to_array()[0];
         let shines = world.query::<&Emissive>().iter(&world).next().expect("emission").radiance.to_array()[0];
-        [light, shines]
+        let exposure = world.query::<&Exposure>().iter(&world).next().expect("an exposure").stops.exp2();
+        [light * exposure, shines * exposure]
     };
     for scale in [1.0, 100.0, 683.0] {
         let [light, shines] = of(50.0 * scale, 2.0 * scale);
@@ -153,16 +155,23 @@ fn a_camera_s_aspect_ratio_is_that_of_the_picture() {
     assert_eq!(size(Some(0.25)), [240, 960]);
 }
 
-/// Whoever wants the file's own numbers gets them.
+/// Lights are as the file says; the picture is exposed instead, by a number of stops that can be chosen.
 #[test]
-fn a_model_s_exposure_can_be_chosen() {
+fn a_model_s_exposure_is_the_camera_s() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = write(folder.path(), "m.gltf", &base());
-    let model = ModelScene::open(&path).expect("read").with_exposure(1.0);
+    let model = ModelScene::open(&path).expect("read");
     let mut world = model.world();
     let light = world.query::<&PointLight>().iter(&world).next().expect("a light").intensity;
     let shines = world.query::<&Emissive>().iter(&world).next().expect("emission").radiance;
     assert_eq!((light, shines), (Rgb::grey(50.0), Rgb::new(0.1, 0.05, 0.02)));
+    let stops = |world: &mut World| world.query::<&Exposure>().iter(world).next().map(|own| own.stops);
     let ModelNotes(notes) = world.resource::<ModelNotes>();
-    assert_eq!(notes.iter().filter(|note| note.contains("multiplied by 1")).count(), 1, "{notes:?}");
+    assert_eq!(notes.iter().filter(|note| note.contains("stops")).count(), 1, "{notes:?}");
+    assert_eq!(stops(&mut world), Some(model.exposure.log2()));
+    assert_eq!(stops(&mut model.clone().with_exposure(8.0).world()), Some(3.0));
+    let mut plain = model.with_exposure(1.0).world();
+    assert_eq!(stops(&mut plain), None);
+    let ModelNotes(notes) = plain.resource::<ModelNotes>();
+    assert!(!notes.iter().any(|note| note.contains("stops")), "{notes:?}");
 }

@@ -35,7 +35,7 @@ pub const MISTAKES: [Edit; 58] = [
     (13, "match along > 0.0", "match along < 0.0"),
     (13, "V(0.0, 1.0, 0.0)),\n                (low.2", "V(1.0, 0.0, 0.0)),\n                (low.2"),
     (17, "sum.times(1.0 / SAMPLES as f64)", "sum.times(2.0 / SAMPLES as f64)"),
-    (17, "2.0_f64.powi(53)", "2.0_f64.powi(50)"),
+    (17, "1_u64 << 53", "1_u64 << 50"),
     (19, "2.0 * normal.dot(direction)", "normal.dot(direction)"),
     (19, "                weight = weight.by(colour);\n", ""),
     (19, "direction.sub(normal.times(2.0", "direction.add(normal.times(2.0"),
@@ -109,7 +109,7 @@ pub const BLIND: [Edit; 93] = [
     (13, "from_centre.add(direction.times(t)).unit()", "from_centre.add(direction.times(t))"), // sphere: normal not unit
     (17, "sum.times(1.0 / SAMPLES as f64)", "sum"),                                            // sum not divided
     (17, "(random.next(), random.next())", "(random.next() - 0.5, random.next() - 0.5)"), // right - 0.5, down - 0.5
-    (17, "powi(53)", "powi(52)"),                                                         // 2^63
+    (17, "1_u64 << 53", "1_u64 << 52"),                                                   // 2^63
     (17, "        let (right, down)", "        sum = V(0.0, 0.0, 0.0);\n        let (right, down)"), // sum reset in the loop
     (17, "Random((y * WIDTH + x) as u64)", "Random(1)"), // the same random numbers in every pixel
     (19, "normal.times(2.0 * normal.dot(direction))", "normal.times(normal.dot(direction))"), // mirrored without the 2
@@ -230,11 +230,11 @@ pub const RIGHT: [Edit; 15] = [
 ];
 
 /// What is said of a picture that is not pinhole's; none of one that is.
-pub fn said(found: &Comparison) -> Option<&'static str> {
-    match *found {
+pub fn said(found: &Comparison) -> Option<&str> {
+    match found {
         Comparison::Same { .. } => None,
         Comparison::Shifted { .. } => Some("it is shifted"),
-        Comparison::Differs { looks_like, .. } => Some(looks_like.unwrap_or(NOT_NAMED)),
+        Comparison::Differs { looks_like, .. } => Some(looks_like.as_deref().unwrap_or(NOT_NAMED)),
     }
 }
 

@@ -55,11 +55,13 @@ fn timed(page: &mut Page) {
     page.text.replace_range(by_hand..end, &format!("\n{told}\n"));
 }
 
-/// Says which step comes first, at the end of the line above the step: no other line changes its number.
+/// Says which step comes first, at the end of the section's first line: no other line changes its number.
 fn follows(page: &mut Page, before: &str) {
-    let step = page.text.find("yours.step}}").and_then(|step| page.text[..step].rfind("\n\n```"));
+    let heading = format!("\n## {STEP}\n\n");
+    let start = page.text.find(&heading).map(|at| at + heading.len());
+    let end = start.and_then(|start| Some(start + page.text[start..].find('\n')?));
     let number = label_of(before);
-    if let Some(end) = step {
+    if let Some(end) = end {
         let told = format!(
             " (First comes [the step of {number}]({before}#add-to-yours); it can be typed in without its page.)"
         );
@@ -88,7 +90,7 @@ mod tests {
         all.push(made_up("teaching.md", "{{#syllabus a weekend | 1, 3, 2: x}}\n"));
         guide(&mut all);
         assert!(
-            all[1].text.contains("- Write it.\n\nMinutes: 1 to read, 10 to write, 0 for all exercises.\n\n</details>"),
+            all[1].text.contains("- Write it.\n\nMinutes: 0 to read, 10 to write, 0 for all exercises.\n\n</details>"),
             "{}",
             all[1].text
         );
@@ -109,7 +111,7 @@ mod tests {
         let all = pages();
         let (mut before, mut steps): (Option<String>, usize) = (None, 0);
         for (page, _) in lesson::taught(&all) {
-            if !page.text.contains("yours.step}}") {
+            if !page.text.contains("yours.step") {
                 continue;
             }
             if let Some(before) = &before {

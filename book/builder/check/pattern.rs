@@ -7,19 +7,34 @@ use super::{Page, listing};
 /// Words in a line of prose, at the width of the book's column.
 const WORDS_A_LINE: usize = 12;
 
+/// How the fold of a step begins, which holds what a reader types.
+pub const STEP: &str = "<details class=\"step\">";
+
 /// The page's lines, each with whether it is folded.
 pub fn folded<'p>(scan: &'p Scan<'p>) -> impl Iterator<Item = (&'p super::scan::Line<'p>, bool)> {
+    within(scan, |line| line.starts_with("<details"))
+}
+
+/// The page's lines, each with whether it is in a fold that who works through the page may leave shut.
+pub fn unread<'p>(scan: &'p Scan<'p>) -> impl Iterator<Item = (&'p super::scan::Line<'p>, bool)> {
+    within(scan, |line| line.starts_with("<details") && line != STEP)
+}
+
+fn within<'p>(
+    scan: &'p Scan<'p>,
+    opens: impl Fn(&str) -> bool + 'p,
+) -> impl Iterator<Item = (&'p super::scan::Line<'p>, bool)> {
     let mut depth = 0_usize;
     scan.lines.iter().map(move |line| {
         let text = line.text.trim_start();
-        if line.fence.is_none() && text.starts_with("<details") {
+        if line.fence.is_none() && opens(text.trim_end()) {
             depth += 1;
         }
-        let is_folded = depth > 0;
+        let is_inside = depth > 0;
         if line.fence.is_none() && text.starts_with("</details") {
             depth = depth.saturating_sub(1);
         }
-        (line, is_folded)
+        (line, is_inside)
     })
 }
 

@@ -4,7 +4,7 @@
 //! kind of work has a rate of its own, and [`RATES`] says them to the reader.
 
 use super::directive::{Directive, parse};
-use super::pattern::folded;
+use super::pattern::unread;
 use super::scan::{Scan, blank_spans};
 use super::{Page, listing, parts};
 use std::ops::Add;
@@ -57,18 +57,25 @@ impl Work {
         let scan = Scan::new(&page.text);
         let (mut reading, mut function, mut step) = (0.0, 0.0, 0.0);
         let (mut is_formula, mut is_exercise) = (false, false);
-        for (line, _) in folded(&scan).filter(|(_, is_folded)| !is_folded) {
+        for (line, _) in unread(&scan).filter(|(_, is_unread)| !is_unread) {
             match (parse(line.text), line.fence) {
                 (Some(Ok(Directive::Include { path, anchor })), Some(_)) => {
                     let lines = listing::shown(page, path, anchor).map_or(0, |text| text.lines().count()) as f64;
                     match path.rsplit('/').next() {
                         Some("exercise.rs") => function += FUNCTION,
-                        Some("yours.step" | "one_page.rs") => step += RUN + lines / TYPED,
+                        // A step in several parts is run once.
+                        Some("yours.step" | "one_page.rs") => {
+                            step += if step > 0.0 { 0.0 } else { RUN };
+                            step += lines / TYPED;
+                        }
                         _ => reading += lines / READ,
                     }
                 }
                 (Some(Ok(Directive::Figure { caption, .. })), None) => reading += PICTURE + prose(caption),
-                (None, Some(fence)) if ["rust", "text"].contains(&scan.fences[fence].info) => reading += 1.0 / READ,
+                (None, Some(fence)) if ["rust", "text"].contains(&scan.fences[fence].info) => {
+                    let is_line = !line.text.trim_start().starts_with("```");
+                    reading += if is_line { 1.0 / READ } else { 0.0 };
+                }
                 (None, None) => {
                     let marks = line.text.matches("$$").count();
                     reading += FORMULA * marks as f64 / 2.0;
@@ -94,6 +101,22 @@ impl Work {
     /// To write what the page asks for.
     pub fn writing(self) -> usize {
         self.function + self.step
+    }
+
+    /// The minutes in a line, as whoever opens the page wants them: to the next five.
+    pub fn at_a_glance(self) -> String {
+        let about = |minutes: usize| (minutes + 2) / 5 * 5;
+        let with = match (self.function > 0, self.step > 0) {
+            (true, true) => ", with the function and the step",
+            (true, false) => ", with the function",
+            (false, true) => ", with the program",
+            (false, false) => "",
+        };
+        let more = match about(self.exercises) {
+            0 => String::new(),
+            more => format!("; all exercises, {more} more"),
+        };
+        format!("About {} minutes{with}{more}.", about(self.reading + self.writing()))
     }
 
     /// The minutes in a sentence.
@@ -141,10 +164,15 @@ mod tests {
         assert_eq!(work(&format!("<details>\n{words}\n</details>\n")).reading, 0, "what is folded is not read");
         assert_eq!(work("$$a$$\n\n$$\nb\n$$\n").reading, 4);
         assert_eq!(work(&"$a$ and $b$\n".repeat(30)).reading, 10);
-        assert_eq!(work(&format!("```rust\n{}```\n", "a();\n".repeat(40))).reading, 11);
+        assert_eq!(work(&format!("```rust\n{}```\n", "a();\n".repeat(40))).reading, 10);
         assert_eq!(work("{{#figure render 1 | A}}\n").reading, 1);
         let typed = work("```rust\n{{#include Cargo.toml}}\n{{#include x/exercise.rs:a}}\n```\n");
         assert_eq!((typed.function, typed.step), (20, 0));
+        let step = "<details class=\"step\">\n\n```rust\n{{#include x/yours.step:a}}\n```\n\n```rust\n{{#include x/yours.step:b}}\n```\n\n</details>\n";
+        assert_eq!(work(step), Work { step: 10, ..Work::default() }, "a step that is folded is typed, and run once");
+        let glance = Work { reading: 31, function: 20, step: 22, exercises: 80 }.at_a_glance();
+        assert_eq!(glance, "About 75 minutes, with the function and the step; all exercises, 80 more.");
+        assert_eq!(work("a\n").at_a_glance(), "About 0 minutes.");
         let exercises = "## Exercises\n\n1. ★ A.\n2. ★★ B.\n3. ★★★ C.\n";
         assert_eq!(work(exercises), Work { exercises: 80, ..Work::default() });
         assert_eq!(work("a\n").writing(), 0);

@@ -7,7 +7,7 @@ use super::shown::Shown;
 const GENERAL: f64 = 0.97;
 
 /// How many of those one of the chapter's own must explain; one that explains fewer agrees here and there with anything.
-const LEAST: f64 = 0.08;
+const MIN_EXPLAINED: f64 = 0.08;
 
 /// What is said of the mistakes that explain the first wrong answer and those about it best; of those that explain it
 /// alike, the fewest, and the chapter's own before the general ones.
@@ -36,7 +36,7 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
         let changes = |at: usize| !question.same(&made[at], &right[at]);
         let agrees = |at: usize| agrees(question, &given[at], &made[at], &right[at]);
         let of_all = fraction(given.len(), &changes, &agrees);
-        if of_all >= LEAST
+        if of_all >= MIN_EXPLAINED
             && fraction(near, &changes, &agrees) >= 0.9
             && best.as_ref().is_none_or(|(max, _)| of_all > *max)
         {

@@ -19,7 +19,7 @@ const LEGEND: u32 = 12 + TITLE;
 const PAPER: Rgb<u8> = Rgb([28, 28, 30]);
 const INK: Rgb<u8> = Rgb([225, 225, 220]);
 /// The least that the brightest colour stands for, of 255: one of 255 is rounding.
-const LEAST: f64 = 8.0;
+const MIN_FULL: f64 = 8.0;
 /// The part of the pixels that may differ by more than the brightest colour stands for.
 const BEYOND: f64 = 0.002;
 
@@ -28,10 +28,10 @@ const BEYOND: f64 = 0.002;
 ///
 /// Errors: an encoder that refuses.
 pub fn sheet(pairs: &[(&str, PicturePair)]) -> io::Result<Vec<u8>> {
-    let least = pairs.first().map_or(0, |(_, pair)| pair.size[0]).max(MIN_WIDTH);
+    let narrowest = pairs.first().map_or(0, |(_, pair)| pair.size[0]).max(MIN_WIDTH);
     // A picture of few pixels is drawn as large as the first, in squares.
-    let high = pairs.first().map_or(0, |(_, pair)| pair.size[1] * (least / pair.size[0].max(1)));
-    let zoom = |[width, height]: [u32; 2]| (least / width.max(1)).min(high / height.max(1)).max(1);
+    let high = pairs.first().map_or(0, |(_, pair)| pair.size[1] * (narrowest / pair.size[0].max(1)));
+    let zoom = |[width, height]: [u32; 2]| (narrowest / width.max(1)).min(high / height.max(1)).max(1);
     let zooms: Vec<u32> = pairs.iter().map(|(_, pair)| zoom(pair.size)).collect();
     let sizes = || pairs.iter().zip(&zooms).map(|((_, pair), zoom)| pair.size.map(|side| side * zoom));
     let across = sizes().map(|[width, _]| width).max().unwrap_or(0).max(MIN_WIDTH);
@@ -88,7 +88,7 @@ fn full_of(mut apart: Vec<f64>) -> f64 {
     apart.sort_by(f64::total_cmp);
     let last = apart.len().saturating_sub(1 + (apart.len() as f64 * BEYOND) as usize);
     let largest = apart.get(last).copied().unwrap_or(0.0);
-    full_white(largest.max(LEAST)).min(256.0)
+    full_white(largest.max(MIN_FULL)).min(256.0)
 }
 
 /// Black for no difference, to a bright blue for darker pixels and to a bright orange for brighter ones.

@@ -3,7 +3,7 @@ use super::mine::{Mine, Setting, Whose};
 use super::seen::Seen;
 use bevy_ecs::prelude::*;
 use pinhole::extract::camera_entity;
-use pinhole::film::{Curve, Film, byte_from_linear};
+use pinhole::film::{Curve, Film, rgba_of};
 use pinhole::render::{Execution, Rendered, Watch, render};
 use pinhole::scene::Sampling;
 use pinhole::{Chapter, Overrides, Result, SamplingOverrides};
@@ -76,7 +76,8 @@ impl PicturePair {
 
     /// A picture as bytes.
     pub fn bytes(&self, light: &Pixels) -> Vec<[u8; 3]> {
-        light.iter().map(|pixel| pixel.map(|part| byte_from_linear(part, self.curve))).collect()
+        let rows = [0, 1, 2].map(|part| light.iter().map(|pixel| pixel[part]).collect());
+        rgba_of(&rows, self.curve).chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
     }
 }
 

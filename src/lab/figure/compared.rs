@@ -67,7 +67,7 @@ fn integrated(
 
 /// What is near hides the sky, then what is farther too.
 pub fn draw_distance(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let of = |distance, lines| integrated(chapter, SMALL, 32, Integrator::AmbientOcclusion { distance }, lines);
+    let of = |distance, lines| integrated(chapter, SMALL, 16, Integrator::AmbientOcclusion { distance }, lines);
     let exhibits = [
         of(0.25, ["distance 0.25", "only creases are dark"]),
         of(1.0, ["distance 1", "what is near darkens"]),
@@ -141,7 +141,7 @@ fn on_named<C: Component + Clone>(camera: &mut EntityWorldMut<'_>, components: &
 /// The chapter's scene by paths, with these materials in place of what the named entities are made of.
 fn made_of<M: Component + Clone>(chapter: &Chapter, materials: &[(&str, M)], lines: [&str; 2]) -> Result<Exhibit> {
     let picture = Picture::of(chapter, SMALL, None, |camera| {
-        camera.insert((Integrator::PATH, Sampling { samples: 24, ..Sampling::default() }));
+        camera.insert((Integrator::PATH, Sampling { samples: 16, ..Sampling::default() }));
         camera.world_scope(|world| {
             let mut named = world.query::<(Entity, &Name)>();
             let is_one = |name: &Name| materials.iter().any(|(own, _)| *own == name.as_str());
@@ -199,7 +199,7 @@ pub fn draw_relief(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 /// The pdf of a light as it should be; without the light's cosine; without distance and cosine.
 pub fn draw_jacobian(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     const SIZE: [u32; 2] = [276, 184];
-    let change = Sampling { samples: 32, seed: 21, sampler: Sampler::Sobol, ..Sampling::default() };
+    let change = Sampling { samples: 16, seed: 21, sampler: Sampler::Sobol, ..Sampling::default() };
     let of = |forget: Option<Stage>, lines| {
         let picture = Picture::beside(chapter, SIZE, forget, |camera| {
             camera.insert(change);

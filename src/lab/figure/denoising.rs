@@ -12,9 +12,9 @@ use pinhole::{Chapter, Result};
 /// The most levels.
 const MAX: u32 = 4;
 /// Samples a pixel, how many renders of them, each of another seed, and the colours of their curves.
-const SAMPLES: [(u32, u32, &str); 4] = [(1, 16, "#d9822b"), (4, 12, "#4a90c9"), (16, 6, "#4f9d5d"), (64, 2, "#8a6bb1")];
+const SAMPLES: [(u32, u32, &str); 4] = [(1, 8, "#d9822b"), (4, 6, "#4a90c9"), (16, 3, "#4f9d5d"), (64, 2, "#8a6bb1")];
 /// Renders whose mean is the reference, and the samples of each.
-const BATCHES: u32 = 8;
+const BATCHES: u32 = 6;
 const BATCH: u32 = 12;
 /// Where the axes are: left, top, right, bottom.
 const FRAME: [f64; 4] = [72.0, 40.0, 500.0, 350.0];
@@ -138,5 +138,5 @@ pub fn draw_bias_and_variance(chapter: &Chapter, figure: &Figure) -> Result<Draw
         Label::near(DVec2::new(left, 16.0), "mean square; unbroken: variance and bias² together", DVec2::X, 0.0)
             .title(0.92),
     );
-    Ok(svg.finish(figure.about, &figure.stamp(MEASURED, "4 to 16 seeds a point")))
+    Ok(svg.finish(figure.about, &figure.stamp(MEASURED, "2 to 8 seeds a point")))
 }

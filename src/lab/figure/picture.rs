@@ -143,9 +143,18 @@ fn rendered(
     if !follows && !scene.entity(camera).contains::<Integrator>() {
         scene.entity_mut(camera).insert(Integrator::RayCasting);
     }
+    // A picture in a figure is small.
+    at_most(&mut scene, camera, SAMPLES);
     change(&mut scene.entity_mut(camera));
-    if let Some(mut sampling) = scene.get_mut::<Sampling>(camera) {
-        sampling.samples = sampling.samples.min(MAX_SAMPLES.get());
-    }
+    at_most(&mut scene, camera, MAX_SAMPLES.get());
     render(&scene, &whole.stages(), &Execution::default(), &())
+}
+
+/// The samples a pixel of a figure's picture, unless the figure asks for others.
+const SAMPLES: u32 = 16;
+
+fn at_most(scene: &mut World, camera: Entity, samples: u32) {
+    if let Some(mut sampling) = scene.get_mut::<Sampling>(camera) {
+        sampling.samples = sampling.samples.min(samples);
+    }
 }

@@ -21,6 +21,8 @@ const SMALL: [u32; 2] = [226, 127];
 const LARGE: [u32; 2] = [345, 194];
 /// Where the denoiser's curves and the ghosts are measured.
 pub(super) const MEASURED: [u32; 2] = [160, 90];
+/// Samples a pixel of what is shown as the truth.
+const TRUTH: u32 = 32;
 /// Frames of a camera that moves, and how far it moves from one to the next, in scene units.
 const FRAMES: u32 = 8;
 const STEP: f64 = 0.06;
@@ -185,7 +187,7 @@ pub(super) fn raised(exponent: &str) -> String {
 
 /// The same surfaces with more and more rays: direct light alone, shadows, reflections, light of surfaces and sky.
 pub fn draw_ingredients(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let samples = few(12);
+    let samples = few(6);
     let of = |what: &str, integrator: Integrator, without: Option<&str>| -> Result<Exhibit> {
         let (_, Rendered { film, plan, laps, .. }) = shown(chapter, LARGE, true, without, |camera| {
             camera.insert(integrator);
@@ -217,13 +219,13 @@ pub fn draw_ingredients(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 
 /// What samples add up to while the camera rests.
 pub fn draw_accumulated(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let truth = Truth::of(chapter, SMALL, 32)?;
+    let truth = Truth::of(chapter, SMALL, 16)?;
     let of = |samples: u32| -> Result<Exhibit> {
         let light = Frame::of(chapter, SMALL, [few(samples), samples], 0.0)?.history.denoised(0);
         let samples = format!("{samples} {} a pixel", if samples == 1 { "sample" } else { "samples" });
         Ok(Exhibit { picture: painted(SMALL, &light)?, lines: vec![samples, truth.error_in_words(&light)] })
     };
-    let exhibits = [of(1)?, of(8)?, of(64)?];
+    let exhibits = [of(1)?, of(6)?, of(36)?];
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SMALL)))
 }
 
@@ -232,7 +234,7 @@ pub fn draw_reprojected(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     const NEW: [f32; 3] = [0.9, 0.28, 0.03];
     let alone = Frame::of(chapter, LARGE, [1, 100 + FRAMES - 1], 0.0)?.history;
     let joined = Frame::of_many(chapter, LARGE, 1)?.history;
-    let truth = Truth::of(chapter, LARGE, 32)?;
+    let truth = Truth::of(chapter, LARGE, 12)?;
     let is_new = |at: usize| joined.samples[at] <= alone.samples[at];
     let grey = truth.mean();
     let mark = |at: usize| if is_new(at) { NEW } else { [0.12 * (grey[0][at] + grey[1][at] + grey[2][at]); 3] };
@@ -253,9 +255,9 @@ pub fn draw_reprojected(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 
 /// What the frames of a moving camera tend to, beside what it should be.
 pub fn draw_ghosts(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let runs = (1..=few(6).max(2)).map(|run| Frame::of_many(chapter, SMALL, run)).collect::<Result<Vec<Frame>>>()?;
+    let runs = (1..=few(4).max(2)).map(|run| Frame::of_many(chapter, SMALL, run)).collect::<Result<Vec<Frame>>>()?;
     let runs: Vec<Radiance> = runs.iter().map(|run| run.history.denoised(0)).collect();
-    let truth = Truth::of(chapter, SMALL, 64)?;
+    let truth = Truth::of(chapter, SMALL, TRUTH)?;
     let (middle, right) = (mean(&runs), truth.mean());
     let apart = [0, 1, 2].map(|part| {
         let pairs = middle[part].iter().zip(&right[part]);
@@ -265,7 +267,7 @@ pub fn draw_ghosts(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         Ok(Exhibit { picture: painted(SMALL, light)?, lines: lines.to_vec() })
     };
     let exhibits = [
-        exhibit(["what it should be".into(), "64 samples at rest".into()], &right)?,
+        exhibit(["what it should be".into(), format!("{TRUTH} samples at rest")], &right)?,
         exhibit([format!("mean of {} runs", runs.len()), format!("{FRAMES} frames each")], &middle)?,
         exhibit(["their difference".into(), "three times as bright".into()], &apart)?,
     ];
@@ -275,7 +277,7 @@ pub fn draw_ghosts(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 /// One sample a pixel through more and more levels, and what it should be.
 pub fn draw_denoised(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let frame = Frame::of(chapter, SMALL, [1, 35], 0.0)?;
-    let truth = Truth::of(chapter, SMALL, 64)?;
+    let truth = Truth::of(chapter, SMALL, TRUTH)?;
     let of = |levels: u32| -> Result<Exhibit> {
         let light = frame.history.denoised(levels);
         let what = match levels {
@@ -286,7 +288,7 @@ pub fn draw_denoised(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         Ok(Exhibit { picture: painted(SMALL, &light)?, lines: vec![what, truth.error_in_words(&light)] })
     };
     let mut exhibits = (0..=4).map(of).collect::<Result<Vec<_>>>()?;
-    let right = vec!["what it should be".into(), "64 samples".into()];
+    let right = vec!["what it should be".into(), format!("{TRUTH} samples")];
     exhibits.push(Exhibit { picture: painted(SMALL, &truth.mean())?, lines: right });
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SMALL)))
 }

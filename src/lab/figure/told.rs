@@ -74,6 +74,7 @@ pub fn draw_tessellated(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let all = exact.iter().filter(|shape| **shape == middle).count();
     let exhibit = |around: u32| -> Result<Exhibit> {
         let picture = Picture::of(chapter, SIZE, None, |camera| {
+            sample_less(camera);
             let entity = camera.id();
             camera.world_scope(|scene| {
                 close(scene, entity);
@@ -106,6 +107,7 @@ pub fn draw_rectangle(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let eye = ball.centre - axes.x_axis * right - axes.y_axis * up + axes.z_axis * ahead;
     let look = LookAt { eye, target: eye - axes.z_axis, up: axes.y_axis };
     let picture = Picture::of(chapter, SIZE, None, |camera| {
+        sample_less(camera);
         camera.remove::<Rasterisation>();
         camera.insert((PerspectiveCamera { fov: FOV, axis: FovAxis::Vertical }, look));
     })?;
@@ -156,6 +158,7 @@ pub fn draw_refused(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let exhibit = |change: &dyn Fn(&mut EntityWorldMut<'_>)| -> Result<Exhibit> {
         let picture = Picture::of(chapter, SIZE, None, |camera| {
             change(camera);
+            sample_less(camera);
             camera.remove::<Rasterisation>();
         })?;
         let refused = Picture::of(chapter, SIZE, None, |camera| {
@@ -167,6 +170,13 @@ pub fn draw_refused(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     };
     let exhibits = changes.into_iter().map(exhibit).collect::<Result<Vec<_>>>()?;
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SIZE)))
+}
+
+/// What these pictures show are outlines, and fields of view.
+fn sample_less(camera: &mut EntityWorldMut<'_>) {
+    if let Some(mut sampling) = camera.get_mut::<Sampling>() {
+        sampling.samples = 8;
+    }
 }
 
 /// A sentence in lines of at most so many letters, if no word has more.

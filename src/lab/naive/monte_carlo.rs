@@ -3,7 +3,6 @@
 //! The page on Monte Carlo includes them; the test below compiles and runs each, and compares what it prints with what its
 //! last lines say.
 #![allow(dead_code, reason = "each is a program of its own, for a reader and for the test")]
-#![allow(clippy::disallowed_methods, reason = "a reader's program has no libm")]
 #![allow(clippy::print_stdout, reason = "what a reader's program says")]
 
 // ANCHOR: random
@@ -13,7 +12,7 @@ fn random(state: &mut u64) -> f64 {
     let mut bits = *state;
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((bits ^ (bits >> 31)) >> 11) as f64 / 2.0_f64.powf(53.0)
+    ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
 }
 // ANCHOR_END: random
 

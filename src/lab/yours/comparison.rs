@@ -1,11 +1,10 @@
 //! Whether a picture of bytes shows what another one of light shows, block by block.
 
 use super::known::{Picture, known_mistakes};
-use super::scene::{SIZE, film_after, picture_of, scene_after, variants};
+use super::scene::{SIZE, film_after, picture_of, sample_at_most, scene_after, variants};
 use pinhole::Error;
 use pinhole::extract::linear_from_srgb;
 use pinhole::film::{Film, srgb_from_linear};
-use pinhole::scene::Sampling;
 use std::cell::OnceCell;
 
 /// The sides of a block, in pixels.
@@ -34,7 +33,7 @@ pub enum Comparison {
         /// The part of its light by which a block would have to differ to be told, for the block in the middle of all.
         resolved: f64,
     },
-    /// It is the same but for its place.
+    /// It is the same but for its edges, which lie as if it were shifted.
     Shifted {
         /// To the right and downward, in pixels.
         by: [f64; 2],
@@ -50,7 +49,7 @@ pub enum Comparison {
         /// The middle of the block that differs most, in pixels from the upper left corner.
         most: [usize; 2],
         /// What it looks like, where that is known.
-        looks_like: Option<&'static str>,
+        looks_like: Option<String>,
     },
 }
 
@@ -112,14 +111,14 @@ pub struct Expected {
 }
 
 /// What a picture looks like, and the picture.
-type Mistaken = (&'static str, Pixels);
+type Mistaken = (String, Pixels);
 
 impl Expected {
     /// The picture after a chapter.
     ///
     /// Errors: those of a render.
     pub fn after(chapter: u32) -> Result<Self, Error> {
-        let right = light_of(&film_after(chapter)?);
+        let right = light_of(&film_after(chapter, u32::MAX)?);
         let (rewritten_or_changed, known) = <(OnceCell<_>, OnceCell<_>)>::default();
         Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known })
     }
@@ -144,7 +143,7 @@ impl Expected {
             return Ok(shift(&readers, right, 0.0).map_or(same, |by| Comparison::Shifted { by }));
         };
         let mut looks_like = self.closest(&readers, apart.len(), self.rewritten_or_changed()?);
-        if looks_like.is_none_or(|(left, _)| left > 0) {
+        if looks_like.as_ref().is_none_or(|(left, _)| *left > 0) {
             waits();
             let known = self.closest(&readers, apart.len(), self.known());
             looks_like = [looks_like, known].into_iter().flatten().min_by_key(|found| found.0);
@@ -162,7 +161,7 @@ impl Expected {
 
     /// What the picture looks like that leaves the fewest blocks apart, if those are few; it must itself be apart from the
     /// right one about as far as the reader's is. With it, in how many blocks they still differ.
-    fn closest(&self, readers: &Pixels, apart: usize, mistakes: &[Mistaken]) -> Option<(usize, &'static str)> {
+    fn closest(&self, readers: &Pixels, apart: usize, mistakes: &[Mistaken]) -> Option<(usize, String)> {
         let differing = |one: &Pixels, other: &Pixels| {
             blocks(one, other, &self.curve).iter().filter(|block| block.differs()).count()
         };
@@ -170,7 +169,7 @@ impl Expected {
             let alone = differing(wrong, &self.right);
             2 * alone >= apart && alone <= 3 * apart
         });
-        let all = shown.map(|(what, wrong)| (differing(readers, wrong), *what));
+        let all = shown.map(|(what, wrong)| (differing(readers, wrong), what.clone()));
         // Noise alone may set one block apart.
         all.min_by_key(|found| found.0).filter(|found| found.0 <= (apart / 10).max(usize::from(apart > 4)))
     }
@@ -180,15 +179,15 @@ impl Expected {
         if let Some(all) = self.rewritten_or_changed.get() {
             return Ok(all);
         }
-        let rewritten = REWRITTEN.iter().map(|(what, rewrite)| Ok((*what, rewrite(&self.right, &self.curve))));
+        let rewritten =
+            REWRITTEN.iter().map(|(what, rewrite)| Ok(((*what).to_owned(), rewrite(&self.right, &self.curve))));
         let variants = variants().into_iter().filter(|variant| (variant.from..variant.until).contains(&self.chapter));
         let changed = variants.map(|variant| {
             let mut world = scene_after(self.chapter);
             (variant.change)(&mut world);
             // Enough to be told from the others.
-            let mut samplings = world.query::<&mut Sampling>();
-            samplings.iter_mut(&mut world).for_each(|mut fewer| fewer.samples = fewer.samples.min(32));
-            Ok((variant.looks_like, light_of(&picture_of(&world)?)))
+            sample_at_most(&mut world, 32);
+            Ok((variant.looks_like.to_owned(), light_of(&picture_of(&world)?)))
         });
         let all = rewritten.chain(changed).collect::<Result<_, Error>>()?;
         Ok(self.rewritten_or_changed.get_or_init(|| all))

@@ -80,7 +80,8 @@ const IF_THERE: &str = "If you have it, ";
 /// The edits of a step: where, and what.
 fn edits(text: &str) -> Vec<(&str, Vec<&str>)> {
     let mut found: Vec<(&str, Vec<&str>)> = Vec::new();
-    for line in text.lines() {
+    // A page may show a step in parts, each between two marks.
+    for line in text.lines().filter(|line| !line.starts_with("// ANCHOR")) {
         let place = line.strip_prefix("// ").filter(|place| {
             let begins = ["In ", "After ", "Before ", "If you have it, ", "`"];
             let begins = begins.iter().any(|word| place.starts_with(word));

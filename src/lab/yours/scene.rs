@@ -116,11 +116,22 @@ fn shell(rings: u32, sides: u32) -> TriangleMesh {
 }
 
 /// The picture that the program shows after a chapter: pinhole's of the same scene, and that of page 1 itself, where light
-/// comes from nowhere as well.
+/// comes from nowhere as well; with at most so many samples a pixel.
 ///
 /// Errors: those of a render.
-pub fn film_after(chapter: u32) -> Result<Film, Error> {
-    if chapter == 1 { Ok(one_page::film(SIZE)) } else { picture_of(&scene_after(chapter)) }
+pub fn film_after(chapter: u32, samples: u32) -> Result<Film, Error> {
+    if chapter == 1 {
+        return Ok(one_page::film(SIZE));
+    }
+    let mut scene = scene_after(chapter);
+    sample_at_most(&mut scene, samples);
+    picture_of(&scene)
+}
+
+/// At most so many samples a pixel.
+pub(super) fn sample_at_most(scene: &mut World, samples: u32) {
+    let mut samplings = scene.query::<&mut Sampling>();
+    samplings.iter_mut(scene).for_each(|mut own| own.samples = own.samples.min(samples));
 }
 
 /// pinhole's picture of a scene.

@@ -51,29 +51,33 @@ pub fn film_stage() -> Stage {
 /// It is updated by Welford's recurrence (1962) on the film's own sums, which avoids the cancellation of large sums.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmMoments {
-    /// Sums of the squared deviations of red, green and blue radiance from their means.
+    /// Sums of the squared deviations of red, green and blue radiance from their means, over the block of samples in
+    /// progress.
     pub sum: [Vec<f64>; 3],
+    /// The same over all earlier blocks; empty before the second.
+    pub earlier: [Vec<f64>; 3],
 }
 
 impl FilmMoments {
     /// Moments without samples.
     pub fn new(rows: usize) -> Self {
-        Self { sum: [(); 3].map(|()| vec![0.0; rows]) }
+        Self { sum: [(); 3].map(|()| vec![0.0; rows]), ..Self::default() }
     }
 
     /// Takes all samples away.
     pub(super) fn empty(&mut self) {
         self.sum.set_all([0.0; 3]);
+        self.earlier.iter_mut().for_each(Vec::clear);
     }
 
     /// Adds a sample that is about to be added to `film`.
     #[inline(always)]
     pub fn add(&mut self, film: &FilmTile, row: usize, radiance: [f32; 3]) {
-        let n = f64::from(film.count[row]);
+        let n = f64::from(film.count_in_block(row));
         if n == 0.0 || !FilmTile::accepts(radiance) {
             return;
         }
-        let mean = film.mean_f64(row);
+        let mean = film.sum.at(row).map(|sum| sum / n);
         let factor = n / (n + 1.0);
         let square = |channel: usize| {
             let deviation = f64::from(radiance[channel]) - mean[channel];
@@ -91,7 +95,7 @@ impl FilmMoments {
         let count = f64::from(film.count[row]);
         let ratio = if film.weight(row) > 0 { count / film.weight(row) as f64 } else { 1.0 };
         let factor = ratio * ratio / (count - 1.0).max(1.0);
-        self.sum.at(row).map(|sum| sum * factor)
+        self.squares(film, row).map(|sum| sum * factor)
     }
 }
 

@@ -82,15 +82,16 @@ impl Guides {
 /// The layers of a tile that guide the filter.
 struct TileGuides<'f> {
     layers: &'f FilmLayers,
-    position: &'f [Vec<f64>],
-    normal: &'f [Vec<f64>],
-    albedo: &'f [Vec<f64>],
+    /// The sums of position, normal and albedo, and those over earlier blocks of samples, where there are any.
+    sums: [&'f [Vec<f64>]; 3],
+    earlier: Option<[&'f [Vec<f64>]; 3]>,
 }
 
 impl<'f> TileGuides<'f> {
     fn of(layers: &'f FilmLayers) -> Self {
-        let [position, normal, albedo] = GUIDES.map(|kind| layers.sums_of(kind));
-        Self { layers, position, normal, albedo }
+        let sums = GUIDES.map(|kind| layers.sums_of(kind, &layers.sums));
+        let earlier = (!layers.earlier.is_empty()).then(|| GUIDES.map(|kind| layers.sums_of(kind, &layers.earlier)));
+        Self { layers, sums, earlier }
     }
 
     /// Position, normal and albedo of a row.
@@ -100,8 +101,15 @@ impl<'f> TileGuides<'f> {
             return [[0.0; 3], [0.0; 3], [1.0; 3]];
         }
         let hits = f64::from(self.layers.hits[row]);
-        let mean = |sums: &[Vec<f64>]| [sums[0][row] / hits, sums[1][row] / hits, sums[2][row] / hits];
-        let ([x, y, z], [nx, ny, nz], albedo) = (mean(self.position), mean(self.normal), mean(self.albedo));
+        let of_row = |sums: &[Vec<f64>]| [sums[0][row], sums[1][row], sums[2][row]];
+        let mut sums = self.sums.map(of_row);
+        if let Some(earlier) = self.earlier {
+            let earlier = earlier.map(of_row);
+            for (sum, before) in sums.iter_mut().flatten().zip(earlier.into_iter().flatten()) {
+                *sum += before;
+            }
+        }
+        let [[x, y, z], [nx, ny, nz], albedo] = sums.map(|sum| sum.map(|part| part / hits));
         let length = (nx * nx + ny * ny + nz * nz).sqrt().max(f64::MIN_POSITIVE);
         let place = [(x - origin[0]) as f32, (y - origin[1]) as f32, (z - origin[2]) as f32];
         let normal = [(nx / length) as f32, (ny / length) as f32, (nz / length) as f32];

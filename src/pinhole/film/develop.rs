@@ -117,6 +117,13 @@ pub fn byte_from_linear(linear: f32, curve: Curve) -> u8 {
     }
 }
 
+/// Encodes a linear value in 16 bits; values below 0 give 0, values above 1 give 65535.
+pub(super) fn sixteen_bits(linear: f32, curve: Curve) -> u16 {
+    let linear = f64::from(linear).clamp(0.0, 1.0);
+    let encoded = if curve == Curve::Straight { linear } else { srgb_from_linear(linear) };
+    (encoded * 65_535.0).round() as u16
+}
+
 /// Encodes data as a byte.
 #[inline(always)]
 pub(super) fn straight_byte(linear: f32) -> u8 {

@@ -1,8 +1,8 @@
 //! The film, tile by tile.
 
 use super::develop::shown;
-use super::{FilmLayers, FilmMoments, FilmSplats};
-use crate::plan::{Column, ColumnArrays, ColumnComponent, Lifetime, VectorRows, VectorRowsMut, column_component};
+use super::{EarlierBlocks, FilmLayers, FilmMoments, FilmSplats};
+use crate::plan::{Column, ColumnArrays, ColumnComponent, Lifetime, VectorRowsMut, column_component};
 use crate::rays::Tile;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -36,14 +36,15 @@ impl Rejected {
 ///
 /// All samples are summed; those of negative filter weight are also summed separately, so that both the weighted and
 /// the unweighted mean can be computed; a tile without any allocates nothing for them.
-/// Samples are added in order, so neither the number of threads nor the tile size changes a bit of the sums.
+/// Samples are added in order and in blocks (see [`BLOCK`](super::BLOCK)), so neither the number of threads nor the tile
+/// size nor the machines that share the work change a bit of the sums.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmTile {
     /// The pixels that it covers.
     pub tile: Tile,
-    /// Sums of red, green and blue radiance.
+    /// Sums of red, green and blue radiance, over the block of samples in progress.
     pub sum: [Vec<f64>; 3],
-    /// Number of samples summed.
+    /// Number of samples summed, in all blocks.
     pub count: Vec<u32>,
     /// Sums of the red, green and blue radiance of samples on a negative lobe of the filter; empty before the first.
     pub negative: [Vec<f64>; 3],
@@ -53,6 +54,8 @@ pub struct FilmTile {
     pub rejected: u64,
     /// The first of the rejected samples.
     pub first_rejected: Vec<Rejected>,
+    /// The sums over earlier blocks of samples; none before the second block.
+    pub earlier: Option<Box<EarlierBlocks>>,
 }
 
 impl FilmTile {
@@ -70,6 +73,7 @@ impl FilmTile {
         self.negative_count.clear();
         self.rejected = 0;
         self.first_rejected.clear();
+        self.earlier = None;
     }
 
     /// Whether a sample is valid: all components are finite and not negative.
@@ -108,7 +112,11 @@ impl FilmTile {
     #[cold]
     fn reject(&mut self, row: usize, radiance: [f32; 3]) {
         self.rejected += 1;
-        let rejected = Rejected { pixel: self.tile.pixel_of(row), sample: self.count[row], radiance };
+        self.remember(Rejected { pixel: self.tile.pixel_of(row), sample: self.count[row], radiance });
+    }
+
+    /// Remembers a rejected sample, if it is among the first.
+    pub(super) fn remember(&mut self, rejected: Rejected) {
         let at = self.first_rejected.partition_point(|earlier| earlier.place() <= rejected.place());
         self.first_rejected.insert(at, rejected);
         self.first_rejected.truncate(Rejected::MAX);
@@ -162,15 +170,15 @@ impl FilmTile {
 
     /// The weighted sums of a row.
     pub fn weighted_sums(&self, row: usize) -> [f64; 3] {
-        let negative = |channel: usize| self.negative[channel].get(row).copied().unwrap_or(0.0);
-        [0, 1, 2].map(|channel| self.sum[channel][row] - 2.0 * negative(channel))
+        let sums = self.sums(row);
+        [0, 1, 2].map(|channel| sums[channel] - 2.0 * self.negative_sum(channel, row))
     }
 
     /// The unweighted mean of a row's samples, unrounded.
     #[inline(always)]
     pub fn mean_f64(&self, row: usize) -> [f64; 3] {
         let count = f64::from(self.count[row].max(1));
-        self.sum.at(row).map(|sum| sum / count)
+        self.sums(row).map(|sum| sum / count)
     }
 }
 
@@ -193,6 +201,9 @@ impl Column for FilmTile {
         if !self.negative_count.is_empty() {
             self.negative.list(&["negative_r", "negative_g", "negative_b"], &mut components);
             self.negative_count.list(&["negative_count"], &mut components);
+        }
+        if let Some(earlier) = &self.earlier {
+            earlier.sum.list(&["earlier_r", "earlier_g", "earlier_b"], &mut components);
         }
         components
     }
@@ -311,7 +322,7 @@ impl Film {
         let Tile { x, y, width, height } = own.tile;
         let waits = || self.done.get(tile).is_some_and(|&done| done < FIRST_SAMPLE_STEPS) && own.count.contains(&0);
         // A mean is then no more than a sum over a count of samples.
-        let is_plain = self.splats.is_none() && own.negative_count.is_empty() && !waits();
+        let is_plain = self.splats.is_none() && own.negative_count.is_empty() && own.earlier.is_none() && !waits();
         for line in 0..height {
             let start = (line * self.width + x) as usize;
             let rows = (line * width) as usize..((line + 1) * width) as usize;
@@ -414,7 +425,8 @@ impl Film {
     pub fn bytes(&self) -> usize {
         let a_row = 3 * size_of::<f64>() + size_of::<u32>();
         let rows = |tile: &FilmTile| tile.count.len() + tile.negative_count.len();
-        let sums: usize = self.tiles.iter().map(|tile| rows(tile) * a_row + size_of::<FilmTile>()).sum();
+        let of_tile = |tile: &FilmTile| rows(tile) * a_row + tile.earlier_bytes() + size_of::<FilmTile>();
+        let sums: usize = self.tiles.iter().map(of_tile).sum();
         let moments = self.moments.iter().map(|own| own.rows() * 3 * size_of::<f64>() + size_of::<FilmMoments>());
         let planned = self.planned.iter().map(|own| own.len() * size_of::<u32>());
         let splats = self.splats.as_ref().map_or(0, FilmSplats::bytes);

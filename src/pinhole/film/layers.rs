@@ -27,8 +27,10 @@ pub struct FilmLayers {
     /// The number of the shape that the first sample hit; [`NO_SHAPE`] if it hit nothing.
     pub entity: Vec<u32>,
     /// Sums over the samples that hit a surface: one component for every channel of every kind that is a mean, in
-    /// order.
+    /// order; over the block of samples in progress.
     pub sums: Vec<Vec<f64>>,
+    /// The same over all earlier blocks; empty before the second.
+    pub earlier: Vec<Vec<f64>>,
 }
 
 impl FilmLayers {
@@ -41,6 +43,7 @@ impl FilmLayers {
             hits: vec![0; rows],
             entity: vec![NO_SHAPE; rows],
             sums: vec![vec![0.0; rows]; components],
+            earlier: Vec::new(),
         }
     }
 
@@ -55,6 +58,7 @@ impl FilmLayers {
         self.hits.fill(0);
         self.entity.fill(NO_SHAPE);
         self.sums.iter_mut().for_each(|sums| sums.fill(0.0));
+        self.earlier.clear();
     }
 
     /// The kinds as bits, for checkpoints.
@@ -83,18 +87,19 @@ impl FilmLayers {
     pub fn mean(&self, kind: LayerKind, channel: usize, row: usize) -> f64 {
         match kind {
             LayerKind::Coverage => f64::from(self.hits[row]) / f64::from(self.taken[row].max(1)),
-            _ => self.sums[self.components_of(kind).start + channel][row] / f64::from(self.hits[row].max(1)),
+            _ => self.sum(self.components_of(kind).start + channel, row) / f64::from(self.hits[row].max(1)),
         }
     }
 
-    /// The sums of a kind that is a mean, channel by channel.
-    pub(super) fn sums_of(&self, kind: LayerKind) -> &[Vec<f64>] {
-        &self.sums[self.components_of(kind)]
+    /// Those of some sums that belong to a kind that is a mean, channel by channel.
+    pub(super) fn sums_of<'s>(&self, kind: LayerKind, sums: &'s [Vec<f64>]) -> &'s [Vec<f64>] {
+        &sums[self.components_of(kind)]
     }
 
     /// Its memory in bytes.
     pub fn bytes(&self) -> usize {
-        self.taken.len() * (3 * size_of::<u32>() + self.sums.len() * size_of::<f64>()) + size_of::<Self>()
+        let sums = (self.sums.len() + self.earlier.len()) * size_of::<f64>();
+        self.taken.len() * (3 * size_of::<u32>() + sums) + size_of::<Self>()
     }
 }
 

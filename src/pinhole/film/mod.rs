@@ -1,8 +1,8 @@
 //! Radiance → pixels → files.
 //!
 //! Reads: [`Radiance`](crate::shade::Radiance), the columns that layers are made of, and the splats of light tracing.
-//! Writes: [`FilmTile`], sums in f64 and counts; checkpoints; at the end an image of 8-bit sRGB (PNG) or linear floats
-//! (EXR).
+//! Writes: [`FilmTile`], sums in f64 and counts; checkpoints; at the end an image of 8-bit or 16-bit sRGB (PNG), which
+//! the camera's exposure and tone mapping may change, or of linear floats (EXR), which nothing does.
 //! The renderer writes to disk nowhere else, and never leaves a partial file behind.
 //!
 //! ```
@@ -16,12 +16,14 @@
 //! ```
 
 mod accumulate;
+mod blocks;
 mod checkpoint;
 mod denoise;
 mod develop;
 mod exr_files;
 mod film_tile;
 mod layers;
+mod parts;
 mod plausible;
 mod png_files;
 mod replaces;
@@ -37,8 +39,11 @@ pub use accumulate::{
     FilmMoments, PixelErrors, add_to_film, add_to_moments, film_stage, moments_stage, variance_evidence,
 };
 #[doc(hidden)]
+pub use blocks::{BLOCK, EarlierBlocks};
+#[doc(hidden)]
 pub use checkpoint::{
-    CheckpointAt, SamplesKept, checkpoint_at, checkpoint_place, keep_checkpoint, read_checkpoint, write_checkpoint,
+    CheckpointAt, SamplesKept, checkpoint_at, checkpoint_place, is_done, keep_checkpoint, read_checkpoint,
+    write_checkpoint, write_done,
 };
 #[doc(hidden)]
 pub use denoise::{GUIDES, Guides, denoise, denoise_radiance};
@@ -53,11 +58,13 @@ pub use film_tile::Film;
 pub use film_tile::{FIRST_SAMPLE_STEPS, FilmTile, Rejected};
 #[doc(hidden)]
 pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
+#[doc(hidden)]
+pub use parts::{LightUnit, Merged, Part, PartFilm, Split, Unit, UnitFilm, merge_parts};
 pub use png_files::write_png;
 #[doc(hidden)]
-pub use png_files::{png_bytes, png_bytes_by, rgba_bytes, rgba_of};
+pub use png_files::{PngKind, png_bytes, png_bytes_as, png_bytes_by, rgba_bytes, rgba_of, write_png_as};
 #[doc(hidden)]
-pub use replaces::{Replaces, Target, marked};
+pub use replaces::{MARK, Replaces, Target, marked};
 #[doc(hidden)]
 pub use reproject::History;
 #[doc(hidden)]

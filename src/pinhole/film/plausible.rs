@@ -1,6 +1,6 @@
 //! Checks that a render can have produced a film that was read from a file.
 
-use super::{FIRST_SAMPLE_STEPS, Film, FilmSplats};
+use super::{BLOCK, FIRST_SAMPLE_STEPS, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, UnitFilm};
 use crate::extract::MAX_SAMPLES;
 
 /// The largest number of light paths per sample of a pixel.
@@ -23,19 +23,51 @@ fn samples_of(steps: u32) -> u32 {
 }
 
 fn is_plausible_tile(film: &Film, number: usize) -> bool {
-    let (tile, max) = (&film.tiles[number], samples_of(film.done[number]));
-    let planned = film.planned.get(number);
+    let max = samples_of(film.done[number]);
+    let planned = film.planned.get(number).map(Vec::as_slice);
+    is_plausible_part(&film.tiles[number], (max, planned), film.moments.get(number), film.layers.get(number))
+}
+
+/// Whether a render of so many samples can have produced this unit of a film, and has finished it.
+pub(super) fn is_plausible_unit(own: &UnitFilm, samples: u32) -> bool {
+    let first = own.unit.block.map_or(0, |block| block.saturating_mul(BLOCK));
+    let max = own.unit.block.map_or(samples, |_| samples.saturating_sub(first).min(BLOCK));
+    let due = |planned: u32| u64::from(planned.min(samples).saturating_sub(first).min(max));
+    let rows = own.tile.count.len();
+    let all =
+        own.planned.as_ref().map_or(rows as u64 * u64::from(max), |planned| planned.iter().map(|&own| due(own)).sum());
+    let taken: u64 = own.tile.count.iter().map(|&count| u64::from(count)).sum();
+    let is_whole = taken.checked_add(own.tile.rejected) == Some(all);
+    let planned: Option<Vec<u32>> =
+        own.planned.as_ref().map(|planned| planned.iter().map(|&own| due(own) as u32).collect());
+    let is_first = own.unit.block.is_none() || own.tile.earlier.is_none();
+    let is_one = |layers: &FilmLayers| own.unit.block.is_none() || layers.earlier.is_empty();
+    samples <= MAX_SAMPLES
+        && is_whole
+        && is_first
+        && own.layers.as_ref().is_none_or(is_one)
+        && is_plausible_part(&own.tile, (max, planned.as_deref()), own.moments.as_ref(), own.layers.as_ref())
+}
+
+fn is_plausible_part(
+    tile: &FilmTile,
+    (max, planned): (u32, Option<&[u32]>),
+    moments: Option<&FilmMoments>,
+    layers: Option<&FilmLayers>,
+) -> bool {
     let most_of = |row: usize| planned.map_or(max, |planned| max.min(planned[row]));
     let counts = tile.count.iter().enumerate().all(|(row, &count)| count <= most_of(row));
     let negative = tile.negative_count.iter().zip(&tile.count).all(|(negative, count)| negative <= count);
     let rejected = tile.rejected <= tile.count.len() as u64 * u64::from(max);
-    let sums = tile.sum.iter().chain(&tile.negative).all(|component| is_valid(component));
-    let moments = film.moments.get(number).is_none_or(|own| own.sum.iter().all(|component| is_valid(component)));
-    let layers = film.layers.get(number).is_none_or(|own| {
+    let earlier = tile.earlier.iter().flat_map(|earlier| earlier.sum.iter().chain(&earlier.negative));
+    let sums = tile.sum.iter().chain(&tile.negative).chain(earlier).all(|component| is_valid(component));
+    let before = tile.earlier.iter().all(|earlier| earlier.count.iter().zip(&tile.count).all(|(own, all)| own <= all));
+    let valid = |own: &FilmMoments| own.sum.iter().chain(&own.earlier).all(|component| is_valid(component));
+    let layers = layers.is_none_or(|own| {
         let hits = own.hits.iter().zip(&own.taken).all(|(hits, taken)| hits <= taken);
         hits && own.taken.iter().all(|&taken| taken <= max)
     });
-    counts && negative && rejected && sums && moments && layers
+    counts && negative && rejected && sums && before && moments.is_none_or(valid) && layers
 }
 
 fn are_plausible(splats: &FilmSplats, film: &Film, max: u32) -> bool {

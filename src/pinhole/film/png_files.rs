@@ -1,23 +1,44 @@
 //! Films as PNG files, and as bytes for a display.
 
-use super::develop::{SrgbBytes, straight_byte};
+use super::develop::{SrgbBytes, sixteen_bits, straight_byte};
 use super::tone::Exposed;
 use super::{Curve, Film, Target, byte_from_linear, write_whole};
 use crate::Result;
 use rayon::prelude::*;
 use std::io::{self, Write};
 
+/// What a PNG has beside its pixels, and how many bits they have.
+#[derive(Clone, Debug, Default)]
+pub struct PngKind {
+    /// Whether each component has 16 bits in place of 8.
+    pub is_deep: bool,
+    /// Keywords and what is said under them, after the program's name.
+    pub text: Vec<(&'static str, String)>,
+}
+
 /// Writes the film as an 8-bit RGB PNG, line by line, so that memory never holds a second image.
 ///
 /// Errors: the path and the error of the operating system; no partial file is left behind.
 pub fn write_png<'a>(film: &Film, curve: Curve, target: impl Into<Target<'a>>) -> Result {
-    write_whole(target, |file| encode_png(film, curve, file))
+    write_png_as(film, curve, &PngKind::default(), target)
 }
 
-/// Encodes the film as a PNG in memory.
+/// The same with text, and with as many bits as are asked for.
+///
+/// Errors: as for [`write_png`].
+pub fn write_png_as<'a>(film: &Film, curve: Curve, kind: &PngKind, target: impl Into<Target<'a>>) -> Result {
+    write_whole(target, |file| encode_png(film, curve, kind, file))
+}
+
+/// Encodes the film as an 8-bit PNG in memory.
 pub fn png_bytes(film: &Film, curve: Curve) -> io::Result<Vec<u8>> {
+    png_bytes_as(film, curve, &PngKind::default())
+}
+
+/// The same with text, and with as many bits as are asked for.
+pub fn png_bytes_as(film: &Film, curve: Curve, kind: &PngKind) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    encode_png(film, curve, &mut bytes)?;
+    encode_png(film, curve, kind, &mut bytes)?;
     Ok(bytes)
 }
 
@@ -25,7 +46,9 @@ pub fn png_bytes(film: &Film, curve: Curve) -> io::Result<Vec<u8>> {
 /// names the curve.
 pub fn png_bytes_by(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    encode_png_by(film, curve, |mean| mean.map(&develop), &mut bytes)?;
+    let mut encoder = encoder(film, curve, &mut bytes)?;
+    encoder.set_depth(png::BitDepth::Eight);
+    write_lines(film, encoder, |line, mean| line.extend(mean.map(&develop)))?;
     Ok(bytes)
 }
 
@@ -78,33 +101,57 @@ fn rgba_of_by([red, green, blue]: &[Vec<f32>; 3], bytes_of: impl Fn([f32; 3]) ->
     bytes
 }
 
-fn encode_png(film: &Film, curve: Curve, out: impl Write) -> io::Result<()> {
-    match curve {
-        Curve::Exposed(exposure, tone_mapping) => {
-            let (exposed, srgb) = (Exposed::of_film(film, exposure, tone_mapping), SrgbBytes::get());
-            encode_png_by(film, curve, |mean| exposed.light(mean).map(|linear| srgb.byte(linear)), out)
-        }
-        _ => encode_png_by(film, curve, |mean| mean.map(|linear| byte_from_linear(linear, curve)), out),
+fn encode_png(film: &Film, curve: Curve, kind: &PngKind, out: impl Write) -> io::Result<()> {
+    let mut encoder = encoder(film, curve, out)?;
+    encoder.set_depth(if kind.is_deep { png::BitDepth::Sixteen } else { png::BitDepth::Eight });
+    if curve != Curve::Straight {
+        // For readers that do not know the chunk sRGB, as the PNG specification has it there.
+        let scaled = png::ScaledFloat::from_scaled;
+        encoder.set_source_gamma(scaled(45_455));
+        let [white, red, green, blue] = [(31_270, 32_900), (64_000, 33_000), (30_000, 60_000), (15_000, 6_000)]
+            .map(|(x, y)| (scaled(x), scaled(y)));
+        encoder.set_source_chromaticities(png::SourceChromaticities { white, red, green, blue });
+    }
+    for (keyword, text) in &kind.text {
+        let (keyword, text) = ((*keyword).to_owned(), text.clone());
+        if text.is_ascii() { encoder.add_text_chunk(keyword, text)? } else { encoder.add_itxt_chunk(keyword, text)? }
+    }
+    let exposed = match curve {
+        Curve::Exposed(exposure, tone_mapping) => Some(Exposed::of_film(film, exposure, tone_mapping)),
+        Curve::Srgb | Curve::Straight => None,
+    };
+    let light = |mean| exposed.as_ref().map_or(mean, |exposed| exposed.light(mean));
+    if kind.is_deep {
+        let deep = |part| sixteen_bits(part, curve).to_be_bytes();
+        write_lines(film, encoder, |line, mean| line.extend(light(mean).map(deep).as_flattened()))
+    } else {
+        write_lines(film, encoder, |line, mean| line.extend(light(mean).map(|part| byte_from_linear(part, curve))))
     }
 }
 
-fn encode_png_by(film: &Film, curve: Curve, develop: impl Fn([f32; 3]) -> [u8; 3], out: impl Write) -> io::Result<()> {
+/// An encoder of RGB that names the curve and the program.
+fn encoder<W: Write>(film: &Film, curve: Curve, out: W) -> io::Result<png::Encoder<'static, W>> {
     let mut encoder = png::Encoder::new(out, film.width, film.height);
     encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
     if curve != Curve::Straight {
         encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     }
     // By this the file is known as the program's own, which it may replace.
     encoder.add_text_chunk("Software".into(), "pinhole".into())?;
+    Ok(encoder)
+}
+
+fn write_lines(
+    film: &Film,
+    encoder: png::Encoder<'_, impl Write>,
+    mut add: impl FnMut(&mut Vec<u8>, [f32; 3]),
+) -> io::Result<()> {
     let mut png = encoder.write_header()?;
     let mut lines = png.stream_writer()?;
-    let mut line = Vec::with_capacity(film.width as usize * 3);
+    let mut line = Vec::new();
     for y in 0..film.height {
         line.clear();
-        for x in 0..film.width {
-            line.extend(develop(film.mean(x, y)));
-        }
+        (0..film.width).for_each(|x| add(&mut line, film.mean(x, y)));
         lines.write_all(&line)?;
     }
     lines.finish()?;

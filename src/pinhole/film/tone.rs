@@ -5,6 +5,7 @@ use super::develop::shown;
 use crate::extract::luminance;
 use crate::scene::{Exposure, ToneMapping};
 use rayon::prelude::*;
+use std::sync::LazyLock;
 
 /// An exposure and a tone mapping, as they are applied to each pixel of a picture.
 pub(super) struct Exposed {
@@ -159,10 +160,25 @@ const AGX_OUTSET: [[f64; 3]; 3] = [
 /// AgX: the logarithm of light in other primaries by an S-shaped curve, which gives what is sent to a display of gamma
 /// 2.2.
 fn agx(light: [f64; 3]) -> [f64; 3] {
-    let [min, max] = AGX_STOPS;
-    let encoded =
-        times(&AGX_INSET, light).map(|part| agx_curve(((libm::log2(part) - min) / (max - min)).clamp(0.0, 1.0)));
-    times(&AGX_OUTSET, encoded).map(|part| libm::pow(part.clamp(0.0, 1.0), 2.2))
+    static TABLES: LazyLock<[Vec<f64>; 2]> = LazyLock::new(|| [agx_curve, |x| libm::pow(x, 2.2)].map(tabulated));
+    let ([curve, display], [min, max]) = (&*TABLES, AGX_STOPS);
+    let encoded = times(&AGX_INSET, light).map(|part| between(curve, (libm::log2(part) - min) / (max - min)));
+    times(&AGX_OUTSET, encoded).map(|part| between(display, part))
+}
+
+/// A function's values at equal steps from 0 to 1, as many as Sobotka's table has; powers would take most of the time.
+fn tabulated(function: fn(f64) -> f64) -> Vec<f64> {
+    const VALUES: u32 = 4096;
+    (0..VALUES).map(|step| function(f64::from(step) / f64::from(VALUES - 1))).collect()
+}
+
+/// What such a table has at a place, by linear interpolation; beyond its ends, that of the end.
+#[inline(always)]
+fn between(table: &[f64], place: f64) -> f64 {
+    let steps = table.len() - 1;
+    let at = place.clamp(0.0, 1.0) * steps as f64;
+    let below = (at as usize).min(steps - 1);
+    table[below] + (at - below as f64) * (table[below + 1] - table[below])
 }
 
 /// The curve of AgX, which Sobotka's configuration tabulates in `AgX_Default_Contrast.spi1d`: through (0, 0), with slope

@@ -1,13 +1,14 @@
 //! A few samples before a render, and what they foretell.
 
-use super::preflight::NEARLY_ALL;
+use super::preflight::{NEARLY_ALL, exposure_factor};
 use crate::Result;
-use crate::extract::{ImageFrame, MaterialTable, NO_ROW, SamplingTable, ShapeTable, specular_evidence};
+use crate::extract::{ImageFrame, MaterialTable, NO_ROW, SamplingTable, ShapeTable, exposure_of, specular_evidence};
 use crate::follow::LIGHT_PATHS;
 use crate::intersect::{Hits, NO_SHAPE};
 use crate::plan::{Census, Column, ColumnKind, ExtractedTable, Plan, Stage};
 use crate::rays::{Depth, Tile};
 use crate::render::{Hook, ProbeRun, probe_light_paths, probe_tiles, usual_tile_side};
+use crate::scene::ToneMapping;
 use crate::shade::{Radiance, ShadowHits, ShadowRays};
 use bevy_ecs::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,7 +36,9 @@ pub struct Pilot {
     pub specular_first: usize,
     /// Camera rays that returned no light that a PNG would show.
     pub black: usize,
-    /// Camera rays whose radiance is above white in each of red, green and blue.
+    /// By how much the exposure multiplies light, here and in the picture.
+    pub exposure: f64,
+    /// Camera rays whose exposed light is clipped in each of red, green and blue.
     pub beyond_white: usize,
     /// Shadow rays, traced during the first bounces.
     pub to_lights: usize,
@@ -82,7 +85,7 @@ pub struct TileLight {
     pub rays: usize,
     /// Those that returned light that a PNG would show.
     pub lit: usize,
-    /// The sum of the greatest component of the radiance of each.
+    /// The sum of the greatest component of the exposed light of each.
     pub sum: f64,
 }
 
@@ -97,7 +100,10 @@ pub fn pilot(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), patience:
     let side = SIDE.min(usual_tile_side(scene, prepared.0));
     let small_tiles = small_tiles(image, side);
     let tiles = small_tiles.len();
-    let mut pilot = Pilot { tiles, light: vec![TileLight::default(); tiles], ..Pilot::default() };
+    let (exposure, tone_mapping) = exposure_of(scene)?;
+    let clips = !exposure.automatic && tone_mapping == ToneMapping::None;
+    let exposure = exposure_factor(exposure);
+    let mut pilot = Pilot { tiles, exposure, light: vec![TileLight::default(); tiles], ..Pilot::default() };
     let is_specular = specular_shapes(scene)?;
     let (mut cost, mut all, mut runs) = (Cost::default(), 0, 0);
     let mut candidates = Vec::new();
@@ -119,14 +125,16 @@ pub fn pilot(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), patience:
         let light = |row: usize| match radiance.filter(|radiance| radiance.rows() == rays) {
             // Where no light is in the scene, the column is missing or has no rows.
             None => [0.0; 3],
-            Some(radiance) => radiance.rgb(row),
+            Some(radiance) => {
+                radiance.rgb(row).map(|part| (f64::from(part) * exposure).min(f64::from(f32::MAX)) as f32)
+            }
         };
         for row in 0..rays {
             let [r, g, b] = light(row);
             let max = r.max(g).max(b);
             pilot.light[number].add(max);
             pilot.black += usize::from(!(max >= DARK));
-            pilot.beyond_white += usize::from(r.min(g).min(b) > 1.0);
+            pilot.beyond_white += usize::from(clips && r.min(g).min(b) > 1.0);
             if runs <= tiles && pilot.last_first.get(row).is_some_and(|&shape| shape != NO_SHAPE) {
                 candidates.push((tile.pixel_of(row), max));
             }
@@ -176,9 +184,10 @@ impl Pilot {
         lit / seen().count().max(1) as f64 + unseen
     }
 
-    /// The mean light of the brightest small tile.
+    /// The mean radiance of the brightest small tile.
     pub fn brightest(&self) -> f64 {
-        self.light.iter().filter(|tile| tile.rays > 0).map(|tile| tile.sum / tile.rays as f64).fold(0.0, f64::max)
+        let means = self.light.iter().filter(|tile| tile.rays > 0).map(|tile| tile.sum / tile.rays as f64);
+        means.fold(0.0, f64::max) / self.exposure
     }
 
     /// Whether no camera ray hits a shape, as far as that was asked.

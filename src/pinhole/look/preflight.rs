@@ -8,13 +8,14 @@ use super::slow::{Effort, many_bounces, many_light_bounces, never_done, slow, wh
 use crate::extract::{
     AreaLightTable, CameraAxes, EmissiveTable, ImageFrame, IntegratorTable, LightTracingTable, OrthographicWindow,
     PerspectiveProjection, SamplingTable, ShapeTable, area_light_evidence, camera_entity, contact_evidence,
-    delta_light_shines, distant_start_evidence, emissive_evidence, environment_light_evidence, followed_evidence,
-    glossy_evidence, integrator_of, listed_kind, matte_evidence, point_evidence, shadowed_distant_evidence,
-    shadowed_point_evidence, shape_name, sky_evidence, specular_evidence, starts_on_glass, traced_evidence, unresolved,
+    delta_light_shines, distant_start_evidence, emissive_evidence, environment_light_evidence, exposure_of,
+    followed_evidence, glossy_evidence, integrator_of, listed_kind, matte_evidence, point_evidence,
+    shadowed_distant_evidence, shadowed_point_evidence, shape_name, sky_evidence, specular_evidence, starts_on_glass,
+    traced_evidence, unresolved,
 };
 use crate::film::srgb_from_linear;
 use crate::plan::{Census, ExtractedTable, Plan, counted};
-use crate::scene::{LightTransport, OrthographicCamera, PerspectiveCamera};
+use crate::scene::{Exposure, LightTransport, OrthographicCamera, PerspectiveCamera};
 use crate::{Error, Result};
 use glam::DVec3;
 use std::time::{Duration, Instant};
@@ -155,7 +156,7 @@ const LOOKS_BLACK: f64 = 1.6e-3;
 pub fn black(scene: &Census<'_>, pilot: &Pilot, samples: f64) -> Result<Option<String>> {
     let black = pilot.black as f64 / pilot.rays.max(1) as f64;
     if black < NEARLY_ALL || !pilot.is_everywhere() {
-        return Ok(if pilot.is_everywhere() { too_dark(pilot) } else { None });
+        return if pilot.is_everywhere() { too_dark(scene, pilot) } else { Ok(None) };
     }
     let (why, is_certain) = why_black(scene, pilot, samples)?;
     if is_certain || pilot.lit_fraction(samples) <= 1.0 - NEARLY_ALL {
@@ -164,20 +165,29 @@ pub fn black(scene: &Census<'_>, pilot: &Pilot, samples: f64) -> Result<Option<S
     if pilot.black == pilot.rays {
         return Ok(Some(format!("none of {} test rays returned light that can be seen: {why}", pilot.rays)));
     }
-    Ok(too_dark(pilot))
+    too_dark(scene, pilot)
 }
 
 /// The sentence about a picture that is not black, but too dark for a screen.
-fn too_dark(pilot: &Pilot) -> Option<String> {
-    looks_black(pilot.brightest()).map(|how| format!("the picture will look black: {how}"))
+fn too_dark(scene: &Census<'_>, pilot: &Pilot) -> Result<Option<String>> {
+    let how = looks_black(pilot.brightest(), exposure_of(scene)?.0);
+    Ok(how.map(|how| format!("the picture will look black: {how}")))
+}
+
+/// By how much an exposure multiplies light; before the render it is not known of an automatic one, which leaves nothing
+/// dark but what is black.
+pub(super) fn exposure_factor(exposure: Exposure) -> f64 {
+    const OF_THE_LEAST_F32: f64 = 149.0;
+    libm::exp2(if exposure.automatic { OF_THE_LEAST_F32 } else { exposure.stops })
 }
 
 /// How dark a picture is whose brightest part has this radiance, and by what factor it is too dark; none where it can be
 /// seen.
-pub fn looks_black(brightest: f64) -> Option<String> {
-    (brightest <= LOOKS_BLACK).then(|| {
-        let byte = (255.0 * srgb_from_linear(brightest)).round();
-        let factor = two_digits(1.0 / brightest);
+pub fn looks_black(brightest: f64, exposure: Exposure) -> Option<String> {
+    let exposed = brightest * exposure_factor(exposure);
+    (exposed <= LOOKS_BLACK).then(|| {
+        let byte = (255.0 * srgb_from_linear(exposed)).round();
+        let factor = two_digits(1.0 / exposed);
         format!(
             "its brightest parts have a radiance of about {brightest:.1e}, {byte} of 255 in a PNG; lights {factor} times \
              as bright would bring them to white"

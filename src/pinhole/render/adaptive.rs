@@ -122,6 +122,36 @@ impl Noise {
     }
 }
 
+/// The root mean square of the pixels' relative standard errors, estimated from the film alone: from its second moments,
+/// or else from the difference between the last block of samples and all before it; none where it has neither.
+///
+/// Two independent means of n₁ and n₂ samples differ by δ with E\[δ²\] = σ² (1 / n₁ + 1 / n₂), so that δ² n₁ n₂ / N²
+/// estimates the variance σ² / N of the mean of all N; blocks of a low-discrepancy sequence are better than independent
+/// ones, and then it is an estimate from above.
+pub fn error_of(film: &Film) -> Option<f64> {
+    let (mut sum, mut pixels) = (0.0, 0_u64);
+    for (number, tile) in film.tiles.iter().enumerate() {
+        for row in 0..tile.tile.rows() {
+            let variance = if film.moments.is_empty() {
+                let Some([last, before]) = tile.blocks_of(row) else { continue };
+                let [n, m] = [last.1, before.1].map(f64::from);
+                let weight = n * m / ((n + m) * (n + m));
+                mean_of([0, 1, 2].map(|part| {
+                    let apart = last.0[part] / n - before.0[part] / m;
+                    apart * apart * weight
+                }))
+            } else {
+                mean_of(film.variance_of_mean(number, row))
+            };
+            if tile.count[row] > 1 {
+                sum += variance / (mean_square(tile.shown_f64(row)) + EPSILON);
+                pixels += 1;
+            }
+        }
+    }
+    (pixels > 0).then(|| (sum / pixels as f64).sqrt())
+}
+
 fn mean_of(parts: [f64; 3]) -> f64 {
     (parts[0] + parts[1] + parts[2]) / 3.0
 }

@@ -5,7 +5,6 @@ use super::{Limits, RenderInProgress, render_in_passes};
 use crate::extract::{adaptive_of, delta_light_rays, shape_entities};
 use crate::film::{Curve, Film, write_exr, write_png};
 use crate::plan::{Census, ColumnKind, Plan, Stage};
-use crate::scene::{FNV_BASIS, fingerprint, fnv};
 use crate::shade::{LightPdfs, ShadowHits, ShadowRays};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
@@ -174,19 +173,4 @@ impl Rendered {
     pub fn curve(&self) -> Curve {
         self.curve
     }
-}
-
-/// A number that identifies what a film is a film of: samples of two renders with the same key may be added together.
-///
-/// It depends on the scene except for the number of samples, on the stages that run, and on the code that the
-/// program was built from, since an edited stage takes other samples; it does not depend on the number of workers or
-/// the side of a tile.
-pub fn film_key(scene: &World, plan: &Plan) -> u64 {
-    let mut text = String::from(env!("PINHOLE_SOURCES"));
-    text += &fingerprint(scene);
-    for row in plan.rows.iter().filter(|row| row.kept) {
-        text += row.stage;
-        text.push('\n');
-    }
-    fnv(FNV_BASIS, text.as_bytes())
 }

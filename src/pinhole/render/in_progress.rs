@@ -3,10 +3,10 @@ use super::execution::{tile_side, workers};
 use super::light_pass::{LightPass, Means, batches};
 use super::memory::check_film_fits;
 use super::render_world::{RenderWorld, prepare};
-use super::steps::{WHOLE, runs, steps_of};
+use super::steps::{Run, WHOLE, runs, steps_of};
 use super::{Execution, Rendered, Watch, Worlds};
 use crate::extract::{ImageFrame, LayerTable, SamplingTable};
-use crate::film::{Curve, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
+use crate::film::{BLOCK, Curve, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
 use crate::follow::{Splats, Stop};
 use crate::plan::{Census, ExtractedTable, Plan, Shared, Stage};
 use crate::rays::PixelSamples;
@@ -31,23 +31,23 @@ pub struct RenderInProgress {
     pub sampling: SamplingTable,
     /// The curve that turns the film into a picture.
     pub curve: Curve,
-    tables: Vec<ExtractedTable>,
-    execution: Execution,
-    pool: Option<ThreadPool>,
+    pub(super) tables: Vec<ExtractedTable>,
+    pub(super) execution: Execution,
+    pub(super) pool: Option<ThreadPool>,
     /// One world per worker, or one for all tiles; each is made when and where it is first used.
-    worlds: Vec<Mutex<Option<RenderWorld>>>,
+    pub(super) worlds: Vec<Mutex<Option<RenderWorld>>>,
     /// The pass that traces paths from the lights, where the plan has one.
-    light: Option<LightPass>,
-    time: Duration,
+    pub(super) light: Option<LightPass>,
+    pub(super) time: Duration,
 }
 
 /// The part of the film that belongs to one tile.
 pub(super) struct FilmPart<'f> {
-    film: &'f mut FilmTile,
-    moments: Option<&'f mut FilmMoments>,
-    layers: Option<&'f mut FilmLayers>,
-    done: &'f mut u32,
-    planned: Option<&'f [u32]>,
+    pub film: &'f mut FilmTile,
+    pub moments: Option<&'f mut FilmMoments>,
+    pub layers: Option<&'f mut FilmLayers>,
+    pub done: &'f mut u32,
+    pub planned: Option<&'f [u32]>,
 }
 
 impl RenderInProgress {
@@ -266,7 +266,7 @@ pub(super) fn film_parts(film: &mut Film) -> impl Iterator<Item = FilmPart<'_>> 
 
 impl RenderWorld {
     /// Advances one tile to `to` steps.
-    fn run_part(&mut self, part: &mut FilmPart<'_>, to: u32, watch: &dyn Watch) {
+    pub(super) fn run_part(&mut self, part: &mut FilmPart<'_>, to: u32, watch: &dyn Watch) {
         let tile = self.tiles[0];
         self.swap_part(tile, part);
         for run in runs(*part.done, to) {
@@ -275,6 +275,7 @@ impl RenderWorld {
             }
             let active = self.activate(tile, &run, part.planned);
             if active > 0 {
+                self.begin_block(tile, &run);
                 // Layers accumulate before the path is traced, so an abandoned run has to restore them.
                 let before = self.world.get::<FilmLayers>(tile).filter(|own| !own.are_empty()).cloned();
                 if !self.run() {
@@ -311,7 +312,12 @@ impl RenderWorld {
                 let mut active = 0;
                 for (number, &tile) in tiles.iter().enumerate() {
                     let planned = film.planned.get(number).map(Vec::as_slice);
-                    active += if behind[number] { self.activate(tile, &run, planned) } else { self.rest(tile) };
+                    if behind[number] {
+                        self.begin_block(tile, &run);
+                        active += self.activate(tile, &run, planned);
+                    } else {
+                        active += self.rest(tile);
+                    }
                 }
                 if active > 0 {
                     self.run();
@@ -319,6 +325,25 @@ impl RenderWorld {
             }
             tiles.iter().zip(film_parts(film)).for_each(|(&tile, mut part)| self.swap_part(tile, &mut part));
             film.done.iter_mut().filter(|done| **done == min).for_each(|done| *done = next);
+        }
+    }
+
+    /// Ends the block of samples before the one that a run begins, if it begins one.
+    fn begin_block(&mut self, tile: Entity, run: &Run) {
+        if run.sample == 0 || !run.sample.is_multiple_of(BLOCK) {
+            return;
+        }
+        let mut entity = self.world.entity_mut(tile);
+        let Some(mut film) = entity.get_mut::<FilmTile>().map(|mut own| std::mem::take(&mut *own)) else { return };
+        if let Some(mut moments) = entity.get_mut::<FilmMoments>() {
+            moments.end_block(&film);
+        }
+        if let Some(mut layers) = entity.get_mut::<FilmLayers>() {
+            layers.end_block();
+        }
+        film.end_block();
+        if let Some(mut own) = entity.get_mut::<FilmTile>() {
+            *own = film;
         }
     }
 

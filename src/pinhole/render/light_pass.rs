@@ -76,42 +76,21 @@ impl LightPass {
         }))
     }
 
+    /// The number of batches that corresponds to so many pixel samples.
+    pub fn batches(&self, samples: u64) -> u64 {
+        batches_for(samples as f64, self.paths)
+    }
+
     /// Advances the light pass to correspond to so many pixel samples, or as far as the observer allows; batches in
     /// progress when it is stopped do not contribute.
     pub fn advance(&self, film: &mut Film, samples: u64, means: &Means<'_>, watch: &dyn Watch) {
         let Some(splats) = &mut film.splats else { return };
         let mut filter = self.filter.clone();
         let batch = u64::from(LIGHT_PATHS);
-        let stop = Stop::at_flag(watch.stop_flag());
-        let all = batches_for(samples as f64, self.paths);
+        let all = self.batches(samples);
         while splats.paths / batch < all && !watch.stopped() {
             let first = splats.paths / batch;
-            let count = (all - first).min(BATCHES_AT_ONCE);
-            let (next, given_up) = (AtomicU64::new(0), AtomicBool::new(false));
-            let work = |worker: usize| {
-                let mut world = self.worlds[worker].lock().unwrap_or_else(PoisonError::into_inner);
-                let world = world.get_or_insert_with(|| self.world(means));
-                world.stop_at(stop.clone());
-                loop {
-                    let number = next.fetch_add(1, Ordering::Relaxed);
-                    if number >= count {
-                        return;
-                    }
-                    let mut list = self.lists[number as usize].lock().unwrap_or_else(PoisonError::into_inner);
-                    if watch.stopped() || !run_batch(world, first + number, &mut list) {
-                        given_up.store(true, Ordering::Relaxed);
-                        return;
-                    }
-                }
-            };
-            match means.pool {
-                Some(pool) => _ = pool.broadcast(|context| work(context.index())),
-                None => work(0),
-            }
-            if given_up.into_inner() {
-                self.lists.iter().for_each(|list| list.lock().unwrap_or_else(PoisonError::into_inner).clear());
-                return;
-            }
+            let Some(count) = self.run(first, all - first, means, watch) else { return };
             for list in &self.lists[..count as usize] {
                 let mut list = list.lock().unwrap_or_else(PoisonError::into_inner);
                 for at in 0..list.rows() {
@@ -123,11 +102,58 @@ impl LightPass {
         }
     }
 
+    /// The splats of some batches, of at most so many, and how many they are; none if they were abandoned.
+    pub fn lists(&self, first: u64, max: u64, means: &Means<'_>, watch: &dyn Watch) -> Option<(u64, Vec<Splats>)> {
+        let count = self.run(first, max, means, watch)?;
+        let take = |list: &Mutex<Splats>| std::mem::take(&mut *list.lock().unwrap_or_else(PoisonError::into_inner));
+        Some((count, self.lists[..count as usize].iter().map(take).collect()))
+    }
+
+    /// Runs some batches, of at most so many, each into its list, and says how many; none if they were abandoned.
+    fn run(&self, first: u64, max: u64, means: &Means<'_>, watch: &dyn Watch) -> Option<u64> {
+        let stop = Stop::at_flag(watch.stop_flag());
+        let count = max.min(BATCHES_AT_ONCE);
+        let (next, given_up) = (AtomicU64::new(0), AtomicBool::new(false));
+        let work = |worker: usize| {
+            let mut world = self.worlds[worker].lock().unwrap_or_else(PoisonError::into_inner);
+            let world = world.get_or_insert_with(|| self.world(means));
+            world.stop_at(stop.clone());
+            loop {
+                let number = next.fetch_add(1, Ordering::Relaxed);
+                if number >= count {
+                    return;
+                }
+                let mut list = self.lists[number as usize].lock().unwrap_or_else(PoisonError::into_inner);
+                if watch.stopped() || !run_batch(world, first + number, &mut list) {
+                    given_up.store(true, Ordering::Relaxed);
+                    return;
+                }
+            }
+        };
+        match means.pool {
+            Some(pool) => _ = pool.broadcast(|context| work(context.index())),
+            None => work(0),
+        }
+        if given_up.into_inner() {
+            self.lists.iter().for_each(|list| list.lock().unwrap_or_else(PoisonError::into_inner).clear());
+            return None;
+        }
+        Some(count)
+    }
+
     fn world(&self, means: &Means<'_>) -> RenderWorld {
         let (plan, tables) = (means.plan, means.tables);
         let mut made = RenderWorld::of_pass(RowKind::LightPath, plan, tables, 1, &[]);
         made.world.insert_resource(Shared::new(self.sampling));
         made
+    }
+
+    /// The bits of the splats of the first batch.
+    pub fn first_splats(&self, means: &Means<'_>, watch: &dyn Watch) -> Vec<u64> {
+        let (mut world, mut list) = (self.world(means), Splats::default());
+        world.stop_at(Stop::at_flag(watch.stop_flag()));
+        run_batch(&mut world, 0, &mut list);
+        (0..list.rows()).flat_map(|at| list.raster.at(at).into_iter().chain(list.rgb(at))).map(f64::to_bits).collect()
     }
 
     /// The laps of each worker so far.

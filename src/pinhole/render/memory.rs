@@ -1,5 +1,5 @@
-use crate::extract::{FilterTable, ImageFrame, LayerTable, adaptive_of};
-use crate::film::{FilmLayers, FilmMoments};
+use crate::extract::{FilterTable, ImageFrame, LayerTable, SamplingTable, adaptive_of};
+use crate::film::{BLOCK, FilmLayers, FilmMoments};
 use crate::follow::Splats;
 use crate::plan::{Census, Plan};
 use crate::scene::{Filter, LayerKind, SceneError, TooLittleMemory, called, check_memory};
@@ -17,12 +17,14 @@ pub fn peak_memory() -> Option<u64> {
 pub fn film_bytes_per_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, SceneError> {
     const THREE: u64 = 3 * size_of::<f64>() as u64;
     const COUNT: u64 = size_of::<u32>() as u64;
-    let mut film = THREE + COUNT;
+    // The sums of earlier blocks of samples stand beside those of the block in progress.
+    let sums = if scene.table::<SamplingTable>()?.samples > BLOCK { 2 } else { 1 };
+    let mut film = sums * (THREE + COUNT);
     if matches!(scene.table::<FilterTable>()?.filter, Filter::Mitchell { .. }) {
-        film += THREE + COUNT;
+        film += sums * THREE + COUNT;
     }
     if plan.keeps::<FilmMoments>() {
-        film += THREE;
+        film += sums * THREE;
     }
     if plan.keeps::<Splats>() {
         film += THREE;
@@ -32,7 +34,7 @@ pub fn film_bytes_per_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, Scen
         let channels = |kinds: &[LayerKind]| kinds.iter().map(|kind| kind.channels().len() as u64).sum::<u64>();
         let kinds = LayerTable::kinds_of(scene);
         let means: Vec<LayerKind> = kinds.iter().copied().filter(|kind| kind.is_mean()).collect();
-        film += 3 * COUNT + channels(&means) * size_of::<f64>() as u64;
+        film += 3 * COUNT + sums * channels(&means) * size_of::<f64>() as u64;
         written = (3 + channels(&kinds)) * size_of::<f32>() as u64;
     }
     if adaptive_of(scene)?.is_some() {

@@ -28,19 +28,21 @@ mod clock;
 mod execution;
 mod in_progress;
 mod inspect;
+mod key;
 mod light_pass;
 mod memory;
+mod parts;
 mod passes;
 mod render_world;
 mod steps;
 
 #[doc(hidden)]
-pub use adaptive::{Achieved, achieved, planned_samples, samples_for};
+pub use adaptive::{Achieved, achieved, error_of, planned_samples, samples_for};
 #[doc(hidden)]
 pub use clock::{Lap, StageClock};
 pub use execution::{Execution, Rendered, render};
 #[doc(hidden)]
-pub use execution::{Watch, Worlds, film_key};
+pub use execution::{Watch, Worlds};
 pub use in_progress::RenderInProgress;
 #[doc(hidden)]
 pub use inspect::{

@@ -227,7 +227,7 @@ fn expected(code: &Error, word: &str) -> String {
         Error::ExpectedIdentifier | Error::SuggestRawIdentifier(_) => "a word without quotes".into(),
         Error::InvalidValueForType { expected, .. } => expected.clone(),
         Error::InvalidEscape(_) => "a text whose backslashes are escapes of RON, such as \\n or \\\"".into(),
-        Error::Message(accepted) if word == "placement" => accepted.clone(),
+        Error::Message(accepted) if ["placement", "keys"].contains(&word) => accepted.clone(),
         _ => "a value in RON syntax".into(),
     }
 }

@@ -5,12 +5,21 @@ use super::read::{FileEntity, read_entity};
 use super::refer::resolve;
 use super::scan::{entities, fields};
 use super::{FileProblem, PlaceInFile};
-use crate::{ChildOf, Disabled, LookAt, Name, SceneError, SceneFolder, UsesMaterial, load_meshes};
+use crate::{ChildOf, Disabled, Keys, LookAt, Name, SceneError, SceneFolder, Shutter, UsesMaterial, load_meshes};
 use bevy_ecs::prelude::*;
+use glam::DVec3;
+use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
 
 /// Encloses the index of an entity that is named by it: a noncharacter of Unicode, which messages show unescaped.
 const MARK: char = '\u{fdd0}';
+
+/// The paths of values that move an entity.
+const MOVES: [&str; 2] = ["placement.position", "look_at.eye"];
+
+fn triple(v: DVec3) -> String {
+    format!("({:?}, {:?}, {:?})", v.x, v.y, v.z)
+}
 
 /// A scene read from a file, with the position of each of its parts in the file.
 pub struct SceneFile {
@@ -53,6 +62,73 @@ impl SceneFile {
         let refused = |what| format!("cannot set `{}`: {what}", shown(setting));
         let text = with_value(&self.text, &self.entities, setting).map_err(refused)?;
         Self::parse(&self.path, text).map_err(|problem| refused(problem.what))
+    }
+
+    /// The scene at a frame of a film of so many frames in a unit of time, by the [`Keys`] of its entities.
+    ///
+    /// Its camera's [`Shutter`] opens and closes later by the time of the frame.
+    /// What moves by keys while the shutter is open, by `placement.position` or `look_at.eye`, gets the [`Motion`] that it
+    /// has on average from the moment when it opens to that when it closes.
+    ///
+    /// Errors: a key sets what cannot be set, in one sentence.
+    pub fn at(&self, frame: f64, rate: f64) -> Result<Self, String> {
+        let shutter = self.entities.iter().find_map(|entity| self.component::<Shutter>(entity, "shutter"));
+        let mut file = Self { path: self.path.clone(), text: self.text.clone(), entities: Vec::new() };
+        file.entities = Self::parse(&file.path, file.text.clone()).map_err(|problem| problem.what)?.entities;
+        for entity in &self.entities {
+            let Some(keys) = self.component::<Keys>(entity, "keys") else { continue };
+            let Some(name) = &entity.name else {
+                return Err("an entity with keys has no name, by which a key sets its value".into());
+            };
+            for (path, value) in keys.at(frame) {
+                file = file.set(&format!("{name}.{path}={value}"))?;
+            }
+            let moves = MOVES.into_iter().filter(|path| keys.at(frame).any(|(own, _)| own == *path));
+            for path in moves {
+                let open = shutter.filter(|shutter| shutter.close > shutter.open);
+                let Some(Shutter { open, close }) = open else { continue };
+                let there = |time: f64| {
+                    let value = keys.at(frame + time * rate).find(|(own, _)| *own == path)?.1;
+                    ron::from_str::<DVec3>(&value).ok()
+                };
+                let (Some(from), Some(to)) = (there(open), there(close)) else { continue };
+                let velocity = (to - from) / (close - open);
+                if velocity == DVec3::ZERO {
+                    continue;
+                }
+                // What has a motion is placed as it would be at time 0, and what a camera looks at goes with it.
+                let back = -velocity * (frame / rate + open);
+                file = file.set(&format!("{name}.{path}={}", triple(from + back)))?;
+                file = file.set(&format!("{name}.motion.velocity={}", triple(velocity)))?;
+                if path == "look_at.eye" {
+                    let target = file.value(&format!("{name}.look_at.target"))?;
+                    let target = ron::from_str::<DVec3>(&target).map_err(|error| error.to_string())?;
+                    file = file.set(&format!("{name}.look_at.target={}", triple(target + back)))?;
+                }
+            }
+        }
+        if let (Some(Shutter { open, close }), Some(name)) = (shutter, self.name_of_shutter()) {
+            let time = frame / rate;
+            file = file.set(&format!("{name}.shutter.open={:?}", open + time))?;
+            file = file.set(&format!("{name}.shutter.close={:?}", close + time))?;
+        }
+        Ok(file)
+    }
+
+    /// Whether anything in it has keys.
+    pub fn has_keys(&self) -> bool {
+        self.entities.iter().any(|entity| entity.parts.iter().any(|part| part.word == "keys"))
+    }
+
+    fn name_of_shutter(&self) -> Option<&str> {
+        let has = |entity: &&FileEntity| entity.parts.iter().any(|part| part.word == "shutter");
+        self.entities.iter().find(has)?.name.as_deref()
+    }
+
+    /// A component of an entity, as the text has it.
+    fn component<C: DeserializeOwned>(&self, entity: &FileEntity, word: &str) -> Option<C> {
+        let part = entity.parts.iter().find(|part| part.word == word)?;
+        ron::from_str(&self.text[part.value.clone()]).ok()
     }
 
     /// The same scene with its camera elsewhere: at an eye, looking at a target, and with this height of view where it is

@@ -1,10 +1,10 @@
 use crate::material::MATERIALS;
 use crate::{
     Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, EmissionMap, Emissive, Environment,
-    EquirectangularCamera, Exposure, FisheyeCamera, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing,
-    LookAt, Mesh, MetallicRoughnessMap, Motion, NormalMap, Opacity, OpacityMap, OrthographicCamera, PerspectiveCamera,
-    Placement, Plane, PointLight, Rasterisation, Rectangle, Resolution, Sampling, Shutter, SingleSided, Sphere,
-    SpotLight, Statistics, Stripes, Tint, ToneMapping, Torus, Triangle, View,
+    EquirectangularCamera, Exposure, FisheyeCamera, Gradient, ImageTexture, Integrator, Keys, Layers, Lens,
+    LightTracing, LookAt, Mesh, MetallicRoughnessMap, Motion, NormalMap, Opacity, OpacityMap, OrthographicCamera,
+    PerspectiveCamera, Placement, Plane, PointLight, Rasterisation, Rectangle, Resolution, Sampling, Shutter,
+    SingleSided, Sphere, SpotLight, Statistics, Stripes, Tint, ToneMapping, Torus, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -41,6 +41,7 @@ const WORDS: &[Word] = &[
     Word::of::<Resolution>("resolution"),
     Word::of::<Motion>("motion"),
     Word::of::<Shutter>("shutter"),
+    Word::of::<Keys>("keys"),
     Word::of::<Sampling>("sampling"),
     Word::of::<Adaptive>("adaptive"),
     Word::of::<Rasterisation>("rasterisation"),

@@ -86,7 +86,7 @@ pub fn bounds_of(model: &Model) -> (DVec3, DVec3) {
     vertices.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)))
 }
 
-/// The factor by which all light of a model is multiplied, for a white surface at the centre of the bounding box to be
+/// The factor by which the picture's light is multiplied, for a white surface at the centre of the bounding box to be
 /// white in the picture; 1 for a model without lights.
 ///
 /// Model files give photometric units, and leave the exposure to the program.

@@ -4,12 +4,12 @@ use super::load::load_meshes;
 use super::mesh::{Mesh, ModelNotes};
 use super::open_model::open_model;
 use crate::{
-    Degrees, DirectionalLight, Emissive, FileProblem, FovAxis, Gradient, Integrator, LookAt, Name, PerspectiveCamera,
+    Degrees, DirectionalLight, Exposure, FileProblem, FovAxis, Gradient, Integrator, LookAt, Name, PerspectiveCamera,
     Resolution, Rgb, Sampling, SceneFolder, printable_path,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole_models::{Model, ModelLight, Projection};
+use pinhole_models::{Model, Projection};
 use std::path::{Path, PathBuf};
 
 /// The endings of the model files that can be read.
@@ -20,17 +20,20 @@ const FOV: Degrees = Degrees(36.0);
 /// The part of the picture's height that a fitted model fills.
 const FILLED: f64 = 0.9;
 
-/// What the exposure scales.
-const ALL_LIGHT: &str = "all light of the file, its lights' and its surfaces',";
+/// What is said of the exposure.
+const EXPOSED: &str = "the picture is exposed by";
 /// The greatest aspect ratio that a picture takes from a camera.
 const MAX_OBLONG: f64 = 20.0;
-/// The most that a surface emits, well within what f32 holds.
-const BRIGHTEST: f64 = 1e30;
 
 /// Whether a path is that of a model file, by its ending.
 pub fn is_model_file(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
+}
+
+/// A factor of light in stops, as many as an exposure may have.
+fn stops_of(factor: f64) -> f64 {
+    libm::log2(factor).clamp(-128.0, 128.0)
 }
 
 /// A scene that consists of a model file, and of a camera and lights where the file has none.
@@ -40,7 +43,7 @@ pub struct ModelScene {
     pub path: PathBuf,
     /// What was added and what was left out, one sentence each.
     pub said: Vec<String>,
-    /// The factor of all light of the file.
+    /// The factor of the picture's light; the lights themselves are as the file says.
     pub exposure: f64,
     /// Whether materials that the file calls single-sided are not there from behind.
     pub single_sided: bool,
@@ -75,8 +78,9 @@ impl ModelScene {
         let exposure = exposure(&model.model);
         if !model.model.lights.is_empty() {
             said.push(format!(
-                "{ALL_LIGHT} is multiplied by {exposure:.1e}, for a white surface at its centre to be white (exposure=1 \
-                 leaves it as it is)"
+                "{EXPOSED} {:.1} stops, for a white surface at the model's centre to be white (--exposure 0 leaves its light \
+                 as the file says)",
+                stops_of(exposure)
             ));
         }
         match lit_by(&model.model) {
@@ -90,10 +94,9 @@ impl ModelScene {
         Ok(Self { path: path.into(), said, exposure, single_sided: false })
     }
 
-    /// The same with another factor of all its light.
+    /// The same with another factor of the picture's light.
     pub fn with_exposure(mut self, exposure: f64) -> Self {
-        self.said.retain(|sentence| !sentence.starts_with(ALL_LIGHT));
-        self.said.push(format!("{ALL_LIGHT} is multiplied by {exposure}"));
+        self.said.retain(|sentence| !sentence.starts_with(EXPOSED));
         Self { exposure, ..self }
     }
 
@@ -112,10 +115,12 @@ impl ModelScene {
         let resolution =
             open.as_ref().map_or_else(|_| resolution_of(None), |open| resolution_of(aspect_of(&open.model)));
         scene.entity_mut(camera).insert((resolution, sampling, Integrator::PATH));
+        if self.exposure != 1.0 {
+            scene.entity_mut(camera).insert(Exposure { stops: stops_of(self.exposure), automatic: false });
+        }
         if let Ok(open) = &open {
-            let exposure = self.exposure;
             for light in &open.model.lights {
-                spawn_light(&mut scene, &ModelLight { intensity: light.intensity * exposure, ..light.clone() });
+                spawn_light(&mut scene, light);
             }
             if matches!(lit_by(&open.model), LitBy::Nothing | LitBy::NextToNothing) {
                 let sky = Gradient { bottom: Rgb::grey(0.2), top: Rgb::new(0.36, 0.46, 0.64) };
@@ -129,11 +134,6 @@ impl ModelScene {
         scene.spawn((Mesh { file: named, single_sided: self.single_sided }, Name::new(name)));
         scene.insert_resource(ModelNotes(self.said.clone()));
         load_meshes(&mut scene);
-        // The surfaces of the model shine as much brighter or darker as its lights.
-        for mut emissive in scene.query::<&mut Emissive>().iter_mut(&mut scene) {
-            let [r, g, b] = emissive.radiance.to_array().map(|part| (part * self.exposure).min(BRIGHTEST));
-            emissive.radiance = Rgb::new(r, g, b);
-        }
         scene.insert_resource(SceneFolder::default());
         scene
     }

@@ -93,8 +93,8 @@ impl ClosedForm {
         world.entity_mut(camera).insert((sampling, Resolution { width: SIDE, height: SIDE }));
         let film = render(&world, stages, &Execution::default(), &())?.film;
         let of_tile = |tile: &FilmTile| {
-            let component = &tile.sum[self.component.min(2)];
-            component.iter().zip(&tile.count).map(|(sum, &n)| sum / f64::from(n)).collect::<Vec<_>>()
+            let mean = |(row, &n): (usize, &u32)| tile.sums(row)[self.component.min(2)] / f64::from(n);
+            tile.count.iter().enumerate().map(mean).collect::<Vec<_>>()
         };
         Ok(film.tiles.iter().flat_map(of_tile).collect())
     }
