@@ -22,6 +22,11 @@ fn sized(browser: &mut Browser, width: u32, height: u32) {
 /// Gives a control another value, as a reader does.
 fn set(browser: &mut Browser, id: &str, value: &str) {
     let event = if id == "exposure" { "input" } else { "change" };
+    // What a list offers may depend on what was chosen before.
+    let is_offered = format!("[...c.options ?? []].some((own) => own.value === '{value}')");
+    browser.until(&format!(
+        "(() => {{ const c = document.getElementById('{id}'); return !c.options || {is_offered}; }})()"
+    ));
     browser.value(&format!(
         "{{ const c = document.getElementById('{id}'); c.value = '{value}'; c.dispatchEvent(new Event('{event}')); }}"
     ));

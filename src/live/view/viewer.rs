@@ -195,7 +195,9 @@ impl Viewer {
         let stages = stages_of(&choice);
         let offer: Vec<Stage> = stages.into_iter().filter(|stage| !choice.taken_out.contains(&stage.name)).collect();
         let (columns, plan) = paint(&mut world, &offer, &choice.painted, explain)?;
-        check_frames_fit(&Census::of(&world), &plan, full, MODES[choice.mode].denoised > 0).map_err(explain)?;
+        let shows_numbers = matches!(choice.painted, Painted::Quantity(_) | Painted::Component(..));
+        let beside = [MODES[choice.mode].denoised > 0, shows_numbers || self.reference.is_some()];
+        check_frames_fit(&Census::of(&world), &plan, full, beside).map_err(explain)?;
         if let Some(orbit) = &self.orbit {
             orbit.put(&mut world);
         }
