@@ -4,6 +4,7 @@ use super::{TARGET, after, scene, stages_of};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::film::GUIDES;
+use pinhole::film::{rgba_bytes, rgba_of};
 use pinhole::scene::*;
 use pinhole_live::{FrameSource, Shot};
 use std::collections::BTreeMap;
@@ -91,16 +92,22 @@ pub fn measure() {
                     changed: true,
                     patience: Duration::ZERO,
                     gathers: mode.levels > 0,
+                    region: None,
                 };
                 let progress = source.film(&shot, &()).expect("a frame");
                 let rendered = started.elapsed().as_secs_f64();
-                std::hint::black_box(progress.pixels(mode.levels));
-                let took = started.elapsed().as_secs_f64();
-                pixels_took += took - rendered;
                 for (stage, lap) in progress.plan.stages.iter().zip(&progress.laps) {
                     *stages.entry(stage.name).or_insert(0.0) += lap.time.as_secs_f64();
                 }
-                took
+                let began = Instant::now();
+                let picture = source.picture(mode.levels).expect("a film");
+                std::hint::black_box(match &picture.denoised {
+                    Some(radiance) => rgba_of(radiance, picture.curve),
+                    None => rgba_bytes(picture.film, picture.curve),
+                });
+                let developed = began.elapsed().as_secs_f64();
+                pixels_took += developed;
+                rendered + developed
             })
             .collect();
         // The first frame starts the threads and builds what later ones keep.
