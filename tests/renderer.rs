@@ -9,6 +9,7 @@ mod census;
 mod counted;
 mod denoise;
 mod emitters;
+mod exr_files;
 mod film;
 mod follow;
 mod invariance;

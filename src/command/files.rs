@@ -1,14 +1,14 @@
 use super::error::{Error, Result};
 use super::options::RenderOptions;
 use super::subject::Subject;
-use pinhole::extract::shape_names;
 use pinhole::film::{
-    Curve, Film, FilmLayers, Replaces, Target, check_place, may_be_written, png_bytes, write_exr, write_layered_exr,
-    write_png,
+    Curve, FileAttributes, Film, Replaces, Target, check_place, denoise_picture, film_of_radiance, may_be_written,
+    png_bytes, write_exr_with, write_png,
 };
-use pinhole::plan::{Census, Plan};
+use pinhole::plan::Plan;
 use pinhole::scene::printable_path;
 use pinhole_lab::exercise::Mine;
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -118,8 +118,10 @@ impl Targets {
 pub struct Files {
     /// Where they go.
     pub targets: Targets,
-    /// The names of shapes by their numbers, for the layer that tells them.
-    names: Vec<String>,
+    /// What an EXR says beside its pixels.
+    attributes: FileAttributes,
+    /// Whether the picture is smoothed along its surfaces.
+    is_denoised: bool,
     curve: Curve,
     /// The reader's function, where it stands in a stage; nothing is written once it fails.
     mine: Option<Mine>,
@@ -127,41 +129,54 @@ pub struct Files {
 
 impl Files {
     /// The files of a scene's pictures.
-    pub fn new(targets: Targets, scene: &Census<'_>, plan: &Plan, mine: Option<Mine>) -> Self {
+    pub fn new(
+        targets: Targets,
+        (attributes, is_denoised): (FileAttributes, bool),
+        plan: &Plan,
+        mine: Option<Mine>,
+    ) -> Self {
         let curve = if plan.view.is_some() { Curve::Straight } else { Curve::Srgb };
-        let names = if plan.keeps::<FilmLayers>() { shape_names(scene) } else { Vec::new() };
-        Self { targets, names, curve, mine }
+        Self { targets, attributes, is_denoised, curve, mine }
     }
 
     /// Writes the files anew, each whole, and each whether or not another can be written.
     ///
     /// Errors: the first that there was.
     pub fn write(&self, film: &Film) -> pinhole::Result {
-        let written = self.targets.pictures.iter().map(|picture| self.write_one(film, picture));
+        let denoised = self.denoised(film);
+        let written = self.targets.pictures.iter().map(|picture| self.write_one(film, denoised.as_ref(), picture));
         written.fold(Ok(()), pinhole::Result::and)
     }
 
+    /// The film's radiance, denoised, where that is asked for.
+    pub fn denoised(&self, film: &Film) -> Option<[Vec<f32>; 3]> {
+        if self.is_denoised { denoise_picture(film) } else { None }
+    }
+
     /// Writes one of them.
-    pub fn write_one(&self, film: &Film, picture: &Path) -> pinhole::Result {
+    pub fn write_one(&self, film: &Film, denoised: Option<&[Vec<f32>; 3]>, picture: &Path) -> pinhole::Result {
         self.mine.as_ref().map_or(Ok(()), Mine::answers)?;
         let place = self.targets.place(picture);
-        match (is(picture, "exr"), film.layers.is_empty()) {
-            (false, _) => write_png(film, self.curve, place)?,
-            (true, true) => write_exr(film, place)?,
-            (true, false) => write_layered_exr(film, &self.names, place)?,
+        match is(picture, "exr") {
+            true => write_exr_with(film, denoised, &self.attributes, place),
+            false => write_png(&shown(film, denoised), self.curve, place),
         }
-        Ok(())
     }
 
     /// Sends the picture to standard output, where that is asked for.
     pub fn send(&self, film: &Film, out: &mut dyn Write) -> Result {
         self.mine.as_ref().map_or(Ok(()), Mine::answers)?;
         if self.targets.standard_output {
-            out.write_all(&png_bytes(film, self.curve)?)?;
+            out.write_all(&png_bytes(&shown(film, self.denoised(film).as_ref()), self.curve)?)?;
             out.flush()?;
         }
         Ok(())
     }
+}
+
+/// The film that a PNG shows.
+fn shown<'f>(film: &'f Film, denoised: Option<&[Vec<f32>; 3]>) -> Cow<'f, Film> {
+    denoised.map_or(Cow::Borrowed(film), |radiance| Cow::Owned(film_of_radiance(radiance, film)))
 }
 
 fn is(file: &Path, ending: &str) -> bool {

@@ -2,6 +2,7 @@ use super::called::{called, quoted};
 use super::options::RenderOptions;
 use super::subject::Subject;
 use super::visible::is_hidden;
+use pinhole::rays::Tile;
 
 /// The command that says which stages a render's scene needs, and why the others were left out.
 pub fn plan(subject: &Subject<'_>, options: &RenderOptions) -> String {
@@ -24,6 +25,15 @@ pub fn next(
     let pixel = format!("{x},{y}");
     let size = if options.scene.sets_resolution() { format!(" --size {width}x{height}") } else { String::new() };
     Some(called(&format!("trace {name} --pixel {pixel}{size}{}", options.scene.typed_settings())))
+}
+
+/// The command that renders the same picture, on any machine and however it is stopped on the way.
+pub fn same_picture(subject: &Subject<'_>, options: &RenderOptions, [width, height]: [u32; 2]) -> Option<String> {
+    let name = name(subject)?;
+    let naive = options.naive.map(|method| format!(" --naive {}", method.name)).unwrap_or_default();
+    let crop = options.crop.map(|Tile { x, y, width, height }| format!(" --crop {x},{y},{width},{height}"));
+    let crop = crop.unwrap_or_default();
+    Some(format!("pinhole render {name} --size {width}x{height}{}{crop}{naive}", options.scene.typed()))
 }
 
 /// What names a subject again, for a shell; nothing does for what came through a pipe, or cannot be shown.

@@ -9,7 +9,7 @@ use pinhole::film::{
 };
 use pinhole::plan::Census;
 use pinhole::render::{Limits, Outcome, RenderInProgress, film_key, render_in_passes, samples_after};
-use pinhole::scene::printable_path;
+use pinhole::scene::{fnv, printable_path};
 use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
@@ -44,6 +44,8 @@ pub fn render_long(
     say: &mut dyn FnMut(&str) -> Result,
 ) -> Result<LongRender> {
     let (key, first) = (film_key(scene, &render.plan), files.targets.checkpoint());
+    // The film of a part is another film.
+    let key = options.crop.map_or(key, |part| fnv(key, format!("{part:?}").as_bytes()));
     let limits = Limits { time: options.time, write_every: options.write_every, adaptive: adaptive_of(scene)? };
     let (mut found, mut has_first_name) = (None, true);
     if let Some(first) = &first {

@@ -1,7 +1,7 @@
 use bevy_ecs::prelude::World;
 use glam::DVec3;
 use pinhole::extract::{camera_entity, eye};
-use pinhole::film::{Curve, Film, History, rgba_bytes, rgba_of};
+use pinhole::film::{Curve, FileAttributes, Film, History, film_of_radiance, rgba_bytes, rgba_of};
 use pinhole::plan::{Census, Plan, Stage};
 use pinhole::rasterise::Projection;
 use pinhole::render::{Execution, Lap, RenderInProgress, Watch, samples_after, steps_of};
@@ -143,10 +143,15 @@ impl FrameSource {
         let render = self.render.as_ref()?;
         let gathered = self.gathered[1].as_ref().filter(|_| levels > 0);
         let film = match gathered {
-            Some(Gathered { history, .. }) => Cow::Owned(denoised_film(history, &render.film, levels)),
+            Some(Gathered { history, .. }) => Cow::Owned(film_of_radiance(&denoised(history, levels), &render.film)),
             None => Cow::Borrowed(&render.film),
         };
         Some((film, curve(&render.plan)))
+    }
+
+    /// What the picture's file says beside its pixels.
+    pub fn attributes(&self) -> FileAttributes {
+        self.render.as_ref().map(|render| render.attributes.clone()).unwrap_or_default()
     }
 
     /// The plan of the last frame.
@@ -175,19 +180,6 @@ impl Progress<'_> {
 fn denoised(gathered: &History, levels: u32) -> [Vec<f32>; 3] {
     let samples = gathered.mean_samples().max(1.0) as u32;
     gathered.denoised(levels.saturating_sub(samples.ilog2() / 2))
-}
-
-/// The same as a film with one sample of each pixel.
-fn denoised_film(gathered: &History, of: &Film, levels: u32) -> Film {
-    let radiance = denoised(gathered, levels);
-    let mut film = Film::new(of.width, of.height, of.tile_side);
-    for tile in &mut film.tiles {
-        for row in 0..tile.tile.rows() {
-            let [x, y] = tile.tile.pixel_of(row);
-            tile.add(row, radiance.each_ref().map(|part| part[(y * of.width + x) as usize]));
-        }
-    }
-    film
 }
 
 /// A view's values are data; radiance is shown by the sRGB curve.

@@ -10,7 +10,7 @@
 
 use super::plausible::is_plausible;
 use super::{Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, Rejected, Replaces, Target, write_whole};
-use crate::scene::{FileKind, Unopened, check_memory, open_file, printable_path};
+use crate::scene::{FileKind, LayerKind, Unopened, check_memory, open_file, printable_path};
 use crate::{Error, Result};
 use std::io::{self, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
@@ -113,6 +113,9 @@ pub fn read_checkpoint(key: u64, film: &Film, adaptive: bool, path: &Path) -> Re
     let min = least_length(film, extra & PLANNED != 0);
     // Negative sums exist from the first sample of negative weight on, and each tile keeps its first rejected samples.
     let max = min + film.tiles.iter().map(|tile| 28 * tile.count.len() as u64 + 24 * Rejected::MAX as u64).sum::<u64>();
+    let has_mattes = film.layers.first().is_some_and(|layers| layers.kinds.contains(&LayerKind::Cryptomatte));
+    // How many shapes a pixel shows, the film does not say.
+    let max = if has_mattes { u64::MAX } else { max };
     if found != expected || !(min..=max).contains(&length) {
         return Err(damaged());
     }
@@ -187,6 +190,10 @@ fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
             for component in &layers.sums {
                 out.write_f64s(component)?;
             }
+            if layers.kinds.contains(&LayerKind::Cryptomatte) {
+                out.write_u32(layers.mattes.len() as u32)?;
+                layers.mattes.iter().try_for_each(|(&(row, shape), &count)| out.write_u32s(&[row, shape, count]))?;
+            }
         }
     }
     if let Some(splats) = &film.splats {
@@ -218,6 +225,14 @@ fn read_film<S: Read>(film: &mut Film, numbers: &mut Numbers<S>) -> io::Result<(
             }
             for component in &mut layers.sums {
                 numbers.read_f64s(component)?;
+            }
+            if layers.kinds.contains(&LayerKind::Cryptomatte) {
+                // Nothing is allocated for what is not there to be read.
+                for _ in 0..numbers.read_u32()? {
+                    let mut matte = [0; 3];
+                    numbers.read_u32s(&mut matte)?;
+                    layers.mattes.insert((matte[0], matte[1]), matte[2]);
+                }
             }
         }
     }

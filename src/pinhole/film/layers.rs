@@ -10,6 +10,7 @@ use crate::shade::SurfaceColours;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::{DVec2, DVec3};
+use std::collections::BTreeMap;
 
 /// The layers of one tile's film, with a row per pixel; exists only if layers are requested.
 ///
@@ -29,6 +30,8 @@ pub struct FilmLayers {
     /// Sums over the samples that hit a surface: one component for every channel of every kind that is a mean, in
     /// order.
     pub sums: Vec<Vec<f64>>,
+    /// How many samples of a row hit a shape, by row and number of the shape; empty without the layer `cryptomatte`.
+    pub mattes: BTreeMap<(u32, u32), u32>,
 }
 
 impl FilmLayers {
@@ -41,6 +44,7 @@ impl FilmLayers {
             hits: vec![0; rows],
             entity: vec![NO_SHAPE; rows],
             sums: vec![vec![0.0; rows]; components],
+            mattes: BTreeMap::new(),
         }
     }
 
@@ -55,6 +59,7 @@ impl FilmLayers {
         self.hits.fill(0);
         self.entity.fill(NO_SHAPE);
         self.sums.iter_mut().for_each(|sums| sums.fill(0.0));
+        self.mattes.clear();
     }
 
     /// The kinds as bits, for checkpoints.
@@ -94,9 +99,14 @@ impl FilmLayers {
 
     /// Its memory in bytes.
     pub fn bytes(&self) -> usize {
-        self.taken.len() * (3 * size_of::<u32>() + self.sums.len() * size_of::<f64>()) + size_of::<Self>()
+        let mattes = self.mattes.len() * MATTE_BYTES;
+        self.taken.len() * (3 * size_of::<u32>() + self.sums.len() * size_of::<f64>()) + mattes + size_of::<Self>()
     }
 }
+
+/// The memory of one of the counts of [`FilmLayers::mattes`] in a tree whose nodes are two thirds full, as they are on
+/// average, in bytes.
+pub const MATTE_BYTES: usize = 3 * size_of::<u32>() * 3 / 2;
 
 column_component!(FilmLayers);
 
@@ -178,7 +188,14 @@ impl LayerInputs<'_> {
                 DVec3::new(depth, 0.0, 0.0)
             }),
             (LayerKind::Position, None)
-            | (LayerKind::Coverage | LayerKind::Entity | LayerKind::Samples | LayerKind::Variance, _) => {}
+            | (
+                LayerKind::Coverage
+                | LayerKind::Entity
+                | LayerKind::Samples
+                | LayerKind::Variance
+                | LayerKind::Cryptomatte,
+                _,
+            ) => {}
         }
     }
 
@@ -248,6 +265,11 @@ pub fn add_to_layers(
             layers.hits[pixel] += u32::from(shape != NO_SHAPE);
             if layers.taken[pixel] == 1 {
                 layers.entity[pixel] = shape;
+            }
+        }
+        if layers.kinds.contains(&LayerKind::Cryptomatte) {
+            for (row, &shape) in hits.shape.iter().enumerate().filter(|&(_, &shape)| shape != NO_SHAPE) {
+                *layers.mattes.entry((pixel_of(row) as u32, shape)).or_default() += 1;
             }
         }
         let materials = materials.as_deref().map(|materials| &**materials);

@@ -3,8 +3,9 @@
 use super::clock::Lap;
 use super::{Limits, RenderInProgress, render_in_passes};
 use crate::extract::{adaptive_of, delta_light_rays, shape_entities};
-use crate::film::{Curve, Film, write_exr, write_png};
+use crate::film::{Curve, FileAttributes, Film, write_exr_with, write_png};
 use crate::plan::{Census, ColumnKind, Plan, Stage};
+use crate::rays::Tile;
 use crate::scene::{FNV_BASIS, fingerprint, fnv};
 use crate::shade::{LightPdfs, ShadowHits, ShadowRays};
 use crate::{Error, Result};
@@ -35,11 +36,13 @@ pub struct Execution {
     pub tile_side: u32,
     /// How many worlds hold the tiles.
     pub worlds: Worlds,
+    /// The part of the image to render; none for all of it. Its pixels are the same as in the whole image.
+    pub part: Option<Tile>,
 }
 
 impl Default for Execution {
     fn default() -> Self {
-        Self { threads: None, tile_side: 32, worlds: Worlds::default() }
+        Self { threads: None, tile_side: 32, worlds: Worlds::default(), part: None }
     }
 }
 
@@ -135,6 +138,9 @@ pub struct Rendered {
     pub plan: Plan,
     /// The accumulated radiance.
     pub film: Film,
+    /// What the picture's file says beside its pixels.
+    #[doc(hidden)]
+    pub attributes: FileAttributes,
     /// One lap per kept stage, summed over workers; empty where no statistics were requested.
     pub laps: Vec<Lap>,
     /// The number of workers.
@@ -164,7 +170,10 @@ impl Rendered {
     /// ```
     pub fn save(&self, path: &Path) -> Result {
         let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-        if is_png { write_png(&self.film, self.curve(), path) } else { write_exr(&self.film, path) }
+        match is_png {
+            true => write_png(&self.film, self.curve(), path),
+            false => write_exr_with(&self.film, None, &self.attributes, path),
+        }
     }
 
     /// The curve that turns the film into a picture: sRGB for radiance, the identity for a view's values.

@@ -31,7 +31,7 @@ impl Viewer {
         };
         let (media, ending, bytes) = match kind {
             Kind::Png => ("image/png", "png", png_bytes(&film, curve)),
-            Kind::Exr => ("image/x-exr", "exr", exr_bytes(&film)),
+            Kind::Exr => ("image/x-exr", "exr", exr_bytes(&film, &self.source.attributes())),
         };
         let stem: String =
             self.choice.scene.stem().chars().filter(|c| c.is_ascii_alphanumeric() || "-_".contains(*c)).collect();
