@@ -80,7 +80,7 @@ fn everything_added_is_planned_and_the_picture_does_not_depend_on_how_it_is_made
     for threads in [1, 2] {
         for tile_side in [8, 32] {
             for worlds in [Worlds::One, Worlds::PerWorker] {
-                let execution = Execution { threads: Some(threads), tile_side, worlds };
+                let execution = Execution { threads: Some(threads), tile_side, worlds, part: None };
                 let other = render(&scene, &stages(), &execution, &()).expect("renders").film;
                 assert_eq!(bits(&other), expected, "{threads} threads, tiles of {tile_side}, {worlds:?}");
                 tried += 1;

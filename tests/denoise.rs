@@ -3,9 +3,12 @@
 use crate::scenes::{offer, one_world};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
-use pinhole::film::{Film, GUIDES, Guides, denoise, denoise_radiance};
-use pinhole::render::render;
+use pinhole::film::{
+    Film, FilmLayers, FilmMoments, Guides, PICTURE_GUIDES, denoise, denoise_picture, denoise_radiance,
+};
+use pinhole::render::{Execution, render};
 use pinhole::scene::*;
+use pinhole::{Overrides, Size};
 use pinhole_lab::measure::draws::Draws;
 
 /// Guides and radiance of an image whose surfaces change at random, some pixels without any.
@@ -106,7 +109,7 @@ fn light_that_is_even_stays_so_and_sums_are_filtered_apart() {
 /// A box on a ground under a sky and a small light, by paths of two bounces.
 fn lit(samples: u32, seed: u64) -> Film {
     let mut world = World::new();
-    let layers = Layers { kinds: GUIDES.to_vec() };
+    let layers = Layers { kinds: pinhole::film::PICTURE_GUIDES.to_vec() };
     let look = LookAt { eye: DVec3::new(3.0, 2.5, 5.0), target: DVec3::new(0.0, 0.5, 0.0), ..LookAt::default() };
     let path = Integrator::Path { max_depth: 3, lights: LightStrategy::Mis, roulette: 0 };
     let sampling = Sampling { samples, seed, sampler: Sampler::Independent, filter: Filter::Box { radius: 0.5 } };
@@ -167,4 +170,95 @@ fn a_film_without_the_guiding_layers_is_not_denoised() {
     world.spawn((PerspectiveCamera::default(), Resolution { width: 8, height: 6 }));
     world.spawn((Sphere::default(), Placement::at(0.0, 0.0, -3.0), Matte::default()));
     assert!(denoise(&render(&world, &offer(), &one_world(), &()).expect("renders").film, 3).is_none());
+}
+
+/// A film of a plane whose pixels have two samples each: radiance by place, with the variance of a sample, and albedo.
+fn plane(side: u32, pixel: impl Fn(u32, u32) -> (f32, f64, f64)) -> Film {
+    let mut film = Film::new(side, side, side);
+    let mut layers = FilmLayers::new((side * side) as usize, &PICTURE_GUIDES);
+    let mut moments = FilmMoments::new((side * side) as usize);
+    for (x, y) in (0..side).flat_map(|y| (0..side).map(move |x| (x, y))) {
+        let (row, (radiance, variance, albedo)) = ((y * side + x) as usize, pixel(x, y));
+        (0..2).for_each(|_| film.tiles[0].add(row, [radiance; 3]));
+        (0..3).for_each(|part| moments.sum[part][row] = variance);
+        (layers.hits[row], layers.taken[row]) = (2, 2);
+        // Position, normal and albedo, in the order of the layers.
+        let sums = [f64::from(x), f64::from(y), 0.0, 0.0, 0.0, 1.0, albedo, albedo, albedo];
+        sums.into_iter().zip(&mut layers.sums).for_each(|(value, sums)| sums[row] = 2.0 * value);
+    }
+    (film.layers, film.moments, film.done) = (vec![layers], vec![moments], vec![5]);
+    film
+}
+
+#[test]
+fn a_finished_picture_is_smoothed_only_as_far_as_its_noise() {
+    const SIDE: u32 = 40;
+    let mut draws = Draws::new(1702, 1);
+    let noise: Vec<f32> = (0..SIDE * SIDE).map(|_| draws.between(0.5, 1.5) as f32).collect();
+    let at = |x: u32, y: u32| noise[(y * SIDE + x) as usize];
+    // Without noise every difference is part of the picture.
+    let exact = denoise_picture(&plane(SIDE, |x, y| (at(x, y), 0.0, 0.5))).expect("guides");
+    assert!(
+        exact.iter().all(|part| part.iter().zip(&noise).all(|(own, expected)| own.to_bits() == expected.to_bits()))
+    );
+    // With the variance that the numbers have, 1/12, most of the differences go: 25 pixels and more are averaged.
+    let smooth = denoise_picture(&plane(SIDE, |x, y| (at(x, y), 1.0 / 6.0, 0.5))).expect("guides");
+    let inner = (8..32).flat_map(|y| (8..32).map(move |x| (y * SIDE + x) as usize));
+    let squares = inner.map(|pixel| (smooth[0][pixel] - 1.0) * (smooth[0][pixel] - 1.0)).sum::<f32>();
+    let off = (squares / (24.0 * 24.0)).sqrt();
+    assert!(off < 0.1, "{off} is left of a standard deviation of 0.289");
+    // A lamp in the plane stays as it is, and nothing of it gets onto the wall, not even from the pixels at its edge.
+    let lamp = |x: u32, y: u32| (10..20).contains(&x) && (10..20).contains(&y);
+    let edge = |x: u32, y: u32| (9..21).contains(&x) && (9..21).contains(&y);
+    let lit = denoise_picture(&plane(SIDE, |x, y| match (lamp(x, y), edge(x, y)) {
+        (true, _) => (1000.0, 0.0, 0.0),
+        (_, true) => (500.0, 500.0 * 500.0, 0.25),
+        _ => (at(x, y), 1.0 / 6.0, 0.5),
+    }))
+    .expect("guides");
+    let mut walls = 0;
+    for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
+        let own = lit[0][(y * SIDE + x) as usize];
+        match (lamp(x, y), edge(x, y)) {
+            (true, _) => assert_eq!(own.to_bits(), 1000.0_f32.to_bits()),
+            (_, true) => {}
+            _ => {
+                assert!((0.4..1.6).contains(&own), "{own} at {x},{y}");
+                walls += 1;
+            }
+        }
+    }
+    assert!(denoise_picture(&Film { layers: Vec::new(), ..plane(4, |_, _| (1.0, 0.0, 0.5)) }).is_none());
+    eprintln!(
+        "denoised: 1600 pixels without noise as they were; a noise of 0.289 becomes {off:.3}; {walls} beside a lamp unlit"
+    );
+}
+
+/// Against pictures of many samples: a box with a lamp in its ceiling, and mirrors, whose reflections no layer tells.
+#[test]
+fn a_finished_picture_is_nearer_to_the_right_one() {
+    let mut told = Vec::new();
+    for (chapter, samples, most) in [("25", 4, 0.5), ("25", 16, 0.6), ("29", 4, 1.0), ("29", 16, 1.0)] {
+        let chapter = chapters::all().into_iter().find(|own| own.name.starts_with(chapter)).expect("a chapter");
+        let film = |samples: u32, seed: u64, layers: &[LayerKind]| {
+            let mut asked = Overrides { size: Some(Size::Width(64)), ..Overrides::default() };
+            (asked.sampling.samples, asked.sampling.seed) = (Some(samples), Some(seed));
+            asked.layers = (!layers.is_empty()).then(|| Layers { kinds: layers.to_vec() });
+            render(&chapter.world(&asked), &chapter.stages(), &Execution::default(), &()).expect("renders").film
+        };
+        let right = means(&film(1024, 7, &[]));
+        let relative = |image: &[Vec<f32>; 3]| {
+            let squares =
+                image.iter().zip(&right).flat_map(|(image, right)| image.iter().zip(right)).map(|(&own, &right)| {
+                    let (own, right) = (f64::from(own), f64::from(right));
+                    (own - right) * (own - right) / (right * right + 0.01)
+                });
+            squares.sum::<f64>() / right.iter().map(Vec::len).sum::<usize>() as f64
+        };
+        let noisy = film(samples, 1, &PICTURE_GUIDES);
+        let [before, after] = [means(&noisy), denoise_picture(&noisy).expect("guides")].map(|image| relative(&image));
+        assert!(after < most * before, "{} of {samples} samples: {after} after {before}", chapter.name);
+        told.push(format!("{} at {samples}: {before:.4} to {after:.4}", chapter.name));
+    }
+    eprintln!("denoised, relMSE: {}", told.join("; "));
 }

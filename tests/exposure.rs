@@ -198,7 +198,7 @@ fn no_film_no_exr_and_no_view_depends_on_them() {
     };
     let (_, plain, plain_key) = of(&|_| ());
     let (_, plain_view, _) = of(&|camera| _ = camera.insert(View { column: "hit".into() }));
-    let exr = exr_bytes(&plain.film).expect("encoded");
+    let exr = exr_bytes(&plain.film, &plain.attributes).expect("encoded");
     assert_eq!(plain.curve(), Curve::Srgb);
     let mut tried = 0;
     for tone_mapping in CURVES {
@@ -206,7 +206,10 @@ fn no_film_no_exr_and_no_view_depends_on_them() {
             let (_, rendered, key) = of(&|camera| _ = camera.insert((exposure, tone_mapping)));
             assert_eq!(rendered.curve(), Curve::Exposed(exposure, tone_mapping));
             assert_eq!(bits(&rendered.film), bits(&plain.film));
-            assert!(exr_bytes(&rendered.film).expect("encoded") == exr, "{exposure:?} {tone_mapping:?}");
+            assert!(
+                exr_bytes(&rendered.film, &rendered.attributes).expect("encoded") == exr,
+                "{exposure:?} {tone_mapping:?}"
+            );
             assert_eq!(key, plain_key, "a checkpoint serves every exposure");
             let (_, viewed, _) =
                 of(&|camera| _ = camera.insert((exposure, tone_mapping, View { column: "hit".into() })));

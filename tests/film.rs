@@ -5,7 +5,7 @@ use crate::scenes;
 use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
 use pinhole::film::{
     Curve, FIRST_SAMPLE_STEPS, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, Rejected, SplatFilter,
-    byte_from_linear, png_bytes, write_exr, write_layered_exr, write_png,
+    byte_from_linear, png_bytes, write_exr, write_png,
 };
 use pinhole::plan::VectorRows;
 use pinhole::rays::Tile;
@@ -123,7 +123,7 @@ fn more_light_than_a_picture_holds_is_its_largest_number() {
         vec![FilmMoments { sum: [vec![1e77; 6], vec![0.0; 6], vec![f64::MAX; 6]], ..FilmMoments::default() }];
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("bright.exr");
-    write_layered_exr(&film, &[], &path).expect("written");
+    write_exr(&film, &path).expect("written");
     let layer = read_first_flat_layer_from_file(&path).expect("an EXR").layer_data;
     let (mut values, mut largest) = (0, 0);
     for channel in &layer.channel_data.list {

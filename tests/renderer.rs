@@ -10,6 +10,7 @@ mod counted;
 mod denoise;
 mod emitters;
 mod exposure;
+mod exr_files;
 mod film;
 mod follow;
 mod invariance;

@@ -1,15 +1,14 @@
 use super::error::{Error, Result};
 use super::options::RenderOptions;
 use super::subject::Subject;
-use pinhole::extract::shape_names;
 use pinhole::film::{
-    Curve, Film, FilmLayers, PngKind, Replaces, Target, check_place, may_be_written, png_bytes_as, write_exr,
-    write_layered_exr, write_png_as,
+    Curve, FileAttributes, Film, PngKind, Replaces, Target, check_place, denoise_picture, film_of_radiance,
+    may_be_written, png_bytes_as, write_exr_with, write_png_as,
 };
-use pinhole::plan::Census;
 use pinhole::render::{RenderInProgress, samples_after};
 use pinhole::scene::printable_path;
 use pinhole_lab::exercise::Mine;
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -123,8 +122,10 @@ impl Targets {
 pub struct Files {
     /// Where they go.
     pub targets: Targets,
-    /// The names of shapes by their numbers, for the layer that tells them.
-    names: Vec<String>,
+    /// What an EXR says beside its pixels.
+    attributes: FileAttributes,
+    /// Whether the picture is smoothed along its surfaces.
+    is_denoised: bool,
     curve: Curve,
     png: PngKind,
     /// The seed of the random numbers, where the camera takes any.
@@ -137,33 +138,36 @@ impl Files {
     /// The files of a scene's pictures.
     pub fn new(
         targets: Targets,
-        scene: &Census<'_>,
+        (attributes, is_denoised): (FileAttributes, bool),
         render: &RenderInProgress,
         (png, mine): (PngKind, Option<Mine>),
     ) -> Self {
         let seed = render.is_sampled().then_some(render.sampling.seed);
-        let names = if render.plan.keeps::<FilmLayers>() { shape_names(scene) } else { Vec::new() };
-        Self { targets, names, curve: render.curve, png, seed, mine }
+        Self { targets, attributes, is_denoised, curve: render.curve, png, seed, mine }
     }
 
     /// Writes the files anew, each whole, and each whether or not another can be written.
     ///
     /// Errors: the first that there was.
     pub fn write(&self, film: &Film) -> pinhole::Result {
-        let written = self.targets.pictures.iter().map(|picture| self.write_one(film, picture));
+        let denoised = self.denoised(film);
+        let written = self.targets.pictures.iter().map(|picture| self.write_one(film, denoised.as_ref(), picture));
         written.fold(Ok(()), pinhole::Result::and)
     }
 
+    /// The film's radiance, denoised, where that is asked for.
+    pub fn denoised(&self, film: &Film) -> Option<[Vec<f32>; 3]> {
+        if self.is_denoised { denoise_picture(film) } else { None }
+    }
+
     /// Writes one of them.
-    pub fn write_one(&self, film: &Film, picture: &Path) -> pinhole::Result {
+    pub fn write_one(&self, film: &Film, denoised: Option<&[Vec<f32>; 3]>, picture: &Path) -> pinhole::Result {
         self.mine.as_ref().map_or(Ok(()), Mine::answers)?;
         let place = self.targets.place(picture);
-        match (is(picture, "exr"), film.layers.is_empty()) {
-            (false, _) => write_png_as(film, self.curve, &self.png_of(film), place)?,
-            (true, true) => write_exr(film, place)?,
-            (true, false) => write_layered_exr(film, &self.names, place)?,
+        match is(picture, "exr") {
+            true => write_exr_with(film, denoised, &self.attributes, place),
+            false => write_png_as(&shown(film, denoised), self.curve, &self.png_of(film), place),
         }
-        Ok(())
     }
 
     /// The kind of a PNG that says how far the film has come.
@@ -182,11 +186,17 @@ impl Files {
     pub fn send(&self, film: &Film, out: &mut dyn Write) -> Result {
         self.mine.as_ref().map_or(Ok(()), Mine::answers)?;
         if self.targets.standard_output {
-            out.write_all(&png_bytes_as(film, self.curve, &self.png_of(film))?)?;
+            let picture = shown(film, self.denoised(film).as_ref()).into_owned();
+            out.write_all(&png_bytes_as(&picture, self.curve, &self.png_of(film))?)?;
             out.flush()?;
         }
         Ok(())
     }
+}
+
+/// The film that a PNG shows.
+fn shown<'f>(film: &'f Film, denoised: Option<&[Vec<f32>; 3]>) -> Cow<'f, Film> {
+    denoised.map_or(Cow::Borrowed(film), |radiance| Cow::Owned(film_of_radiance(radiance, film)))
 }
 
 fn is(file: &Path, ending: &str) -> bool {

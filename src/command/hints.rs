@@ -2,6 +2,7 @@ use super::called::{called, quoted};
 use super::options::RenderOptions;
 use super::subject::Subject;
 use super::visible::is_hidden;
+use pinhole::rays::Tile;
 
 /// The command that says which stages a render's scene needs, and why the others were left out.
 pub fn plan(subject: &Subject<'_>, options: &RenderOptions) -> String {
@@ -26,17 +27,24 @@ pub fn next(
     Some(called(&format!("trace {name} --pixel {pixel}{size}{}", options.scene.typed_settings())))
 }
 
-/// What a PNG says of where it is from: the scene, and a command that renders it.
+/// The command that renders the same picture, on any machine and however it is stopped on the way.
 ///
-/// The command is made of what its light depends on, so that neither the name of a file nor a stop on the way changes it.
-pub fn provenance(subject: &Subject<'_>, options: &RenderOptions, mine: bool) -> Vec<(&'static str, String)> {
-    let Some(name) = name(subject) else { return Vec::new() };
+/// It is made of what its light depends on, so that neither the name of a file nor a stop changes it.
+pub fn same_picture(subject: &Subject<'_>, options: &RenderOptions, mine: bool) -> Option<String> {
+    let name = name(subject)?;
     let naive = options.naive.map(|method| format!(" --naive {}", method.name)).unwrap_or_default();
     let mine = if mine { " --mine" } else { "" };
     let size = options.scene.typed_size();
     let frame =
         options.frame.map(|frame| format!(" --frames {frame}..{frame} --fps {}", options.fps)).unwrap_or_default();
-    let command = format!("pinhole render {name}{size}{}{frame}{naive}{mine}", options.scene.typed());
+    let crop = options.crop.map(|Tile { x, y, width, height }| format!(" --crop {x},{y},{width},{height}"));
+    let crop = crop.unwrap_or_default();
+    Some(format!("pinhole render {name}{size}{}{frame}{crop}{naive}{mine}", options.scene.typed()))
+}
+
+/// What a PNG says of where it is from: the scene, the number of a frame, and the command that renders it.
+pub fn provenance(subject: &Subject<'_>, options: &RenderOptions, mine: bool) -> Vec<(&'static str, String)> {
+    let Some(command) = same_picture(subject, options, mine) else { return Vec::new() };
     let number = options.frame.map(|frame| ("Frame", frame.to_string()));
     [("Scene", subject.name().to_owned()), ("Command", command)].into_iter().chain(number).collect()
 }

@@ -9,7 +9,7 @@ use pinhole::film::{
 };
 use pinhole::plan::Census;
 use pinhole::render::{Limits, Outcome, RenderInProgress, render_in_passes, samples_after};
-use pinhole::scene::printable_path;
+use pinhole::scene::{fnv, printable_path};
 use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
@@ -46,6 +46,8 @@ pub fn render_long(
     say: &mut dyn FnMut(&str) -> Result,
 ) -> Result<LongRender> {
     let (key, first) = (render.key(scene, waiting)?, files.targets.checkpoint());
+    // The film of a part of the image is another film.
+    let key = options.crop.map_or(key, |part| fnv(key, format!("{part:?}").as_bytes()));
     let limits = Limits { time: options.time, write_every: options.write_every, adaptive: adaptive_of(scene)? };
     if let (Some(_), Some(first)) = (options.frame, &first) {
         let is_there = files.targets.pictures.iter().all(|picture| picture.exists());

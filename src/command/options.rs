@@ -6,7 +6,8 @@ use clap::Args;
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pinhole::extract::MAX_SAMPLES;
-use pinhole::film::{Part, Split};
+use pinhole::film::{LayerNames, Part, Split};
+use pinhole::rays::Tile;
 use pinhole::scene::{Exposure, Filter, Layers, Resolution, Sampler, ToneMapping, TracePixel};
 use pinhole::{Overrides, SamplingOverrides, Size};
 use pinhole_lab::naive::methods::{METHODS, NaiveMethod};
@@ -94,6 +95,18 @@ pub struct RenderOptions {
     /// Run a naive method of the book in place of pinhole's, and write both pictures and their difference
     #[arg(long, value_name = "NAME", conflicts_with = "resume", value_parser = naive_method())]
     pub naive: Option<&'static NaiveMethod>,
+    /// Render only a part of the image, such as 320,180,96,54: the first pixel from the left and from the top, then width
+    /// and height, as Mitsuba's crop_offset and crop_size; an EXR says where in the image it is
+    #[arg(long, value_name = "X,Y,WIDTH,HEIGHT", allow_hyphen_values = true, conflicts_with = "naive", value_parser = crop)]
+    pub crop: Option<Tile>,
+    /// Smooth the picture along its surfaces, the less the more samples there are; the EXR keeps the unsmoothed one beside
+    /// it, as the layer noisy, and the layers that guide the filter
+    #[arg(long, conflicts_with_all = ["view", "naive"])]
+    pub denoise: bool,
+    /// Whose names the EXR's channels have, so that other programs find them: pinhole, blender, pbrt or oidn
+    #[arg(long, value_name = "WORD", default_value = "pinhole", hide_default_value = true,
+          value_parser = |word: &str| one_of(word, "way to name layers", &LayerNames::ALL))]
+    pub layer_names: LayerNames,
     /// Continue from the checkpoint beside the picture, to the same bits as if it had not been stopped
     #[arg(long)]
     pub resume: bool,
@@ -101,7 +114,7 @@ pub struct RenderOptions {
     #[arg(long, value_name = "TIME", value_parser = span)]
     pub write_every: Option<Duration>,
     /// Compute one part of the picture, such as 3/64, and leave it in a file beside the picture, for `merge`
-    #[arg(long, value_name = "I/N", conflicts_with_all = ["time", "naive"], value_parser = part)]
+    #[arg(long, value_name = "I/N", conflicts_with_all = ["time", "naive", "crop"], value_parser = part)]
     pub part: Option<[u32; 2]>,
     /// How the picture is divided into parts: by tiles, samples, both, or as chosen for the number of parts
     #[arg(long, value_name = "WORD", requires = "part", value_parser = |word: &str| one_of(word, "split", &Split::ALL))]
@@ -275,6 +288,15 @@ pub fn pixel(text: &str) -> Result<TracePixel, String> {
     Ok(TracePixel { x, y })
 }
 
+/// A part of an image.
+fn crop(text: &str) -> Result<Tile, String> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, width, height]) => Ok(Tile { x, y, width, height }),
+        _ => Err("a part is four whole numbers of pixels with commas between, such as 320,180,96,54".into()),
+    }
+}
+
 pub fn workers(text: &str) -> Result<u16, String> {
     let number = text.trim().parse().ok().filter(|number| (1..=1024).contains(number));
     number.ok_or("a number of workers is a whole number from 1 to 1024".into())
@@ -409,6 +431,14 @@ mod tests {
         }
         for bad in ["", "bright", "autofocus", "auto1", "auto+", "1 stop", "+-1"] {
             assert!(exposure(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_crop_is_four_numbers() {
+        assert_eq!(crop("13, 7,40,30"), Ok(Tile { x: 13, y: 7, width: 40, height: 30 }));
+        for bad in ["", "1,2,3", "1,2,3,4,5", "-1,2,3,4", "1,2,3.5,4", "1x2+3+4", "a,b,c,d"] {
+            assert!(crop(bad).is_err(), "{bad}");
         }
     }
 

@@ -6,6 +6,7 @@ use super::hints;
 use super::interrupt::{EndsByItself, Waiting};
 use super::options::RenderOptions;
 use super::progress::Progress;
+use super::render::{attributes, keep_guides};
 use super::streams::Streams;
 use super::subject::Subject;
 use pinhole::extract::{FilterTable, adaptive_of, validate};
@@ -70,7 +71,10 @@ pub fn render_part(
     };
     let path = part_file(picture, part.number, part.of);
     let asked = options.asked(false);
-    let scene = subject.world(&asked);
+    let mut scene = subject.world(&asked);
+    if options.denoise {
+        keep_guides(&mut scene);
+    }
     let placed = |error| subject.placed(error, &asked);
     let census = &Census::of(&scene);
     validate(census).map_err(|scene_error| placed(scene_error.into()))?;
@@ -186,7 +190,10 @@ pub fn merge(
     let targets = Targets::of(subject, options)?;
     targets.check()?;
     let asked = options.asked(false);
-    let scene = subject.world(&asked);
+    let mut scene = subject.world(&asked);
+    if options.denoise {
+        keep_guides(&mut scene);
+    }
     let placed = |error| subject.placed(error, &asked);
     let census = &Census::of(&scene);
     validate(census).map_err(|scene_error| placed(scene_error.into()))?;
@@ -211,7 +218,8 @@ pub fn merge(
         streams.note(&format!("warning: {why}"))?;
     }
     let png = PngKind { is_deep: options.bits == Some(16), text: hints::provenance(subject, options, false) };
-    let files = Files::new(targets, census, &render, (png, None));
+    let attributes = attributes(subject, options, &scene, (&render, false));
+    let files = Files::new(targets, (attributes, options.denoise), &render, (png, None));
     files.write(&film)?;
     files.send(&film, streams.out)?;
     let mut written: Vec<PathBuf> = files.targets.pictures.clone();

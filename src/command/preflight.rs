@@ -93,7 +93,8 @@ pub fn before_rendering(
     if options.no_preflight {
         return Ok(Foretold::default());
     }
-    let (threads, ends_in_time) = (options.threads.map(usize::from), options.time.is_some());
+    // How long a part takes, test rays all over the image do not say.
+    let (threads, ends_in_time) = (options.threads.map(usize::from), options.time.is_some() || options.crop.is_some());
     let asked = Preflight { threads, ends_in_time, ..Preflight::default() }.since(began);
     let mut said = foretell(scene, (&render.plan, render.tables()), asked)?;
     said.warnings = said.warnings.into_iter().map(|sentence| subject.in_its_words(sentence)).collect();

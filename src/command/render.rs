@@ -12,14 +12,17 @@ use super::progress::Progress;
 use super::streams::Streams;
 use super::subject::Subject;
 use super::summary::Summary;
-use super::warnings::{notes, too_dark, warnings};
+use super::warnings::{mattes_left_out, notes, too_dark, warnings};
+use bevy_ecs::prelude::World;
 use pinhole::Chapter;
 use pinhole::extract::{ChosenIntegrator, LayerTable, adaptive_of, camera_entity, integrator_of, validate};
-use pinhole::film::{Curve, PngKind, png_bytes, stops_of};
+use pinhole::film::{Curve, FileAttributes, PICTURE_GUIDES, PngKind, png_bytes, stops_of};
 use pinhole::look::{Foretold, RenderStats};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
-use pinhole::scene::{Exposure, FileKind, Integrator, Sampling, read_file};
+use pinhole::scene::{
+    Exposure, FNV_BASIS, FileKind, Integrator, Layers, Sampling, check_memory, fingerprint, fnv, read_file,
+};
 use pinhole_lab::exercise::Mine;
 use pinhole_lab::review::{PictureDifference, compare_pictures, picture_contrast};
 use std::borrow::Cow;
@@ -118,18 +121,27 @@ pub fn render_with(
     if let (Some(note), false) = (&targets.note, json) {
         streams.note(note)?;
     }
-    let execution = Execution { threads: options.threads.map(usize::from), ..Execution::default() };
+    let (threads, part) = (options.threads.map(usize::from), options.crop);
+    let execution = Execution { threads, part, ..Execution::default() };
     let asked = options.asked(!options.quiet);
-    let scene = subject.world(&asked);
+    let mut scene = subject.world(&asked);
     let placed = |error| subject.placed(error, &asked);
+    let checked = |scene: &World| validate(&Census::of(scene)).map_err(|scene_error| placed(scene_error.into()));
+    checked(&scene)?;
+    check_requests(&Census::of(&scene), options, &targets, streams)?;
+    if options.denoise {
+        keep_guides(&mut scene);
+        checked(&scene)?;
+    }
     let census = &Census::of(&scene);
-    validate(census).map_err(|scene_error| placed(scene_error.into()))?;
-    check_requests(census, options, &targets, streams)?;
     let offer = match options.naive {
         Some(naive) => naive.put_in(subject.stages(), census)?,
         None => subject.stages(),
     };
     let mut render = RenderInProgress::begin(census, &offer, &execution).map_err(placed)?;
+    if options.denoise {
+        check_denoiser_fits(&render)?;
+    }
     let watched = (!json && !options.quiet).then(|| subject.shown());
     if let (Some(what), true) = (&watched, streams.waits) {
         Progress::announce(what, render.film.width, render.film.height);
@@ -141,7 +153,8 @@ pub fn render_with(
         before_rendering(subject, census, options, (&render, began), json, streams)?;
 
     let png = PngKind { is_deep: options.bits == Some(16), text: hints::provenance(subject, options, mine.is_some()) };
-    let files = Files::new(targets, census, &render, (png, mine));
+    let attributes = attributes(subject, options, &scene, (&render, mine.is_some()));
+    let files = Files::new(targets, (attributes, options.denoise), &render, (png, mine));
     let waiting = waiting(watched.as_deref(), options, &render, streams);
     let long = if render.is_sampled() {
         Some(render_long(&mut render, census, options, &files, &waiting, &mut |note| {
@@ -162,6 +175,7 @@ pub fn render_with(
     let is_dark_foretold =
         said.iter().any(|warning| warning.starts_with("the picture will") && warning.contains("black"));
     let mut warnings = warnings(subject, options, &rendered.film, &rendered.plan)?;
+    warnings.extend(mattes_left_out(&rendered));
     warnings.extend(too_dark(&rendered.film, rendered.curve()).filter(|_| !is_dark_foretold));
     let told = files.targets.told(checkpoint.as_deref());
     if let Curve::Exposed(exposure @ Exposure { automatic: true, .. }, _) = rendered.curve()
@@ -182,6 +196,7 @@ pub fn render_with(
         writeln!(out, "wrote {told}")?;
         return Ok(());
     }
+    let image = rendered.attributes.image.unwrap_or([rendered.film.width, rendered.film.height]);
     let stats = RenderStats::of(subject.name(), &rendered, execution.tile_side);
     let summary = Summary {
         stats: &stats,
@@ -191,7 +206,7 @@ pub fn render_with(
         target: adaptive_of(census)?.map(|adaptive| adaptive.error),
         files: told,
         plan: hints::plan(subject, options),
-        next: hints::next(subject, options, [rendered.film.width, rendered.film.height], lit_pixel),
+        next: hints::next(subject, options, image, lit_pixel),
     };
     if json {
         let written = files.targets.pictures.iter().chain(&checkpoint).map(|file| file.display().to_string());
@@ -208,6 +223,42 @@ pub fn render_with(
 fn chosen_integrator(scene: &Census<'_>) -> Option<String> {
     let ChosenIntegrator { integrator, reason, is_named, .. } = integrator_of(scene);
     (!is_named && integrator != Integrator::RayCasting).then(|| format!("{}: {reason}", integrator.in_words()))
+}
+
+/// Checks that there is memory for what the denoiser knows of a picture's pixels, two times, beside their film.
+fn check_denoiser_fits(render: &RenderInProgress) -> Result {
+    const A_PIXEL: u64 = 160;
+    let (width, height) = (render.film.width, render.film.height);
+    check_memory(u64::from(width) * u64::from(height) * A_PIXEL).map_err(|too_little| {
+        Error::usage(format!(
+            "cannot denoise a picture of {width} × {height} pixels: what the filter knows of them {too_little}"
+        ))
+    })
+}
+
+/// Has the scene's camera keep the layers that guide the denoiser, beside its own.
+pub fn keep_guides(scene: &mut World) {
+    let Ok(camera) = camera_entity(&Census::of(scene)) else { return };
+    let mut layers = scene.get::<Layers>(camera).cloned().unwrap_or_default();
+    layers.kinds.extend(PICTURE_GUIDES);
+    scene.entity_mut(camera).insert(layers);
+}
+
+/// What the picture's EXR says beside its pixels: nothing that differs between two renders of the same bits.
+pub fn attributes(
+    subject: &Subject<'_>,
+    options: &RenderOptions,
+    scene: &World,
+    (render, mine): (&RenderInProgress, bool),
+) -> FileAttributes {
+    let mut attributes = FileAttributes { layer_names: options.layer_names, ..render.attributes.clone() };
+    attributes.texts.extend(hints::same_picture(subject, options, mine).map(|command| ("command", command)));
+    attributes.texts.extend(options.frame.map(|frame| ("frame", frame.to_string())));
+    if render.is_sampled() {
+        attributes.texts.push(("seed", render.sampling.seed.to_string()));
+    }
+    attributes.texts.push(("scene", format!("{:016x}", fnv(FNV_BASIS, fingerprint(scene).as_bytes()))));
+    attributes
 }
 
 /// What shows how far the render is.
@@ -232,7 +283,12 @@ fn check_requests(scene: &Census<'_>, options: &RenderOptions, targets: &Targets
     if targets.standard_output && streams.terminal {
         return refused("`-o -` sends a PNG to standard output, which is a terminal here, and not a file or a program");
     }
-    let sampled = camera_entity(scene).is_ok_and(|camera| scene.get::<Sampling>(camera).is_some());
+    let sampling = camera_entity(scene).ok().and_then(|camera| scene.get::<Sampling>(camera));
+    let sampled = sampling.is_some();
+    if options.denoise && sampling.is_none_or(|sampling| sampling.samples < 2) {
+        let what = "noise is what the samples of a pixel differ by, so take two of each at least, as --samples 4 does";
+        return refused(&format!("cannot denoise a picture of one sample a pixel: {what}"));
+    }
     if options.resume && !sampled {
         let what = "one ray a pixel is over at once; --samples, --time or --error take more";
         return refused(&format!("there is nothing to continue: {what}"));
@@ -248,12 +304,12 @@ fn render_at_once(render: &mut RenderInProgress, waiting: &Waiting, files: &File
     let rendered = render.advance(render.steps(), waiting);
     waiting.done();
     rendered?;
-    let mut written = Ok(());
+    let (mut written, denoised) = (Ok(()), files.denoised(&render.film));
     for file in &files.targets.pictures {
         if interrupted() {
             return Err(pinhole::Error::Interrupted.into());
         }
-        written = written.and(files.write_one(&render.film, file));
+        written = written.and(files.write_one(&render.film, denoised.as_ref(), file));
     }
     Ok(written?)
 }

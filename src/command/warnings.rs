@@ -4,9 +4,10 @@ use super::error::Result;
 use super::options::RenderOptions;
 use super::subject::Subject;
 use pinhole::extract::{ImageFrame, PerspectiveProjection, SMALLEST_PIXEL, camera_entity, image_remarks};
-use pinhole::film::{Curve, Film, column_of_layer};
+use pinhole::film::{Curve, Film, RANKS, column_of_layer, left_out};
 use pinhole::look::looks_black;
 use pinhole::plan::{Census, Plan, Table};
+use pinhole::render::Rendered;
 use pinhole::scene::{Exposure, ModelNotes, PerspectiveCamera};
 
 /// What was dropped, replaced or added where a scene's models and images were read, a line each.
@@ -49,6 +50,18 @@ pub fn too_dark(film: &Film, curve: Curve) -> Option<String> {
         return Some("the picture is black: the radiance of every pixel is 0".into());
     }
     looks_black(f64::from(brightest), exposure).map(|how| format!("the picture looks black: {how}"))
+}
+
+/// In how many pixels more shapes are seen than the layer `cryptomatte` has room for.
+pub fn mattes_left_out(rendered: &Rendered) -> Option<String> {
+    let (pixels, largest) = left_out(&rendered.film, &rendered.attributes);
+    (pixels > 0).then(|| {
+        format!(
+            "{pixels} pixels show more than the {RANKS} shapes that the layer `cryptomatte` names; those that it leaves out \
+             cover up to {:.1} % of a pixel",
+            100.0 * largest
+        )
+    })
 }
 
 fn rejected(film: &Film) -> Option<String> {

@@ -1,6 +1,4 @@
-use crate::extract::shape_names;
-use crate::film::{write_exr, write_layered_exr, write_png};
-use crate::plan::Census;
+use crate::film::{write_exr_with, write_png};
 use crate::render::{Execution, render};
 use crate::scene::{Resolution, printable_message};
 use crate::{Chapter, Error, Overrides, Result, Size};
@@ -79,8 +77,7 @@ fn save(chapter: &Chapter, wanted: &Wanted) -> Result<String> {
     for file in &files {
         match file.extension().and_then(|ending| ending.to_str()) {
             Some("png") => write_png(film, rendered.curve(), file)?,
-            Some("exr") if film.layers.is_empty() => write_exr(film, file)?,
-            Some("exr") => write_layered_exr(film, &shape_names(&Census::of(&scene)), file)?,
+            Some("exr") => write_exr_with(film, None, &rendered.attributes, file)?,
             _ => return Err(Error::Usage(format!("{} must end in .png or .exr", file.display()))),
         }
     }

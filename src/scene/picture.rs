@@ -225,11 +225,13 @@ pub enum LayerKind {
     Samples,
     /// The variance of the pixel's mean radiance, estimated from its samples.
     Variance,
+    /// The shapes that the pixel's samples hit, and the fraction of the samples that hit each (Cryptomatte).
+    Cryptomatte,
 }
 
 impl LayerKind {
     /// All kinds, in the order in which a file holds them.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Coverage,
         Self::Position,
         Self::Normal,
@@ -243,6 +245,7 @@ impl LayerKind {
         Self::Entity,
         Self::Samples,
         Self::Variance,
+        Self::Cryptomatte,
     ];
 
     /// Its name on the command line and in a file.
@@ -261,10 +264,11 @@ impl LayerKind {
             Self::Entity => "entity",
             Self::Samples => "samples",
             Self::Variance => "variance",
+            Self::Cryptomatte => "cryptomatte",
         }
     }
 
-    /// The names of its channels: the layer's name, a dot, and a letter.
+    /// The names of its channels: the layer's name, a dot, and a letter; those of Cryptomatte are prescribed.
     ///
     /// The letters are those that OpenImageIO and compositors know: they keep X, Y, Z and R, G, B together and in
     /// order.
@@ -285,12 +289,26 @@ impl LayerKind {
             Self::Entity => &["entity.ID"],
             Self::Samples => &["samples.N"],
             Self::Variance => &["variance.R", "variance.G", "variance.B"],
+            Self::Cryptomatte => &[
+                "CryptoObject00.r",
+                "CryptoObject00.g",
+                "CryptoObject00.b",
+                "CryptoObject00.a",
+                "CryptoObject01.r",
+                "CryptoObject01.g",
+                "CryptoObject01.b",
+                "CryptoObject01.a",
+                "CryptoObject02.r",
+                "CryptoObject02.g",
+                "CryptoObject02.b",
+                "CryptoObject02.a",
+            ],
         }
     }
 
     /// Whether it is a mean over the samples whose camera ray hit a surface.
     pub fn is_mean(self) -> bool {
-        !matches!(self, Self::Coverage | Self::Entity | Self::Samples | Self::Variance)
+        !matches!(self, Self::Coverage | Self::Entity | Self::Samples | Self::Variance | Self::Cryptomatte)
     }
 }
 

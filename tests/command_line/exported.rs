@@ -2,19 +2,22 @@
 
 use super::model::glb;
 use super::{names, run, text};
+use exr::prelude::read_first_flat_layer_from_file;
 use image::{ExtendedColorType, ImageEncoder};
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-fn picture(folder: &Path, scene: &str) -> Vec<u8> {
+/// The bits of a scene's picture; the rest of the file says which scene it is.
+fn picture(folder: &Path, scene: &str) -> Vec<u32> {
     let words = ["render", scene, "--size", "32x18", "--samples", "4", "-q", "-o", "picture.exr"];
     let ended = run(folder, &words);
     assert!(ended.status.success(), "{scene}: {}", text(&ended.stderr));
-    let bytes = fs::read(folder.join("picture.exr")).expect("written");
+    let layer = read_first_flat_layer_from_file(folder.join("picture.exr")).expect("written").layer_data;
     fs::remove_file(folder.join("picture.exr")).expect("removed");
-    bytes
+    let channels = layer.channel_data.list.iter();
+    channels.flat_map(|channel| channel.sample_data.values_as_f32().map(f32::to_bits)).collect()
 }
 
 fn exported(folder: &Path, words: &[&str]) -> String {

@@ -51,7 +51,7 @@ const WRITERS: [(&str, usize); 25] = [
     ("src/command/extremes.rs", 1), // where the reader says
     ("src/command/farm.rs", 1),
     ("src/command/figure.rs", 1),
-    ("src/command/files.rs", 3),
+    ("src/command/files.rs", 2),
     ("src/command/long_render.rs", 4),
     ("src/command/mine.rs", 1),
     ("src/command/mutation.rs", 2),
@@ -226,7 +226,7 @@ fn every_place_that_writes_is_in_the_list() {
             "write_png(",
             "write_png_as(",
             "write_exr(",
-            "write_layered_exr(",
+            "write_exr_with(",
             "set_aside(",
             "remove_own(",
             "keep_checkpoint(",

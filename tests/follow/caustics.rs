@@ -267,7 +267,7 @@ fn light_from_area_lights_has_the_same_bits_however_it_is_traced() {
             for (threads, tile_side, worlds) in
                 [(1, 32, Worlds::PerWorker), (3, 8, Worlds::PerWorker), (2, 31, Worlds::One)]
             {
-                let execution = Execution { threads: Some(threads), tile_side, worlds };
+                let execution = Execution { threads: Some(threads), tile_side, worlds, part: None };
                 let census = &Census::of(&scene);
                 let mut in_progress = RenderInProgress::begin(census, &offer(), &execution).expect("begins");
                 for &step in cut.iter().chain([&steps_of(5)]) {

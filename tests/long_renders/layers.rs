@@ -3,9 +3,10 @@
 use super::*;
 use exr::prelude::{AnyChannels, AttributeValue, FlatSamples, Layer, Text, read_first_flat_layer_from_file};
 use glam::DVec3;
-use pinhole::extract::{CameraAxes, eye, shape_names};
-use pinhole::film::{ENTITY_NAMES, FilmLayers, write_layered_exr};
+use pinhole::extract::{CameraAxes, eye};
+use pinhole::film::{ENTITY_NAMES, FilmLayers, write_exr_with};
 use pinhole::plan::{Census, Table, VectorRows};
+use pinhole::render::Rendered;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -20,9 +21,8 @@ fn channels(layer: &Layer<AnyChannels<FlatSamples>>) -> BTreeMap<String, Vec<f64
 }
 
 fn written(scene: &World, path: &Path) -> (Film, Layer<AnyChannels<FlatSamples>>) {
-    let film = render(scene, &offer(), &Execution::default(), &()).expect("renders").film;
-    let names = shape_names(&Census::of(scene));
-    write_layered_exr(&film, &names, path).expect("written");
+    let Rendered { film, attributes, .. } = render(scene, &offer(), &Execution::default(), &()).expect("renders");
+    write_exr_with(&film, None, &attributes, path).expect("written");
     let layer = read_first_flat_layer_from_file(path).expect("an EXR").layer_data;
     (film, layer)
 }
@@ -72,6 +72,7 @@ fn layers_agree_with_each_other_and_with_the_scene() {
                 for name in ["position.X", "normal.Y", "normal_camera.Z", "albedo.R", "depth_along_ray.Z", "uv.U"] {
                     assert_eq!(at(name, pixel), 0.0, "{name} where nothing is hit");
                 }
+                assert_eq!(at("Z", pixel), 1e10, "as Blender writes it");
                 missed += 1;
                 continue;
             }
@@ -95,7 +96,7 @@ fn layers_agree_with_each_other_and_with_the_scene() {
             let from_eye = position - eye;
             let size = from_eye.length() + eye.length();
             let axis = -axes.z_axis.dot(from_eye);
-            assert!((axis - at("depth_along_axis.Z", pixel)).abs() < 1e-6 * size, "{axis}");
+            assert!((axis - at("Z", pixel)).abs() < 1e-6 * size, "{axis}");
             let ray = match camera {
                 scenes::Eye::Perspective => from_eye.length(),
                 scenes::Eye::Orthographic => axis,
@@ -168,8 +169,9 @@ fn a_file_names_its_channels_as_readers_of_layers_expect() {
     let (film, layer) = written(&plain(scenes::Eye::Perspective), &path);
     let mut names: Vec<String> = layer.channel_data.list.iter().map(|channel| channel.name.to_string()).collect();
     assert!(names.is_sorted(), "the format wants channels sorted");
-    let mut expected: Vec<String> = ["R", "G", "B"].map(String::from).to_vec();
-    expected.extend(LayerKind::ALL.iter().flat_map(|kind| kind.channels()).map(|name| name.to_string()));
+    let mut expected: Vec<String> = ["R", "G", "B", "A", "Z"].map(String::from).to_vec();
+    let others = LayerKind::ALL.into_iter().filter(|&kind| kind != LayerKind::DepthAlongAxis);
+    expected.extend(others.flat_map(|kind| kind.channels()).map(|name| name.to_string()));
     expected.sort();
     names.sort();
     assert_eq!(names, expected);

@@ -3,6 +3,7 @@
 use super::{parsed, typed};
 use crate::scenes::{self, Setup};
 use bevy_ecs::prelude::*;
+use exr::prelude::read_first_flat_layer_from_file;
 use glam::DVec3;
 use pinhole::Overrides;
 use pinhole::models::glb_of;
@@ -168,12 +169,14 @@ fn an_exported_file_is_ron_and_its_commands_work_as_typed() {
     assert!(told.ends_with("it is there already and may have been edited; move it away, or choose another name"));
 }
 
-/// What a scene's picture is, to the bit.
-fn rendered(scene: &str, folder: &Path) -> Vec<u8> {
+/// What a scene's picture is, to the bit; the rest of the file says which scene it is.
+fn rendered(scene: &str, folder: &Path) -> Vec<u32> {
     let picture = folder.join("picture.exr");
     let words = ["render", scene, "--size", "32x18", "--quiet", "-o", picture.to_str().expect("text")];
     typed(&words).unwrap_or_else(|error| panic!("{scene}: {error}"));
-    fs::read(&picture).expect("written")
+    let layer = read_first_flat_layer_from_file(&picture).expect("written").layer_data;
+    let channels = layer.channel_data.list.iter();
+    channels.flat_map(|channel| channel.sample_data.values_as_f32().map(f32::to_bits)).collect()
 }
 
 /// Meshes that a chapter makes are written once beside its scene file; from there the scene may be exported anywhere,

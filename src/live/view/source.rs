@@ -2,7 +2,7 @@ use super::develop::Picture;
 use bevy_ecs::prelude::World;
 use glam::DVec3;
 use pinhole::extract::{camera_entity, eye};
-use pinhole::film::{Film, History};
+use pinhole::film::{FileAttributes, Film, History};
 use pinhole::plan::{Census, Plan, Stage};
 use pinhole::rasterise::Projection;
 use pinhole::rays::Tile;
@@ -169,6 +169,11 @@ impl FrameSource {
         let gathered = self.gathered[1].as_ref().filter(|_| levels > 0);
         let denoised = gathered.map(|gathered| denoised(&gathered.history, levels));
         Some(Picture { film: &render.film, denoised, curve: render.curve })
+    }
+
+    /// What the picture's file says beside its pixels.
+    pub fn attributes(&self) -> FileAttributes {
+        self.render.as_ref().map(|render| render.attributes.clone()).unwrap_or_default()
     }
 
     /// The plan of the last frame.

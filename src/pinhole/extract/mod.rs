@@ -89,8 +89,7 @@ pub use sampling::{FilterTable, LayerTable, MAX_SAMPLES, SamplingTable, adaptive
 pub use shapes::{
     CuboidTable, DiskTable, EllipsoidTable, HierarchyOf, ListedKind, MeshTable, PlaneTable, RectangleTable, ShapeTable,
     ShapesOf, SphereTable, TriangleTable, VertexNormalTable, add_shape, hierarchy_evidence, kind_evidence, listed_kind,
-    listed_kinds, primitive_evidence, sampled_shapes, shape_entities, shape_evidence, shape_name, shape_names,
-    shapes_with_inside,
+    listed_kinds, primitive_evidence, sampled_shapes, shape_entities, shape_evidence, shape_name, shapes_with_inside,
 };
 pub use sky::{
     BackgroundTable, EnvironmentLightTable, EnvironmentTable, GradientTable, environment_light_evidence, sky_evidence,

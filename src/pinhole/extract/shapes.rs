@@ -332,11 +332,6 @@ pub fn shape_name(scene: &Census<'_>, shape: usize) -> String {
     entity.zip(listed).map_or_else(String::new, |(entity, listed)| kind_and_name(scene, listed.word, entity))
 }
 
-/// The names of all shapes in messages, in the order of their numbers.
-pub fn shape_names(scene: &Census<'_>) -> Vec<String> {
-    (0..shape_entities(scene).len()).map(|shape| shape_name(scene, shape)).collect()
-}
-
 /// Whether an entity, enabled or not, carries a shape.
 pub(super) fn is_shape(scene: &Census<'_>, entity: Entity) -> bool {
     listed_kinds(scene).any(|listed| (listed.carries)(scene, entity))

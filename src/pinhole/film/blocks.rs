@@ -164,6 +164,7 @@ impl FilmLayers {
                 self.entity[row] = entity;
             }
         }
+        block.mattes.iter().for_each(|(place, count)| *self.mattes.entry(*place).or_default() += count);
         add_counts(&block.taken, &mut self.taken);
         add_counts(&block.hits, &mut self.hits);
     }

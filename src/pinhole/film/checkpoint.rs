@@ -12,7 +12,7 @@ use super::plausible::is_plausible;
 use super::{
     EarlierBlocks, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, Rejected, Replaces, Target, write_whole,
 };
-use crate::scene::{FileKind, Unopened, check_memory, open_file, printable_path};
+use crate::scene::{FileKind, LayerKind, Unopened, check_memory, open_file, printable_path};
 use crate::{Error, Result};
 use std::fs::File;
 use std::io::{self, BufReader, Read, Write};
@@ -130,6 +130,9 @@ pub fn read_checkpoint(key: u64, film: &Film, adaptive: bool, path: &Path) -> Re
     let a_row = 28 + 28 + 24 + 24 + 8 * film.layers.first().map_or(0, |layers| layers.sums.len() as u64);
     let more = |tile: &FilmTile| a_row * tile.count.len() as u64 + 24 * Rejected::MAX as u64 + 4;
     let max = min + film.tiles.iter().map(more).sum::<u64>();
+    let has_mattes = film.layers.first().is_some_and(|layers| layers.kinds.contains(&LayerKind::Cryptomatte));
+    // How many shapes a pixel shows, the film does not say.
+    let max = if has_mattes { u64::MAX } else { max };
     if found != expected || !(min..=max).contains(&length) {
         return Err(failed(DAMAGED));
     }
@@ -289,6 +292,10 @@ pub(super) fn write_tile<S: Write>(
         if tile.earlier.is_some() {
             out.write_all_f64s(&layers.earlier)?;
         }
+        if layers.kinds.contains(&LayerKind::Cryptomatte) {
+            out.write_u32(layers.mattes.len() as u32)?;
+            layers.mattes.iter().try_for_each(|(&(row, shape), &count)| out.write_u32s(&[row, shape, count]))?;
+        }
     }
     Ok(())
 }
@@ -348,6 +355,14 @@ pub(super) fn read_tile<S: Read>(
         if tile.earlier.is_some() {
             layers.earlier = vec![zeros(); layers.sums.len()];
             numbers.read_all_f64s(&mut layers.earlier)?;
+        }
+        if layers.kinds.contains(&LayerKind::Cryptomatte) {
+            // Nothing is allocated for what is not there to be read.
+            for _ in 0..numbers.read_u32()? {
+                let mut matte = [0; 3];
+                numbers.read_u32s(&mut matte)?;
+                layers.mattes.insert((matte[0], matte[1]), matte[2]);
+            }
         }
     }
     Ok(())

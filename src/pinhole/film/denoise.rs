@@ -56,7 +56,8 @@ impl Guides {
                 for number in tiles {
                     let (tile, guides) = (film.tiles[number].tile, TileGuides::of(&film.layers[number]));
                     for line in 0..tile.height {
-                        let (first, start) = ((line * tile.width) as usize, line as usize * width + tile.x as usize);
+                        let (first, start) =
+                            ((line * tile.width) as usize, line as usize * width + film.corner(number)[0] as usize);
                         for at in 0..tile.width as usize {
                             let of_row = guides.of_row(first + at, origin);
                             set(&mut position, start + at, of_row[0]);
@@ -126,6 +127,19 @@ fn first_position(layers: &FilmLayers) -> Option<[f64; 3]> {
 /// Smooths a film's mean radiance; none if the film lacks one of the layers that guide the filter.
 pub fn denoise(film: &Film, levels: u32) -> Option<[Vec<f32>; 3]> {
     Some(denoise_radiance(means(Default::default(), film), &Guides::of(film)?, levels))
+}
+
+/// A film of the same size whose pixels have one sample each, of this radiance, row by row.
+pub fn film_of_radiance(radiance: &[Vec<f32>; 3], of: &Film) -> Film {
+    let mut film = Film::of_part(of.part(), of.tile_side);
+    for tile in &mut film.tiles {
+        for row in 0..tile.tile.rows() {
+            let [x, y] = tile.tile.pixel_of(row);
+            let at = (y - of.origin[1]) as usize * of.width as usize + (x - of.origin[0]) as usize;
+            tile.add(row, radiance.each_ref().map(|part| part[at]));
+        }
+    }
+    film
 }
 
 /// Columns with a number for each pixel of a film, in the memory of others.

@@ -222,6 +222,8 @@ pub struct Film {
     pub width: u32,
     /// Pixels from top to bottom.
     pub height: u32,
+    /// The pixel of the image that the first one of the film is: (0, 0), unless only a part of the image is rendered.
+    pub origin: [u32; 2],
     /// The side of a full tile, in pixels.
     pub tile_side: u32,
     /// The tiles, from left to right, then downward.
@@ -243,14 +245,26 @@ pub struct Film {
 impl Film {
     /// An empty film, divided into tiles.
     pub fn new(width: u32, height: u32, tile_side: u32) -> Self {
-        let mut tiles = Vec::new();
+        Self::of_part(Tile { x: 0, y: 0, width, height }, tile_side)
+    }
+
+    /// An empty film of a part of an image, divided into tiles, which know their places in the image.
+    pub fn of_part(part: Tile, tile_side: u32) -> Self {
+        let (Tile { width, height, .. }, mut tiles) = (part, Vec::new());
         for y in (0..height).step_by(tile_side as usize) {
             for x in (0..width).step_by(tile_side as usize) {
                 let (width, height) = (tile_side.min(width - x), tile_side.min(height - y));
-                tiles.push(FilmTile::new(Tile { x, y, width, height }));
+                tiles.push(FilmTile::new(Tile { x: part.x + x, y: part.y + y, width, height }));
             }
         }
-        Self { width, height, tile_side, done: vec![0; tiles.len()], tiles, ..Self::default() }
+        let origin = [part.x, part.y];
+        Self { width, height, origin, tile_side, done: vec![0; tiles.len()], tiles, ..Self::default() }
+    }
+
+    /// The part of the image that it is a film of.
+    pub fn part(&self) -> Tile {
+        let [x, y] = self.origin;
+        Tile { x, y, width: self.width, height: self.height }
     }
 
     /// Takes all samples away, and keeps the memory, for the next of many frames.
@@ -268,7 +282,7 @@ impl Film {
 
     /// A film of the same size and contents without samples.
     pub fn emptied(&self) -> Self {
-        let mut film = Self::new(self.width, self.height, self.tile_side);
+        let mut film = Self::of_part(self.part(), self.tile_side);
         let rows = |tile: &FilmTile| tile.tile.rows();
         if !self.moments.is_empty() {
             film.moments = film.tiles.iter().map(|tile| FilmMoments::new(rows(tile))).collect();
@@ -280,7 +294,7 @@ impl Film {
         film
     }
 
-    /// The mean radiance of a pixel, linear Rec. 709.
+    /// The mean radiance of a pixel of the film, linear Rec. 709.
     ///
     /// While the first samples are being taken, a pixel without a sample shows the nearest one up and to the left that
     /// has one.
@@ -308,9 +322,13 @@ impl Film {
         if !waiting {
             return self.with_splats(x, y, &self.tiles[tile], row).map(shown);
         }
-        let coarser = [2, 4, 8].map(|side| self.place(x / side * side, y / side * side));
+        let coarser = [2, 4, 8].map(|side| {
+            let [left, top] = self.origin;
+            let (x, y) = ((x + left) / side * side, (y + top) / side * side);
+            Some(self.place(x.checked_sub(left)?, y.checked_sub(top)?))
+        });
         let traced = |&(tile, row): &(usize, usize)| self.tiles[tile].count[row] > 0;
-        let (tile, row) = coarser.into_iter().find(traced).unwrap_or((tile, row));
+        let (tile, row) = coarser.into_iter().flatten().find(traced).unwrap_or((tile, row));
         self.with_splats(x, y, &self.tiles[tile], row).map(shown)
     }
 
@@ -319,7 +337,8 @@ impl Film {
     #[inline(always)]
     pub(super) fn for_each_mean(&self, tile: usize, mut each: impl FnMut(usize, [f32; 3])) {
         let own = &self.tiles[tile];
-        let Tile { x, y, width, height } = own.tile;
+        let Tile { width, height, .. } = own.tile;
+        let [x, y] = self.corner(tile);
         let waits = || self.done.get(tile).is_some_and(|&done| done < FIRST_SAMPLE_STEPS) && own.count.contains(&0);
         // A mean is then no more than a sum over a count of samples.
         let is_plain = self.splats.is_none() && own.negative_count.is_empty() && own.earlier.is_none() && !waits();
@@ -367,12 +386,19 @@ impl Film {
         pixels.filter(is_too_bright).count()
     }
 
-    /// The index of the tile that contains a pixel, and the pixel's row in it.
+    /// The index of the tile that contains a pixel of the film, and the pixel's row in it.
     pub fn place(&self, x: u32, y: u32) -> (usize, usize) {
         let across = self.width.div_ceil(self.tile_side);
         let number = (y / self.tile_side * across + x / self.tile_side) as usize;
-        let tile = &self.tiles[number].tile;
-        (number, ((y - tile.y) * tile.width + (x - tile.x)) as usize)
+        let (tile, [left, top]) = (&self.tiles[number].tile, self.corner(number));
+        (number, ((y - top) * tile.width + (x - left)) as usize)
+    }
+
+    /// The pixel of the film that a tile begins with.
+    #[inline(always)]
+    pub(super) fn corner(&self, tile: usize) -> [u32; 2] {
+        let Tile { x, y, .. } = self.tiles[tile].tile;
+        [x - self.origin[0], y - self.origin[1]]
     }
 
     /// The estimated variance of a pixel's mean: red, green, blue; 0 with fewer than two samples.

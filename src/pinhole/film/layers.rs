@@ -10,6 +10,7 @@ use crate::shade::SurfaceColours;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::{DVec2, DVec3};
+use std::collections::BTreeMap;
 
 /// The layers of one tile's film, with a row per pixel; exists only if layers are requested.
 ///
@@ -31,6 +32,8 @@ pub struct FilmLayers {
     pub sums: Vec<Vec<f64>>,
     /// The same over all earlier blocks; empty before the second.
     pub earlier: Vec<Vec<f64>>,
+    /// How many samples of a row hit a shape, by row and number of the shape; empty without the layer `cryptomatte`.
+    pub mattes: BTreeMap<(u32, u32), u32>,
 }
 
 impl FilmLayers {
@@ -44,6 +47,7 @@ impl FilmLayers {
             entity: vec![NO_SHAPE; rows],
             sums: vec![vec![0.0; rows]; components],
             earlier: Vec::new(),
+            mattes: BTreeMap::new(),
         }
     }
 
@@ -59,6 +63,7 @@ impl FilmLayers {
         self.entity.fill(NO_SHAPE);
         self.sums.iter_mut().for_each(|sums| sums.fill(0.0));
         self.earlier.clear();
+        self.mattes.clear();
     }
 
     /// The kinds as bits, for checkpoints.
@@ -99,9 +104,14 @@ impl FilmLayers {
     /// Its memory in bytes.
     pub fn bytes(&self) -> usize {
         let sums = (self.sums.len() + self.earlier.len()) * size_of::<f64>();
-        self.taken.len() * (3 * size_of::<u32>() + sums) + size_of::<Self>()
+        let mattes = self.mattes.len() * MATTE_BYTES;
+        self.taken.len() * (3 * size_of::<u32>() + sums) + mattes + size_of::<Self>()
     }
 }
+
+/// The memory of one of the counts of [`FilmLayers::mattes`] in a tree whose nodes are two thirds full, as they are on
+/// average, in bytes.
+pub const MATTE_BYTES: usize = 3 * size_of::<u32>() * 3 / 2;
 
 column_component!(FilmLayers);
 
@@ -183,7 +193,14 @@ impl LayerInputs<'_> {
                 DVec3::new(depth, 0.0, 0.0)
             }),
             (LayerKind::Position, None)
-            | (LayerKind::Coverage | LayerKind::Entity | LayerKind::Samples | LayerKind::Variance, _) => {}
+            | (
+                LayerKind::Coverage
+                | LayerKind::Entity
+                | LayerKind::Samples
+                | LayerKind::Variance
+                | LayerKind::Cryptomatte,
+                _,
+            ) => {}
         }
     }
 
@@ -253,6 +270,11 @@ pub fn add_to_layers(
             layers.hits[pixel] += u32::from(shape != NO_SHAPE);
             if layers.taken[pixel] == 1 {
                 layers.entity[pixel] = shape;
+            }
+        }
+        if layers.kinds.contains(&LayerKind::Cryptomatte) {
+            for (row, &shape) in hits.shape.iter().enumerate().filter(|&(_, &shape)| shape != NO_SHAPE) {
+                *layers.mattes.entry((pixel_of(row) as u32, shape)).or_default() += 1;
             }
         }
         let materials = materials.as_deref().map(|materials| &**materials);

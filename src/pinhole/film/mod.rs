@@ -18,9 +18,13 @@
 mod accumulate;
 mod blocks;
 mod checkpoint;
+mod cryptomatte;
 mod denoise;
+mod denoise_picture;
 mod develop;
+mod exr_channels;
 mod exr_files;
+mod file_attributes;
 mod film_tile;
 mod layers;
 mod parts;
@@ -46,18 +50,26 @@ pub use checkpoint::{
     write_checkpoint, write_done,
 };
 #[doc(hidden)]
-pub use denoise::{GUIDES, Guides, denoise, denoise_radiance};
+pub use cryptomatte::{RANKS, float_hash, hex_of, left_out};
+#[doc(hidden)]
+pub use denoise::{GUIDES, Guides, denoise, denoise_radiance, film_of_radiance};
+#[doc(hidden)]
+pub use denoise_picture::{PICTURE_GUIDES, denoise_picture};
 pub use develop::Curve;
 #[doc(hidden)]
 pub use develop::{byte_from_linear, srgb_from_linear};
+#[doc(hidden)]
+pub use exr_channels::{LayerNames, NO_DEPTH};
 pub use exr_files::write_exr;
 #[doc(hidden)]
-pub use exr_files::{ENTITY_NAMES, exr_bytes, write_layered_exr};
+pub use exr_files::{ENTITY_NAMES, exr_bytes, write_exr_with};
+#[doc(hidden)]
+pub use file_attributes::{CameraMatrices, FileAttributes, ShapeName};
 pub use film_tile::Film;
 #[doc(hidden)]
 pub use film_tile::{FIRST_SAMPLE_STEPS, FilmTile, Rejected};
 #[doc(hidden)]
-pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
+pub use layers::{FilmLayers, MATTE_BYTES, add_to_layers, column_of_layer, layers_stage};
 #[doc(hidden)]
 pub use parts::{LightUnit, Merged, Part, PartFilm, Split, Unit, UnitFilm, merge_parts};
 pub use png_files::write_png;

@@ -2,6 +2,8 @@
 
 use super::{BLOCK, FIRST_SAMPLE_STEPS, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, UnitFilm};
 use crate::extract::MAX_SAMPLES;
+use crate::intersect::NO_SHAPE;
+use crate::scene::LayerKind;
 
 /// The largest number of light paths per sample of a pixel.
 const MAX_PATHS: u64 = 1024;
@@ -65,9 +67,22 @@ fn is_plausible_part(
     let valid = |own: &FilmMoments| own.sum.iter().chain(&own.earlier).all(|component| is_valid(component));
     let layers = layers.is_none_or(|own| {
         let hits = own.hits.iter().zip(&own.taken).all(|(hits, taken)| hits <= taken);
-        hits && own.taken.iter().all(|&taken| taken <= max)
+        are_plausible_mattes(own) && hits && own.taken.iter().all(|&taken| taken <= max)
     });
     counts && negative && rejected && sums && before && moments.is_none_or(valid) && layers
+}
+
+/// Every sample that hit a surface hit one shape.
+fn are_plausible_mattes(layers: &FilmLayers) -> bool {
+    let mut counts = vec![0_u64; layers.hits.len()];
+    for (&(row, shape), &count) in &layers.mattes {
+        match counts.get_mut(row as usize) {
+            Some(own) if shape != NO_SHAPE && count > 0 => *own += u64::from(count),
+            _ => return false,
+        }
+    }
+    let counted = || counts.iter().zip(&layers.hits).all(|(&count, &hits)| count == u64::from(hits));
+    !layers.kinds.contains(&LayerKind::Cryptomatte) || counted()
 }
 
 fn are_plausible(splats: &FilmSplats, film: &Film, max: u32) -> bool {

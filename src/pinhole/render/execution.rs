@@ -3,8 +3,9 @@
 use super::clock::Lap;
 use super::{Limits, RenderInProgress, render_in_passes};
 use crate::extract::{adaptive_of, delta_light_rays, shape_entities};
-use crate::film::{Curve, Film, write_exr, write_png};
+use crate::film::{Curve, FileAttributes, Film, write_exr_with, write_png};
 use crate::plan::{Census, ColumnKind, Plan, Stage};
+use crate::rays::Tile;
 use crate::shade::{LightPdfs, ShadowHits, ShadowRays};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
@@ -34,11 +35,13 @@ pub struct Execution {
     pub tile_side: u32,
     /// How many worlds hold the tiles.
     pub worlds: Worlds,
+    /// The part of the image to render; none for all of it. Its pixels are the same as in the whole image.
+    pub part: Option<Tile>,
 }
 
 impl Default for Execution {
     fn default() -> Self {
-        Self { threads: None, tile_side: 32, worlds: Worlds::default() }
+        Self { threads: None, tile_side: 32, worlds: Worlds::default(), part: None }
     }
 }
 
@@ -134,6 +137,9 @@ pub struct Rendered {
     pub plan: Plan,
     /// The accumulated radiance.
     pub film: Film,
+    /// What the picture's file says beside its pixels.
+    #[doc(hidden)]
+    pub attributes: FileAttributes,
     /// One lap per kept stage, summed over workers; empty where no statistics were requested.
     pub laps: Vec<Lap>,
     /// The number of workers.
@@ -165,7 +171,10 @@ impl Rendered {
     /// ```
     pub fn save(&self, path: &Path) -> Result {
         let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-        if is_png { write_png(&self.film, self.curve(), path) } else { write_exr(&self.film, path) }
+        match is_png {
+            true => write_png(&self.film, self.curve(), path),
+            false => write_exr_with(&self.film, None, &self.attributes, path),
+        }
     }
 
     /// The curve that turns the film into a picture: sRGB for radiance, after the camera's exposure and tone mapping if

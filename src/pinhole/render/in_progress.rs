@@ -5,11 +5,11 @@ use super::memory::check_film_fits;
 use super::render_world::{RenderWorld, prepare};
 use super::steps::{Run, WHOLE, runs, steps_of};
 use super::{Execution, Rendered, Watch, Worlds};
-use crate::extract::{ImageFrame, LayerTable, SamplingTable};
-use crate::film::{BLOCK, Curve, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
+use crate::extract::{ImageFrame, LayerTable, SamplingTable, adaptive_of};
+use crate::film::{BLOCK, Curve, FileAttributes, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
 use crate::follow::{Splats, Stop};
 use crate::plan::{Census, ExtractedTable, Plan, Shared, Stage};
-use crate::rays::PixelSamples;
+use crate::rays::{PixelSamples, Tile};
 use crate::scene::check_workers;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
@@ -31,6 +31,8 @@ pub struct RenderInProgress {
     pub sampling: SamplingTable,
     /// The curve that turns the film into a picture.
     pub curve: Curve,
+    /// What the picture's file says beside its pixels.
+    pub attributes: FileAttributes,
     pub(super) tables: Vec<ExtractedTable>,
     pub(super) execution: Execution,
     pub(super) pool: Option<ThreadPool>,
@@ -59,7 +61,8 @@ impl RenderInProgress {
         let image = *scene.table::<ImageFrame>()?;
         check_film_fits(scene, &plan)?;
         let execution = Execution { tile_side: tile_side(scene, &plan, execution.tile_side), ..execution.clone() };
-        let film = film_for(scene, &plan, Film::new(image.width, image.height, execution.tile_side));
+        let part = part_of(image, &plan, adaptive_of(scene)?.is_some(), execution.part)?;
+        let film = film_for(scene, &plan, Film::of_part(part, execution.tile_side));
         let sampling = *scene.table::<SamplingTable>()?;
         let pool = match execution.worlds {
             Worlds::One => None,
@@ -78,6 +81,7 @@ impl RenderInProgress {
         Ok(Self {
             light,
             curve: Curve::of(scene, &plan)?,
+            attributes: FileAttributes::of(scene)?,
             plan,
             film,
             sampling,
@@ -111,6 +115,7 @@ impl RenderInProgress {
             self.film = film_for(scene, &plan, Film::new(image.width, image.height, self.execution.tile_side));
         }
         (self.sampling, self.curve) = (*scene.table::<SamplingTable>()?, Curve::of(scene, &plan)?);
+        self.attributes = FileAttributes::of(scene)?;
         for world in &mut self.worlds {
             let Some(world) = world.get_mut().unwrap_or_else(PoisonError::into_inner) else { continue };
             tables.iter().for_each(|table| (table.insert)(&mut world.world));
@@ -231,8 +236,33 @@ impl RenderInProgress {
         let threads = self.threads();
         let laps = self.laps();
         let table_bytes = self.tables.iter().map(|table| table.bytes).sum();
-        Rendered { plan: self.plan, film: self.film, laps, threads, time: self.time, table_bytes, curve: self.curve }
+        let (plan, film, curve, attributes) = (self.plan, self.film, self.curve, self.attributes);
+        Rendered { plan, film, curve, attributes, laps, threads, time: self.time, table_bytes }
     }
+}
+
+/// The part of an image that is rendered.
+///
+/// Errors: one that is empty or goes beyond the image, or whose pixels would depend on the rest of the image.
+fn part_of(image: ImageFrame, plan: &Plan, is_adaptive: bool, part: Option<Tile>) -> Result<Tile> {
+    let ImageFrame { width, height } = image;
+    let Some(part) = part else { return Ok(Tile { x: 0, y: 0, width, height }) };
+    let Tile { x, y, width: across, height: down } = part;
+    let refused = |what: String| Err(Error::Usage(format!("cannot render a part of {across} × {down} pixels: {what}")));
+    let fits =
+        |start: u32, length: u32, all: u32| length > 0 && start.checked_add(length).is_some_and(|end| end <= all);
+    if !fits(x, across, width) || !fits(y, down, height) {
+        return refused(format!("from pixel {x},{y} on, it must lie within the image, which has {width} × {height}"));
+    }
+    if plan.keeps::<Splats>() {
+        return refused("paths from the lights may land on any pixel, so render the whole image".into());
+    }
+    if is_adaptive {
+        return refused(
+            "the samples that an error asks for depend on the whole image, so say how many with --samples".into(),
+        );
+    }
+    Ok(part)
 }
 
 /// A film with the columns that the plan requires beside sums and counts.

@@ -1,5 +1,5 @@
 use crate::extract::{FilterTable, ImageFrame, LayerTable, SamplingTable, adaptive_of};
-use crate::film::{BLOCK, FilmLayers, FilmMoments};
+use crate::film::{BLOCK, FilmLayers, FilmMoments, MATTE_BYTES};
 use crate::follow::Splats;
 use crate::plan::{Census, Plan};
 use crate::scene::{Filter, LayerKind, SceneError, TooLittleMemory, called, check_memory};
@@ -13,7 +13,7 @@ pub fn peak_memory() -> Option<u64> {
     Some(kibibytes * 1024)
 }
 
-/// Bytes that a render of a scene takes per pixel of its film, including the layers of a file written at its end.
+/// Bytes that a render of a scene takes per pixel of its film.
 pub fn film_bytes_per_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, SceneError> {
     const THREE: u64 = 3 * size_of::<f64>() as u64;
     const COUNT: u64 = size_of::<u32>() as u64;
@@ -29,19 +29,21 @@ pub fn film_bytes_per_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, Scen
     if plan.keeps::<Splats>() {
         film += THREE;
     }
-    let mut written = 0;
     if plan.keeps::<FilmLayers>() {
-        let channels = |kinds: &[LayerKind]| kinds.iter().map(|kind| kind.channels().len() as u64).sum::<u64>();
         let kinds = LayerTable::kinds_of(scene);
-        let means: Vec<LayerKind> = kinds.iter().copied().filter(|kind| kind.is_mean()).collect();
-        film += 3 * COUNT + sums * channels(&means) * size_of::<f64>() as u64;
-        written = (3 + channels(&kinds)) * size_of::<f32>() as u64;
+        let means = kinds.iter().filter(|kind| kind.is_mean());
+        let a_sum = sums * size_of::<f64>() as u64;
+        film += 3 * COUNT + means.map(|kind| kind.channels().len() as u64 * a_sum).sum::<u64>();
+        if kinds.contains(&LayerKind::Cryptomatte) {
+            // Two shapes a pixel: few pixels show more.
+            film += 2 * MATTE_BYTES as u64;
+        }
     }
     if adaptive_of(scene)?.is_some() {
         // The pilot's film exists beside the next one, and each pixel has a planned number of samples.
         film = 2 * film + COUNT;
     }
-    Ok(film + written)
+    Ok(film)
 }
 
 /// Checks that there is memory for a render's film before any of it is allocated.

@@ -32,7 +32,7 @@ impl Viewer {
         };
         let (media, ending, bytes) = match kind {
             Kind::Png => ("image/png", "png", png_of(&self.developed(&picture))),
-            Kind::Exr => ("image/x-exr", "exr", exr_bytes(picture.film)),
+            Kind::Exr => ("image/x-exr", "exr", exr_bytes(picture.film, &self.source.attributes())),
         };
         let stem: String =
             self.choice.scene.stem().chars().filter(|c| c.is_ascii_alphanumeric() || "-_".contains(*c)).collect();
