@@ -5,7 +5,7 @@ use super::read::{FileEntity, read_entity};
 use super::refer::resolve;
 use super::scan::{entities, fields};
 use super::{FileProblem, PlaceInFile};
-use crate::{ChildOf, Disabled, LookAt, Name, SceneError, SceneFolder, UsesMaterial, load_meshes};
+use crate::{ChildOf, Disabled, LookAt, Name, SceneError, SceneFolder, SceneTime, UsesMaterial, load_meshes};
 use bevy_ecs::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -89,7 +89,12 @@ impl SceneFile {
 
     /// The scene as a world, with its entities spawned in the order of the file.
     pub fn world(&self) -> World {
-        self.world_of(|entity, _| entity.name.clone())
+        self.world_of(None, |entity, _| entity.name.clone())
+    }
+
+    /// The scene as a world, with its model files at a time of their animations, in seconds.
+    pub fn world_at(&self, seconds: f64) -> World {
+        self.world_of(Some(SceneTime { seconds }), |entity, _| entity.name.clone())
     }
 
     /// The position of what causes a scene error: the value of the field that it names, or else the start of the
@@ -98,7 +103,7 @@ impl SceneFile {
     /// `check` is called with a scene whose entities are named by their index, so that entities of equal name, or of
     /// none, can be distinguished.
     pub fn place_of(&self, check: impl FnOnce(&mut World) -> Option<SceneError>) -> Option<PlaceInFile> {
-        let scene_error = check(&mut self.world_of(|_, number| Some(format!("{MARK}{number}{MARK}"))))?;
+        let scene_error = check(&mut self.world_of(None, |_, number| Some(format!("{MARK}{number}{MARK}"))))?;
         let marked = |text: &str| text.rsplit(MARK).nth(1).and_then(|number| number.parse::<usize>().ok());
         let number = marked(&scene_error.entity).or_else(|| marked(&scene_error.value))?;
         let entity = self.entities.get(number)?;
@@ -130,7 +135,7 @@ impl SceneFile {
         })
     }
 
-    fn world_of(&self, name: impl Fn(&FileEntity, usize) -> Option<String>) -> World {
+    fn world_of(&self, time: Option<SceneTime>, name: impl Fn(&FileEntity, usize) -> Option<String>) -> World {
         let mut world = World::new();
         let spawned: Vec<Entity> = self.entities.iter().map(|_| world.spawn_empty().id()).collect();
         for (number, entity) in self.entities.iter().enumerate() {
@@ -153,6 +158,9 @@ impl SceneFile {
         }
         // Inserted last, since it spawns an entity of its own and would shift the indices of the others.
         world.insert_resource(SceneFolder::of(&self.path));
+        if let Some(time) = time {
+            world.insert_resource(time);
+        }
         load_meshes(&mut world);
         world
     }

@@ -2,14 +2,14 @@ use super::components_of::{spawn_camera, spawn_light};
 use super::lighting::{LitBy, bounds_of, exposure, lit_by, vertices};
 use super::load::load_meshes;
 use super::mesh::{Mesh, ModelNotes};
-use super::open_model::open_model;
+use super::open_model::{SceneTime, open_model, open_model_now};
 use crate::{
     Degrees, DirectionalLight, Emissive, FileProblem, FovAxis, Gradient, Integrator, LookAt, Name, PerspectiveCamera,
     Resolution, Rgb, Sampling, SceneFolder, printable_path,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole_models::{Model, ModelLight, Projection};
+use pinhole_models::{Model, ModelAnimation, ModelLight, Projection};
 use std::path::{Path, PathBuf};
 
 /// The endings of the model files that can be read.
@@ -44,6 +44,10 @@ pub struct ModelScene {
     pub exposure: f64,
     /// Whether materials that the file calls single-sided are not there from behind.
     pub single_sided: bool,
+    /// The animation that a film shows, as [`Mesh`] has it.
+    pub animation: String,
+    /// The animations of the file.
+    pub animations: Vec<ModelAnimation>,
 }
 
 impl ModelScene {
@@ -87,7 +91,8 @@ impl ModelScene {
             }
             LitBy::Nothing => said.push("it has no light: a sky and a sun are added".into()),
         }
-        Ok(Self { path: path.into(), said, exposure, single_sided: false })
+        let animations = model.model.animations.clone();
+        Ok(Self { path: path.into(), said, exposure, single_sided: false, animation: String::new(), animations })
     }
 
     /// The same with another factor of all its light.
@@ -97,12 +102,31 @@ impl ModelScene {
         Self { exposure, ..self }
     }
 
-    /// The scene as a world.
+    /// The scene as a world, with the model at rest.
     pub fn world(&self) -> World {
+        self.world_of(None)
+    }
+
+    /// The scene as a world at a time of its animation, in seconds.
+    ///
+    /// The cameras and lights of the file move with their nodes.
+    /// What pinhole adds follows from the model at rest, so that it is the same in every picture of a film: the fitted
+    /// camera, the factor of all light, and the sky and the sun.
+    pub fn world_at(&self, seconds: f64) -> World {
+        self.world_of(Some(SceneTime { seconds }))
+    }
+
+    fn world_of(&self, time: Option<SceneTime>) -> World {
         let mut scene = World::new();
+        if let Some(time) = time {
+            scene.insert_resource(time);
+        }
         let named = self.path.to_string_lossy().into_owned();
+        let mesh = Mesh { file: named.clone(), single_sided: self.single_sided, animation: self.animation.clone() };
         let open = open_model(&scene, &named);
-        let camera = open.as_ref().ok().and_then(|open| Some(spawn_camera(&mut scene, open.model.cameras.first()?)));
+        // What cannot be read at the time is refused where the mesh is loaded.
+        let now = if time.is_some() { open_model_now(&mut scene, &mesh) } else { open.clone() };
+        let camera = now.as_ref().ok().and_then(|now| Some(spawn_camera(&mut scene, now.model.cameras.first()?)));
         let camera = camera.unwrap_or_else(|| {
             let looks = open.as_ref().map_or_else(|_| LookAt::default(), |open| fitted(&open.model));
             let fitted = PerspectiveCamera { fov: FOV, axis: FovAxis::Smaller };
@@ -114,7 +138,7 @@ impl ModelScene {
         scene.entity_mut(camera).insert((resolution, sampling, Integrator::PATH));
         if let Ok(open) = &open {
             let exposure = self.exposure;
-            for light in &open.model.lights {
+            for light in &now.as_ref().unwrap_or(open).model.lights {
                 spawn_light(&mut scene, &ModelLight { intensity: light.intensity * exposure, ..light.clone() });
             }
             if matches!(lit_by(&open.model), LitBy::Nothing | LitBy::NextToNothing) {
@@ -126,7 +150,7 @@ impl ModelScene {
             }
         }
         let name = self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        scene.spawn((Mesh { file: named, single_sided: self.single_sided }, Name::new(name)));
+        scene.spawn((mesh, Name::new(name)));
         scene.insert_resource(ModelNotes(self.said.clone()));
         load_meshes(&mut scene);
         // The surfaces of the model shine as much brighter or darker as its lights.
