@@ -382,6 +382,7 @@ fn unit(parts: &[f64]) -> Option<DVec4> {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods, reason = "what a test expects may come from the platform's functions")]
 mod tests {
     use crate::written::{data, floats, read, read_at};
     use crate::{Model, Moment};

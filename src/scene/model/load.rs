@@ -25,7 +25,7 @@ pub fn load_meshes(scene: &mut World) {
     for (entity, mesh) in named.into_iter().filter(|(entity, _)| !loaded.contains(entity)) {
         match open_model_now(scene, &mesh) {
             // What is animated may be scaled to nothing for a while.
-            Ok(model) if model.model.instances.is_empty() && !(is_film && !model.model.animations.is_empty()) => {
+            Ok(model) if model.model.instances.is_empty() && (!is_film || model.model.animations.is_empty()) => {
                 scene.entity_mut(entity).insert(UnreadMesh(model.nothing()));
             }
             Ok(model) => {

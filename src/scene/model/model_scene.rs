@@ -207,3 +207,101 @@ fn fitted(model: &Model) -> LookAt {
     let away = vertices(model).map(away).fold(1e-3 * size, f64::max);
     LookAt { eye: target + towards * away, target, ..LookAt::default() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{MeshInstance, MeshPart, Placement, SceneFile, UnreadMesh};
+    use std::fs;
+
+    /// A triangle and a camera that a node carries from the origin to (4, 0, 0) in 2 s, and a second animation in which it
+    /// shrinks to nothing; beside it a triangle that stays.
+    fn written(folder: &Path) -> PathBuf {
+        let numbers: Vec<f32> =
+            vec![0., 0., 0., 1., 0., 0., 0., 1., 0., 0., 2., 0., 0., 0., 4., 0., 0., 1., 1., 1., 0., 0., 0.];
+        let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+        fs::write(folder.join("a.bin"), bytes).expect("written");
+        let text = "{'asset':{'version':'2.0'},'buffers':[{'byteLength':92,'uri':'a.bin'}],
+            'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':8},
+                {'buffer':0,'byteOffset':44,'byteLength':24},{'buffer':0,'byteOffset':68,'byteLength':24}],
+            'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},
+                {'bufferView':1,'componentType':5126,'count':2,'type':'SCALAR','min':[0],'max':[2]},
+                {'bufferView':2,'componentType':5126,'count':2,'type':'VEC3'},
+                {'bufferView':3,'componentType':5126,'count':2,'type':'VEC3'}],
+            'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],
+            'cameras':[{'type':'perspective','perspective':{'yfov':1,'znear':0.1}}],
+            'extensions':{'KHR_lights_punctual':{'lights':[{'type':'point','intensity':10}]}},
+            'nodes':[{'mesh':0,'children':[1,2]},{'camera':0,'translation':[0,0,5]},
+                {'translation':[0,3,0],'extensions':{'KHR_lights_punctual':{'light':0}}}],
+            'animations':[{'name':'go','samplers':[{'input':1,'output':2}],
+                'channels':[{'sampler':0,'target':{'node':0,'path':'translation'}}]},
+                {'name':'shrink','samplers':[{'input':1,'output':3}],
+                'channels':[{'sampler':0,'target':{'node':0,'path':'scale'}}]}]}";
+        fs::write(folder.join("a.gltf"), text.replace('\'', "\"")).expect("written");
+        fs::write(folder.join("still.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
+        folder.join("a.gltf")
+    }
+
+    /// The positions of the parts of meshes.
+    fn parts(world: &mut World) -> Vec<DVec3> {
+        let mut query = world.query_filtered::<&Placement, (With<MeshInstance>, With<MeshPart>)>();
+        query.iter(world).map(|placement| placement.position).collect()
+    }
+
+    #[test]
+    fn a_model_at_a_time_moves_what_hangs_on_its_nodes_and_nothing_else() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let scene = ModelScene::open(&written(folder.path())).expect("read");
+        assert_eq!(scene.animations.len(), 2);
+        let seen = |mut world: World| {
+            let parts = parts(&mut world);
+            let camera =
+                world.query_filtered::<&Placement, With<PerspectiveCamera>>().single(&world).expect("one").position;
+            let light = world.query::<(&Placement, &crate::PointLight)>().single(&world).expect("one");
+            (parts, camera, light.0.position, light.1.intensity)
+        };
+        let rest = seen(scene.world());
+        assert_eq!((&rest.0[..], rest.1, rest.2), (&[DVec3::ZERO][..], DVec3::Z * 5.0, DVec3::Y * 3.0));
+        for (seconds, x) in [(0.0, 0.0), (0.5, 1.0), (1.5, 3.0), (7.0, 4.0)] {
+            let apart = DVec3::X * x;
+            // The factor of the light follows from the model at rest, or it would change from picture to picture.
+            let expected = (vec![apart], rest.1 + apart, rest.2 + apart, rest.3);
+            assert_eq!(seen(scene.world_at(seconds)), expected, "{seconds}");
+        }
+        let shrink = ModelScene { animation: "shrink".into(), ..scene.clone() };
+        assert_eq!(seen(shrink.world_at(1.0)).0, [DVec3::ZERO]);
+        let mut gone = shrink.world_at(2.0);
+        assert_eq!(parts(&mut gone), []);
+        assert_eq!(gone.query::<&UnreadMesh>().iter(&gone).count(), 0);
+        let mut unknown = ModelScene { animation: "fly".into(), ..scene }.world_at(1.0);
+        let why = unknown.query::<&UnreadMesh>().single(&unknown).expect("refused").0.clone();
+        let accepted =
+            "the animation is \"fly\", but it must be a name (\"go\", \"shrink\"), a number from 0 to 1, or all";
+        assert!(why.ends_with(accepted), "{why}");
+    }
+
+    #[test]
+    fn a_scene_file_has_the_animation_that_it_names_and_shares_what_stays() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        written(folder.path());
+        let text = "[(name: \"a\", mesh: (file: \"a.gltf\", animation: \"all\")), (matte: (), mesh: (file: \"still.obj\")), \
+                    (perspective_camera: (), resolution: (width: 4, height: 4))]";
+        let file = SceneFile::parse(&folder.path().join("s.ron"), text.into()).expect("a scene");
+        let still = |world: &mut World| {
+            let mut query = world.query_filtered::<&MeshInstance, With<Mesh>>();
+            query.single(world).expect("the one that stays").geometry.clone()
+        };
+        let [mut first, mut second, mut rest] = [file.world_at(0.5), file.world_at(1.0), file.world()];
+        assert!(still(&mut first).is(&still(&mut second)), "what has no animations is read once");
+        let moved = |world: &mut World| {
+            let mut query = world.query_filtered::<&Placement, (With<MeshPart>, Without<Mesh>)>();
+            let placement = query.iter(world).find(|own| own.scale != DVec3::ZERO).expect("a part");
+            (placement.position.x, placement.scale.x)
+        };
+        assert_eq!([&mut first, &mut second, &mut rest].map(moved), [(1.0, 0.75), (2.0, 0.5), (0.0, 1.0)]);
+        let wrong = text.replace("still.obj\"", "still.obj\", animation: \"go\"");
+        let mut world = SceneFile::parse(&folder.path().join("s.ron"), wrong).expect("a scene").world_at(1.0);
+        let why = world.query::<&UnreadMesh>().single(&world).expect("refused").0.clone();
+        assert!(why.ends_with("still.obj has no animations"), "{why}");
+    }
+}
