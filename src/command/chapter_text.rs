@@ -125,7 +125,7 @@ impl ChapterText {
     ///
     /// Errors: as for [`set`](Self::set).
     pub fn at(&self, frame: f64, rate: f64) -> Result<Option<Chapter>> {
-        if !self.file.has_keys() {
+        if !self.file.may_change() {
             return Ok(None);
         }
         let file = self.file.at(frame, rate).map_err(Error::usage)?;

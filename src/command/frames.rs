@@ -8,7 +8,7 @@ use super::options::RenderOptions;
 use super::render::render_subject;
 use super::streams::Streams;
 use super::subject::Subject;
-use pinhole::scene::printable_path;
+use pinhole::scene::{ModelScene, printable_path};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -34,10 +34,11 @@ impl<'c> Subject<'c> {
     ///
     /// Errors: nothing in it changes with time, or a key sets what cannot be set.
     pub fn at(&self, frame: u32, rate: f64) -> Result<Subject<'c>> {
-        let still = || Error::usage(format!("nothing in {} has keys, so it has no frames", self.shown()));
+        let still =
+            || Error::usage(format!("nothing in {} has keys or an animation, so it has no frames", self.shown()));
         match self {
             Self::File { file, typed } => {
-                if !file.has_keys() {
+                if !file.may_change() {
                     return Err(still());
                 }
                 let file = file.at(f64::from(frame), rate).map_err(Error::usage)?;
@@ -48,7 +49,11 @@ impl<'c> Subject<'c> {
                 let at = text.at(f64::from(frame), rate)?.ok_or_else(still)?;
                 Ok(Self::Chapter(Cow::Owned(at)))
             }
-            Self::Model { .. } => Err(still()),
+            Self::Model { model, .. } if model.animations.is_empty() => Err(still()),
+            Self::Model { model, typed } => {
+                let model = ModelScene { seconds: Some(f64::from(frame) / rate), ..model.clone() };
+                Ok(Self::Model { model, typed: typed.clone() })
+            }
         }
     }
 }

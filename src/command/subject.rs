@@ -174,9 +174,11 @@ fn set_on_model(model: ModelScene, typed: &str, setting: &str) -> Result<ModelSc
             Ok(single_sided) => return Ok(ModelScene { single_sided, ..model }),
             Err(_) => format!("single_sided is {}, but it must be true or false", shown(written)),
         },
+        Some(("animation", written)) => return Ok(ModelScene { animation: written.into(), ..model }),
         _ => format!(
-            "{typed} is a model file, which has no values to set but its exposure, as in exposure=1, and whether backs of \
-             its single-sided materials are left out, as in single_sided=true: `export` makes a scene file of it"
+            "{typed} is a model file, which has no values to set but its exposure, as in exposure=1, whether backs of \
+             its single-sided materials are left out, as in single_sided=true, and which animation a film shows, as in \
+             animation=walk: `export` makes a scene file of it"
         ),
     };
     Err(Error::CommandLine(what))

@@ -1,7 +1,7 @@
 //! Model files → plain data: glTF 2.0, OBJ with MTL, and PLY.
 //!
 //! Reads: the bytes of a file, and of those beside it that it names.
-//! Writes: a [`Model`] of triangle meshes, materials, images, instances, cameras and lights, with [`Remarks`] on what
+//! Writes: a [`Model`] of triangle meshes, materials, images, instances, cameras and lights, at rest or at a moment, with [`Remarks`] on what
 //! was dropped or not read.
 //! Space: meshes in their object space, instances in the world; y up, +z towards the viewer, corners anticlockwise as
 //! seen from outside; v down.
@@ -34,10 +34,10 @@ mod triangle_mesh;
 mod written;
 
 pub use gltf::glb_of;
-pub use model::{Instance, LightKind, Model, ModelCamera, ModelLight, Projection};
+pub use model::{Instance, LightKind, Model, ModelAnimation, ModelCamera, ModelLight, Moment, Projection};
 pub use model_error::ModelError;
 pub use model_material::{AlphaMode, ImageSource, ModelImage, ModelMaterial, ModelTexture, TextureWrap};
 pub use printable::is_invisible;
-pub use read::read_model;
+pub use read::{read_model, read_model_at};
 pub use remarks::Remarks;
 pub use triangle_mesh::TriangleMesh;

@@ -19,8 +19,29 @@ pub struct Model {
     pub cameras: Vec<ModelCamera>,
     /// Its lights without an area.
     pub lights: Vec<ModelLight>,
+    /// Its animations.
+    pub animations: Vec<ModelAnimation>,
     /// What was dropped, replaced or not read.
     pub remarks: Remarks,
+}
+
+/// An animation of a model file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ModelAnimation {
+    /// Its name; may be empty.
+    pub name: String,
+    /// The time of its last key, in seconds, as the file says it.
+    pub seconds: f64,
+}
+
+/// A moment at which a model is read: a time of some of its animations.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Moment<'a> {
+    /// The time, in seconds; before the first key of a channel it is as at the first, after the last as at the last.
+    pub seconds: f64,
+    /// The name of an animation, its index in the file, or `all`, of which the first counts where several change one
+    /// property of a node; the first animation if this is missing.
+    pub animation: Option<&'a str>,
 }
 
 /// A mesh in the world, with its material.

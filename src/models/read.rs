@@ -1,5 +1,5 @@
 use crate::gltf;
-use crate::model::Model;
+use crate::model::{Model, Moment};
 use crate::model_error::ModelError;
 use crate::model_error::shown_bytes;
 use crate::number::without_mark;
@@ -22,6 +22,18 @@ use crate::ply;
 /// # Ok::<(), pinhole_models::ModelError>(())
 /// ```
 pub fn read_model(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, ModelError> {
+    read_model_at(name, bytes, None, open)
+}
+
+/// Reads a model file at rest, or at a moment of its animations, which glTF files alone may have.
+///
+/// Errors: those of [`read_model`], and animations that are not as the format demands.
+pub fn read_model_at(
+    name: &str,
+    bytes: &[u8],
+    moment: Option<Moment<'_>>,
+    open: Open<'_>,
+) -> Result<Model, ModelError> {
     let file_name = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let ending = file_name.rsplit_once('.').map_or(String::new(), |(_, ending)| ending.to_ascii_lowercase());
     let refused = |accepted: &str| {
@@ -34,7 +46,7 @@ pub fn read_model(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Mod
         "ply" => ply::read_ply(name, text),
         "glb" if !bytes.starts_with(b"glTF") => refused("a .glb file begins with \"glTF\""),
         "gltf" if bytes.starts_with(b"glTF") => refused("a .gltf file is JSON; name it .glb if it is binary"),
-        "glb" | "gltf" => gltf::read_gltf(name, bytes, open),
+        "glb" | "gltf" => gltf::read_gltf(name, bytes, moment, open),
         "obj" if bytes.starts_with(b"glTF") || bytes.contains(&0) => refused("an .obj file is text"),
         "obj" => obj::read_obj(name, text, open),
         _ => {

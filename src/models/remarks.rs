@@ -46,6 +46,8 @@ pub struct Remarks {
     pub extra_values: u64,
     /// Numbers of materials, lights and cameras out of their range, replaced by the nearest in it.
     pub clamped: u64,
+    /// What there is to say about animations, as a sentence.
+    pub animations: Option<String>,
     /// What was not read, by name, and how often it occurred.
     pub unread: Vec<(String, u64)>,
     /// Kinds of what was not read, beyond those that are named.
@@ -192,6 +194,7 @@ impl Remarks {
                 self.greatest_colour
             ));
         }
+        sentences.extend(self.animations.clone());
         if !self.unread.is_empty() {
             let named = self.unread.iter().map(|(name, count)| format!("{name} ({count})")).collect::<Vec<_>>();
             let more = if self.more_unread > 0 { format!(", and {} others", self.more_unread) } else { String::new() };
@@ -254,10 +257,10 @@ mod tests {
     fn what_is_not_read_is_named_up_to_a_point() {
         let mut remarks = Remarks::default();
         remarks.add_unread("nothing", 0);
-        remarks.add_unread("animations", 2);
+        remarks.add_unread("cameras", 2);
         remarks.add_unread("skins\n", 1);
-        remarks.add_unread("animations", 1);
-        assert_eq!(remarks.sentences(), ["Not read: animations (3), skins\\n (1)."]);
+        remarks.add_unread("cameras", 1);
+        assert_eq!(remarks.sentences(), ["Not read: cameras (3), skins\\n (1)."]);
         for number in 0..20 {
             remarks.add_unread(&format!("kind {number}"), 1);
         }

@@ -1,7 +1,7 @@
 //! Small glTF files, written for tests.
 
-use crate::model::Model;
-use crate::read::read_model;
+use crate::model::{Model, Moment};
+use crate::read::read_model_at;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
@@ -17,9 +17,14 @@ pub fn floats(numbers: &[f32]) -> Vec<u8> {
 
 /// Reads a file with these fields besides `asset`; beside it is a file `a b.bin` of 36 zeros.
 pub fn read(fields: &str) -> Result<Model, String> {
+    read_at(fields, None)
+}
+
+/// The same at a moment of its animations.
+pub fn read_at(fields: &str, moment: Option<Moment<'_>>) -> Result<Model, String> {
     let text = format!("{{\"asset\":{{\"version\":\"2.0\"}},{fields}}}").replace('\'', "\"");
     let open = |name: &str| if name == "a b.bin" { Ok(vec![0; 36]) } else { Err("there is none".to_owned()) };
-    read_model("a.gltf", text.as_bytes(), &open).map_err(|error| error.to_string())
+    read_model_at("a.gltf", text.as_bytes(), moment, &open).map_err(|error| error.to_string())
 }
 
 /// The sentence with which such a file is refused.

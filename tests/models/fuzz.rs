@@ -1,7 +1,7 @@
 //! Model files made at random, by changing those of this folder, and what becomes of them.
 
 use peak_alloc::PeakAlloc;
-use pinhole::models::{AlphaMode, Model, read_model};
+use pinhole::models::{AlphaMode, Model, Moment, read_model_at};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -14,6 +14,9 @@ static ALLOCATOR: PeakAlloc = PeakAlloc;
 /// What a reader may take: this many times the file and those beside it that it opened, and so much in any case.
 const MAX_TIMES: usize = 100;
 const MAX_IN_ANY_CASE: usize = 1 << 20;
+
+/// When files are read: where a file has no animations, that is how it is at rest.
+const MOMENT: Moment<'_> = Moment { seconds: 0.4, animation: Some("all") };
 
 /// The endings of the files that are changed.
 pub const FORMATS: [&str; 4] = ["gltf", "glb", "obj", "ply"];
@@ -214,7 +217,7 @@ pub fn outcome(case: &Case) -> Outcome {
         opened.set(opened.get() + bytes.len());
         Ok(bytes.clone())
     };
-    let read = catch_unwind(AssertUnwindSafe(|| read_model(&case.name, &case.bytes, &open)));
+    let read = catch_unwind(AssertUnwindSafe(|| read_model_at(&case.name, &case.bytes, Some(MOMENT), &open)));
     let memory = ALLOCATOR.peak_usage() - before;
     let time = started.elapsed();
     let size = case.bytes.len() + opened.get();

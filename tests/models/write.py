@@ -9,7 +9,9 @@ Each line of measured.txt: file, instances, triangles in the world, bounds in th
 area, signed volume (from the origin, as the corners turn), materials used, cameras, lights.
 """
 
+import base64
 import io
+import json
 import math
 import os
 import struct
@@ -25,6 +27,7 @@ from PIL import Image
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 LINES = {}
+URI = "data:application/octet-stream;base64,"
 
 
 def path(name):
@@ -398,8 +401,65 @@ def by_plyfile():
     measured("plyfile_capsule_big.ply", 1, ball.triangles)
 
 
+def by_hand():
+    """Two animations of every interpolation, of nodes, a skin, morph targets and a camera; some as whole numbers."""
+    data, views, accessors = bytearray(), [], []
+
+    def add(rows, kind, code="f", **more):
+        size = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[kind]
+        held = struct.pack(f"<{len(rows)}{code}", *rows)
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(held)})
+        data.extend(held + bytes(-len(held) % 4))
+        component = {"f": 5126, "h": 5122, "B": 5121, "H": 5123}[code]
+        own = {"bufferView": len(views) - 1, "componentType": component, "count": len(rows) // size, "type": kind}
+        accessors.append(own | more)
+        return len(accessors) - 1
+
+    positions = add([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0], "VEC3", min=[0, 0, 0], max=[1, 1, 0])
+    corners = add([0, 1, 2, 0, 2, 3], "SCALAR", "H")
+    targets = [add([0, 0, 1] * 4, "VEC3"), add([0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0], "VEC3")]
+    joints = add([0, 1, 0, 0] * 4, "VEC4", "B")
+    weights = add([1, 0, 0, 0, 0.5, 0.5, 0, 0, 0, 1, 0, 0, 0.25, 0.75, 0, 0], "VEC4")
+    times = add([0, 0.5, 2], "SCALAR", min=[0], max=[2])
+    turns = add([0, 0, 0, 32767, 0, 0, 23170, 23170, 0, 32767, 0, 0], "VEC4", "h", normalized=True)
+    steps = add([1, 1, 1, 2, 1, 0.5, 1, 3, 1], "VEC3")
+    curve = add([0.1 * (number % 7) - 0.2 for number in range(27)], "VEC3")
+    shapes = add([0, 255, 255, 0, 51, 102], "SCALAR", "B", normalized=True)
+
+    def animation(name, *tracks):
+        samplers = [{"input": times, "output": output, "interpolation": by} for _, _, output, by in tracks]
+        target = [{"node": node, "path": path} for node, path, _, _ in tracks]
+        channels = [{"sampler": number, "target": own} for number, own in enumerate(target)]
+        return {"name": name, "samplers": samplers, "channels": channels}
+
+    primitive = {"attributes": {"POSITION": positions}, "indices": corners, "targets": [{"POSITION": t} for t in targets]}
+    skinned = {"attributes": {"POSITION": positions, "JOINTS_0": joints, "WEIGHTS_0": weights}, "indices": corners}
+    file = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": len(data), "uri": URI + base64.b64encode(data).decode()}],
+        "bufferViews": views,
+        "accessors": accessors,
+        "meshes": [{"primitives": [primitive], "weights": [0, 0]}, {"primitives": [skinned]}],
+        "skins": [{"joints": [2, 3]}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+        "nodes": [
+            {"name": "shape", "mesh": 0, "children": [4]},
+            {"name": "skinned", "mesh": 1, "skin": 0},
+            {"name": "hip", "children": [3]},
+            {"name": "knee", "translation": [1, 0, 0]},
+            {"name": "camera", "camera": 0, "translation": [0, 0, 6]},
+        ],
+        "animations": [
+            animation("walk", (2, "rotation", turns, "LINEAR"), (3, "translation", curve, "CUBICSPLINE")),
+            animation("grow", (0, "weights", shapes, "LINEAR"), (0, "scale", steps, "STEP"), (4, "rotation", turns, "LINEAR")),
+        ],
+    }
+    with open(path("by_hand_animated.gltf"), "w") as out:
+        json.dump(file, out, separators=(",", ":"))
+
+
 def main():
-    for each in [by_trimesh, by_open3d, by_meshio, by_blender, by_pygltflib, by_plyfile]:
+    for each in [by_trimesh, by_open3d, by_meshio, by_blender, by_pygltflib, by_plyfile, by_hand]:
         each()
     with open(path("measured.txt"), "w") as file:
         file.write("\n".join(LINES[name] for name in sorted(LINES)) + "\n")

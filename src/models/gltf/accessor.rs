@@ -4,12 +4,17 @@ use super::document::{Document, Table};
 use super::object::Object;
 use crate::memory::Memory;
 use crate::model_error::ModelError;
+use std::fmt;
 
 /// What an accessor is read as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meant {
     /// Indices of vertices.
     Indices,
+    /// The times of keys.
+    Times,
+    /// Numbers, such as weights.
+    Scalars,
     /// Pairs of coordinates.
     Pairs,
     /// Vectors.
@@ -23,7 +28,7 @@ pub enum Meant {
 impl Meant {
     fn type_name(self) -> &'static str {
         match self {
-            Self::Indices => "SCALAR",
+            Self::Indices | Self::Times | Self::Scalars => "SCALAR",
             Self::Pairs => "VEC2",
             Self::Vectors => "VEC3",
             Self::Fours => "VEC4",
@@ -33,7 +38,7 @@ impl Meant {
 
     fn parts(self) -> usize {
         match self {
-            Self::Indices => 1,
+            Self::Indices | Self::Times | Self::Scalars => 1,
             Self::Pairs => 2,
             Self::Vectors => 3,
             Self::Fours => 4,
@@ -44,8 +49,8 @@ impl Meant {
     fn accepts(self, component: Component) -> bool {
         match self {
             Self::Indices => matches!(component, Component::U8 | Component::U16 | Component::U32),
-            Self::Pairs | Self::Vectors | Self::Fours => component != Component::U32,
-            Self::Matrices => component == Component::F32,
+            Self::Scalars | Self::Pairs | Self::Vectors | Self::Fours => component != Component::U32,
+            Self::Times | Self::Matrices => component == Component::F32,
         }
     }
 }
@@ -109,7 +114,12 @@ impl<'a> Accessor<'a> {
         if self.count == vertices {
             return Ok(());
         }
-        Err(self.object.refused("count", self.count, format_args!("the mesh has {vertices} positions")))
+        Err(self.refused_count(format_args!("the mesh has {vertices} positions")))
+    }
+
+    /// The error of its number of rows.
+    pub fn refused_count(&self, accepted: impl fmt::Display) -> ModelError {
+        self.object.refused("count", self.count, accepted)
     }
 
     /// The rows of these indices in ascending order, or all; each of N numbers.
@@ -180,7 +190,7 @@ impl<'a> Accessor<'a> {
 fn component(object: &Object<'_>, accepts: impl Fn(Component) -> bool) -> Result<Component, ModelError> {
     let code = object.needed("componentType", object.whole("componentType")?)?;
     let accepted = "positions, normals and texture coordinates may be 5120, 5121, 5122, 5123 or 5126, \
-                    indices 5121, 5123 or 5125, and matrices 5126";
+                    indices 5121, 5123 or 5125, and matrices and times 5126";
     Component::of(code)
         .filter(|component| accepts(*component))
         .ok_or_else(|| object.refused("componentType", code, accepted))
@@ -313,7 +323,7 @@ mod tests {
         let kind = refused(&with(&POSITIONS.replace("VEC3", "VEC4"), VIEW));
         assert_eq!(kind, "accessors[0].type is \"VEC4\", but it is used as VEC3");
         let accepted = "positions, normals and texture coordinates may be 5120, 5121, 5122, 5123 or 5126, indices \
-                        5121, 5123 or 5125, and matrices 5126";
+                        5121, 5123 or 5125, and matrices and times 5126";
         for code in ["5124", "5125"] {
             let component = refused(&with(&POSITIONS.replace("5126", code), VIEW));
             assert_eq!(component, format!("accessors[0].componentType is {code}, but {accepted}"));

@@ -45,6 +45,8 @@ const COMPRESSIONS: [&str; 3] = ["KHR_draco_mesh_compression", "EXT_meshopt_comp
 pub enum Table {
     /// `accessors`
     Accessors,
+    /// `animations`
+    Animations,
     /// `bufferViews`
     Views,
     /// `buffers`
@@ -71,8 +73,9 @@ pub enum Table {
     Textures,
 }
 
-const NAMES: [&str; 13] = [
+const NAMES: [&str; 14] = [
     "accessors",
+    "animations",
     "bufferViews",
     "buffers",
     "cameras",
@@ -91,7 +94,7 @@ const NAMES: [&str; 13] = [
 pub struct Document<'a> {
     /// The whole file.
     pub root: Object<'a>,
-    tables: [&'a [Json<'a>]; 13],
+    tables: [&'a [Json<'a>]; 14],
     lights: Option<Object<'a>>,
 }
 
@@ -120,7 +123,7 @@ impl<'a> Document<'a> {
             }
         }
         let lights = root.extension(LIGHTS)?;
-        let mut tables: [&[Json<'_>]; 13] = [&[]; 13];
+        let mut tables: [&[Json<'_>]; 14] = [&[]; 14];
         for (table, name) in tables.iter_mut().zip(NAMES) {
             *table = if name == NAMES[Table::Lights as usize] {
                 lights.as_ref().map_or(Ok(&[][..]), |lights| lights.list(name))?
@@ -194,7 +197,13 @@ mod tests {
             assert_eq!(said(&fields), [format!("Not read: the extension {name}, which the file requires (1).")]);
         }
         let used = "'extensionsUsed':['KHR_materials_ior','KHR_animation_pointer'],'animations':[{}]";
-        assert_eq!(said(used), ["Not read: the extension KHR_animation_pointer (1), animations (1)."]);
+        assert_eq!(
+            said(used),
+            [
+                "1 animation of 0 s: shown at rest; --frames shows it.",
+                "Not read: the extension KHR_animation_pointer (1).",
+            ]
+        );
         assert_eq!(refused("'nodes':{}"), "nodes is an object, but it must be a list");
     }
 

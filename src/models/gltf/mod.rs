@@ -1,6 +1,7 @@
 //! glTF 2.0, as JSON or in binary → a model.
 
 mod accessor;
+mod animation;
 mod binary;
 mod buffers;
 mod cameras;

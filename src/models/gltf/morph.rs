@@ -10,7 +10,7 @@ use crate::remarks::Remarks;
 /// A morph target: accessors of what it adds to positions and normals, and its weight, as bits.
 pub type Morph = (u64, Option<usize>, Option<usize>);
 
-/// The weights of a mesh's morph targets in their rest pose: those of its node, or else its own.
+/// The weights of a mesh's morph targets where they are not animated: those of its node, or else its own.
 ///
 /// Errors: they are no list of numbers.
 pub fn rest_weights(node: Option<&Object<'_>>, mesh: &Object<'_>) -> Result<Vec<f64>, ModelError> {

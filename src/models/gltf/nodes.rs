@@ -1,3 +1,4 @@
+use super::animation::{Animated, AnimatedNode};
 use super::document::{Document, Table};
 use super::json::Json;
 use super::object::Object;
@@ -14,6 +15,7 @@ const UNIT: f64 = 1e-3;
 /// The nodes of a file's scene, each before its children.
 pub struct SceneNodes<'a> {
     document: &'a Document<'a>,
+    animated: &'a Animated,
     roots: std::vec::IntoIter<u32>,
     /// The nodes about the next one: the children still to come of each, and its matrix to the world.
     ///
@@ -22,13 +24,13 @@ pub struct SceneNodes<'a> {
 }
 
 impl<'a> SceneNodes<'a> {
-    /// Those of a file.
+    /// Those of a file, some of which may be animated.
     ///
     /// Errors: a node that is child of two nodes, or of itself in the end.
-    pub fn of(document: &'a Document<'a>, remarks: &mut Remarks) -> Result<Self, ModelError> {
+    pub fn of(document: &'a Document<'a>, animated: &'a Animated, remarks: &mut Remarks) -> Result<Self, ModelError> {
         let parents = parents(document, document.rows(Table::Nodes))?;
         let roots = roots(document, &parents, remarks)?.into_iter();
-        Ok(Self { document, roots, about: Vec::new() })
+        Ok(Self { document, animated, roots, about: Vec::new() })
     }
 
     /// The index of the next node, the node, and its matrix to the world.
@@ -47,7 +49,7 @@ impl<'a> SceneNodes<'a> {
             }
         };
         let node = self.document.row(Table::Nodes, index)?;
-        let world = parent * local_matrix(&node, remarks)?;
+        let world = parent * local_matrix(&node, self.animated.get(&index), remarks)?;
         if !world.is_finite() {
             return Err(ModelError::new(
                 node.file,
@@ -116,8 +118,12 @@ fn roots(document: &Document<'_>, parents: &[u32], remarks: &mut Remarks) -> Res
     Ok(roots)
 }
 
-/// The matrix that takes a node's space to its parent's.
-fn local_matrix(node: &Object<'_>, remarks: &mut Remarks) -> Result<DAffine3, ModelError> {
+/// The matrix that takes a node's space to its parent's, with what is animated of it.
+fn local_matrix(
+    node: &Object<'_>,
+    animated: Option<&AnimatedNode>,
+    remarks: &mut Remarks,
+) -> Result<DAffine3, ModelError> {
     if let Some(columns) = node.numbers::<16>("matrix")? {
         let matrix = DMat4::from_cols_array(&columns);
         // Exporters that multiply matrices in f32 round this row, too.
@@ -128,9 +134,12 @@ fn local_matrix(node: &Object<'_>, remarks: &mut Remarks) -> Result<DAffine3, Mo
         }
         return Ok(DAffine3::from_mat3_translation(DMat3::from_mat4(matrix), matrix.w_axis.truncate()));
     }
-    let translation = node.numbers("translation")?.map_or(DVec3::ZERO, DVec3::from);
-    let scale = node.numbers("scale")?.map_or(DVec3::ONE, DVec3::from);
-    let rotation = match node.numbers("rotation")? {
+    let of = |own: Option<[f64; 3]>, field| own.map_or_else(|| node.numbers(field), |own| Ok(Some(own)));
+    let translation = of(animated.and_then(|own| own.translation), "translation")?.map_or(DVec3::ZERO, DVec3::from);
+    let scale = of(animated.and_then(|own| own.scale), "scale")?.map_or(DVec3::ONE, DVec3::from);
+    let rotation =
+        animated.and_then(|own| own.rotation).map_or_else(|| node.numbers("rotation"), |own| Ok(Some(own)))?;
+    let rotation = match rotation {
         None => DMat3::IDENTITY,
         Some(parts) => {
             let quaternion = DVec4::from(parts);

@@ -1,3 +1,4 @@
+use super::animation::{Animated, animated_at, animations_of, said_of};
 use super::binary::binary_parts;
 use super::buffers::Buffers;
 use super::cameras::{camera, light};
@@ -13,7 +14,7 @@ use super::primitive::{Pose, PrimitiveParts};
 use super::skin::{Worlds, joints_of, worlds_of};
 use super::unread::remark_unread;
 use crate::memory::Memory;
-use crate::model::{Instance, Model};
+use crate::model::{Instance, Model, Moment};
 use crate::model_error::ModelError;
 use crate::open::Open;
 use crate::remarks::Remarks;
@@ -22,10 +23,10 @@ use glam::DAffine3;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Reads a glTF file and the buffers it names.
+/// Reads a glTF file and the buffers it names, at rest or at a moment of its animations.
 ///
 /// Errors: whatever is not as glTF 2.0 demands and matters for the picture.
-pub fn read_gltf(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, ModelError> {
+pub fn read_gltf(name: &str, bytes: &[u8], moment: Option<Moment<'_>>, open: Open<'_>) -> Result<Model, ModelError> {
     let (text, own) = if bytes.starts_with(b"glTF") { binary_parts(name, bytes)? } else { (bytes, None) };
     // Some exporters end the text with zeros.
     let text = text.trim_ascii_end();
@@ -40,12 +41,19 @@ pub fn read_gltf(name: &str, bytes: &[u8], open: Open<'_>) -> Result<Model, Mode
     let buffers = Buffers::read(&document, own, &mut memory, open)?;
     let mut images = Images::of(&document, &buffers);
     let materials = read_materials(&document, &mut images, &mut memory, &mut remarks)?;
+    let animations = animations_of(&document);
+    remarks.animations = said_of(&animations, moment);
+    let animated = match moment {
+        None => Animated::new(),
+        Some(moment) => animated_at(&document, &buffers, moment, &mut memory, &mut remarks)?,
+    };
     let mut scene = Scene {
         document: &document,
         buffers: &buffers,
         materials: &materials,
+        animated: &animated,
         memory,
-        model: Model { images: images.images, remarks, ..Model::default() },
+        model: Model { images: images.images, animations, remarks, ..Model::default() },
         by_parts: HashMap::new(),
         by_use: HashMap::new(),
         worlds: Worlds::new(),
@@ -73,6 +81,7 @@ struct Scene<'a> {
     document: &'a Document<'a>,
     buffers: &'a Buffers<'a>,
     materials: &'a [ReadMaterial],
+    animated: &'a Animated,
     memory: Memory,
     model: Model,
     /// The mesh of each primitive read so far, if it has triangles.
@@ -97,10 +106,10 @@ impl<'a> Scene<'a> {
             let bytes = size_of::<(usize, DAffine3)>() as u64;
             let nodes = document.rows(Table::Nodes) as u64;
             self.memory.take(nodes, bytes, || [document.root.file.into(), "the list of nodes".into()])?;
-            self.worlds = worlds_of(document)?;
+            self.worlds = worlds_of(document, self.animated)?;
         }
-        let mut nodes = SceneNodes::of(document, &mut self.model.remarks)?;
-        while let Some((_, node, world)) = nodes.next(&mut self.model.remarks)? {
+        let mut nodes = SceneNodes::of(document, self.animated, &mut self.model.remarks)?;
+        while let Some((index, node, world)) = nodes.next(&mut self.model.remarks)? {
             if let Some(mesh) = node.index("mesh", document.rows(Table::Meshes))? {
                 let name = match node.text("name")? {
                     None | Some("") => document.row(Table::Meshes, mesh)?.text("name")?.unwrap_or_default(),
@@ -112,7 +121,7 @@ impl<'a> Scene<'a> {
                 let remarks = &mut self.model.remarks;
                 remarks.add_unread("instances that a scale of 0 makes planar", flat.len() as u64);
                 if !solid.is_empty() {
-                    self.place_mesh(name.into(), Some(&node), mesh, &solid)?;
+                    self.place_mesh(name.into(), Some((index, &node)), mesh, &solid)?;
                 }
             }
             self.model.cameras.extend(camera(document, &node, world)?);
@@ -124,12 +133,14 @@ impl<'a> Scene<'a> {
     fn place_mesh(
         &mut self,
         name: Arc<str>,
-        node: Option<&Object<'a>>,
+        node: Option<(usize, &Object<'a>)>,
         index: usize,
         worlds: &[DAffine3],
     ) -> Result<(), ModelError> {
         let mesh = self.document.row(Table::Meshes, index)?;
-        let weights = rest_weights(node, &mesh)?;
+        let animated = node.and_then(|(node, _)| self.animated.get(&node)?.weights.clone());
+        let node = node.map(|(_, node)| node);
+        let weights = animated.map_or_else(|| rest_weights(node, &mesh), Ok)?;
         let skin = node.map_or(Ok(None), |node| node.index("skin", self.document.rows(Table::Skins)))?;
         let used = (index, skin, weights.iter().map(|weight| weight.to_bits()).collect());
         let parts = match self.by_use.get(&used) {

@@ -1,4 +1,5 @@
 use super::accessor::{Accessor, Meant};
+use super::animation::Animated;
 use super::buffers::Buffers;
 use super::document::{Document, Table};
 use super::nodes::SceneNodes;
@@ -13,13 +14,13 @@ use std::collections::HashMap;
 /// The matrices to the world of the nodes of a scene, by their indices.
 pub type Worlds = HashMap<usize, DAffine3>;
 
-/// The matrices of all nodes.
+/// The matrices of all nodes, some of which may be animated.
 ///
 /// Errors: those of [`SceneNodes`].
-pub fn worlds_of(document: &Document<'_>) -> Result<Worlds, ModelError> {
+pub fn worlds_of(document: &Document<'_>, animated: &Animated) -> Result<Worlds, ModelError> {
     // What is said of nodes is said where they are placed.
     let mut unsaid = Remarks::default();
-    let (mut nodes, mut worlds) = (SceneNodes::of(document, &mut unsaid)?, Worlds::new());
+    let (mut nodes, mut worlds) = (SceneNodes::of(document, animated, &mut unsaid)?, Worlds::new());
     while let Some((index, _, world)) = nodes.next(&mut unsaid)? {
         worlds.insert(index, world);
     }

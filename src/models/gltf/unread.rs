@@ -6,7 +6,7 @@ use crate::model_error::ModelError;
 use crate::remarks::Remarks;
 use std::collections::BTreeSet;
 
-/// Notes the extensions and the tables of a file that are not read.
+/// Notes the extensions of a file that are not read.
 pub fn remark_unread<'a>(document: &Document<'a>, json: &'a Json<'a>, remarks: &mut Remarks) -> Result<(), ModelError> {
     let required: BTreeSet<&str> = texts(document.root.list("extensionsRequired")?).collect();
     let mut say = |name: &str| {
@@ -24,7 +24,6 @@ pub fn remark_unread<'a>(document: &Document<'a>, json: &'a Json<'a>, remarks: &
     // Those that are listed, but used at no place where an extension stands.
     let listed: BTreeSet<&str> = texts(document.root.list("extensionsUsed")?).collect();
     listed.union(&required).filter(|name| is_unread(name) && !seen.contains(*name)).for_each(|name| say(name));
-    remarks.add_unread("animations", document.root.list("animations")?.len() as u64);
     Ok(())
 }
 

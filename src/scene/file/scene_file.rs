@@ -5,7 +5,9 @@ use super::read::{FileEntity, read_entity};
 use super::refer::resolve;
 use super::scan::{entities, fields};
 use super::{FileProblem, PlaceInFile};
-use crate::{ChildOf, Disabled, Keys, LookAt, Name, SceneError, SceneFolder, Shutter, UsesMaterial, load_meshes};
+use crate::{
+    ChildOf, Disabled, Keys, LookAt, Name, SceneError, SceneFolder, SceneTime, Shutter, UsesMaterial, load_meshes,
+};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use serde::de::DeserializeOwned;
@@ -27,6 +29,8 @@ pub struct SceneFile {
     pub path: PathBuf,
     text: String,
     entities: Vec<FileEntity>,
+    /// The time at which its animated models are shown; none at rest.
+    seconds: Option<f64>,
 }
 
 impl SceneFile {
@@ -43,7 +47,7 @@ impl SceneFile {
             Ok(read)
         };
         match read() {
-            Ok(entities) => Ok(Self { path: path.into(), text, entities }),
+            Ok(entities) => Ok(Self { path: path.into(), text, entities, seconds: None }),
             Err(mistake) => {
                 let place = Some(place_of(&text, mistake.at));
                 Err(FileProblem { path: path.into(), place, what: mistake.what })
@@ -73,8 +77,7 @@ impl SceneFile {
     /// Errors: a key sets what cannot be set, in one sentence.
     pub fn at(&self, frame: f64, rate: f64) -> Result<Self, String> {
         let shutter = self.entities.iter().find_map(|entity| self.component::<Shutter>(entity, "shutter"));
-        let mut file = Self { path: self.path.clone(), text: self.text.clone(), entities: Vec::new() };
-        file.entities = Self::parse(&file.path, file.text.clone()).map_err(|problem| problem.what)?.entities;
+        let mut file = Self::parse(&self.path, self.text.clone()).map_err(|problem| problem.what)?;
         for entity in &self.entities {
             let Some(keys) = self.component::<Keys>(entity, "keys") else { continue };
             let Some(name) = &entity.name else {
@@ -112,12 +115,14 @@ impl SceneFile {
             file = file.set(&format!("{name}.shutter.open={:?}", open + time))?;
             file = file.set(&format!("{name}.shutter.close={:?}", close + time))?;
         }
+        file.seconds = Some(frame / rate);
         Ok(file)
     }
 
-    /// Whether anything in it has keys.
-    pub fn has_keys(&self) -> bool {
-        self.entities.iter().any(|entity| entity.parts.iter().any(|part| part.word == "keys"))
+    /// Whether anything in it may change with time: what has keys, and models, which may be animated.
+    pub fn may_change(&self) -> bool {
+        let changes = |entity: &FileEntity| entity.parts.iter().any(|part| ["keys", "mesh"].contains(&&*part.word));
+        self.entities.iter().any(changes)
     }
 
     fn name_of_shutter(&self) -> Option<&str> {
@@ -165,7 +170,12 @@ impl SceneFile {
 
     /// The scene as a world, with its entities spawned in the order of the file.
     pub fn world(&self) -> World {
-        self.world_of(|entity, _| entity.name.clone())
+        self.world_of(self.seconds.map(|seconds| SceneTime { seconds }), |entity, _| entity.name.clone())
+    }
+
+    /// The scene as a world, with its model files at a time of their animations, in seconds.
+    pub fn world_at(&self, seconds: f64) -> World {
+        self.world_of(Some(SceneTime { seconds }), |entity, _| entity.name.clone())
     }
 
     /// The position of what causes a scene error: the value of the field that it names, or else the start of the
@@ -174,7 +184,7 @@ impl SceneFile {
     /// `check` is called with a scene whose entities are named by their index, so that entities of equal name, or of
     /// none, can be distinguished.
     pub fn place_of(&self, check: impl FnOnce(&mut World) -> Option<SceneError>) -> Option<PlaceInFile> {
-        let scene_error = check(&mut self.world_of(|_, number| Some(format!("{MARK}{number}{MARK}"))))?;
+        let scene_error = check(&mut self.world_of(None, |_, number| Some(format!("{MARK}{number}{MARK}"))))?;
         let marked = |text: &str| text.rsplit(MARK).nth(1).and_then(|number| number.parse::<usize>().ok());
         let number = marked(&scene_error.entity).or_else(|| marked(&scene_error.value))?;
         let entity = self.entities.get(number)?;
@@ -206,7 +216,7 @@ impl SceneFile {
         })
     }
 
-    fn world_of(&self, name: impl Fn(&FileEntity, usize) -> Option<String>) -> World {
+    fn world_of(&self, time: Option<SceneTime>, name: impl Fn(&FileEntity, usize) -> Option<String>) -> World {
         let mut world = World::new();
         let spawned: Vec<Entity> = self.entities.iter().map(|_| world.spawn_empty().id()).collect();
         for (number, entity) in self.entities.iter().enumerate() {
@@ -229,6 +239,9 @@ impl SceneFile {
         }
         // Inserted last, since it spawns an entity of its own and would shift the indices of the others.
         world.insert_resource(SceneFolder::of(&self.path));
+        if let Some(time) = time {
+            world.insert_resource(time);
+        }
         load_meshes(&mut world);
         world
     }

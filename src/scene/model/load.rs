@@ -1,7 +1,7 @@
 use super::material::spawn_material;
 use super::material_notes::MaterialNotes;
 use super::mesh::{Mesh, MeshPart, ModelNotes, UnreadMesh};
-use super::open_model::{OpenModel, open_model};
+use super::open_model::{OpenModel, SceneTime, open_model_now};
 use super::placing::placements_of;
 use crate::material::is_material;
 use crate::{ChildOf, Disabled, Emissive, MeshGeometry, MeshInstance, Name, Placement, UsesMaterial, printable};
@@ -21,9 +21,11 @@ pub fn load_meshes(scene: &mut World) {
     named.sort_by_key(|(entity, _)| entity.index());
     let loaded: BTreeSet<Entity> = scene.query::<&MeshPart>().iter(scene).map(|part| part.0).collect();
     let mut materials = BTreeMap::new();
+    let is_film = scene.contains_resource::<SceneTime>();
     for (entity, mesh) in named.into_iter().filter(|(entity, _)| !loaded.contains(entity)) {
-        match open_model(scene, &mesh.file) {
-            Ok(model) if model.model.instances.is_empty() => {
+        match open_model_now(scene, &mesh) {
+            // What is animated may be scaled to nothing for a while.
+            Ok(model) if model.model.instances.is_empty() && (!is_film || model.model.animations.is_empty()) => {
                 scene.entity_mut(entity).insert(UnreadMesh(model.nothing()));
             }
             Ok(model) => {

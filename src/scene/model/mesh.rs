@@ -15,6 +15,10 @@ pub struct Mesh {
     pub file: String,
     /// Whether materials that the file calls single-sided are not there from behind; if not, both sides are seen.
     pub single_sided: bool,
+    /// The animation of a glTF file that a film shows: its name, its number from 0 on, or `all`; the first if this is
+    /// empty.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub animation: String,
 }
 
 /// An entity that [`load_meshes`](super::load_meshes) made for the mesh file of that one; scene files leave it out.

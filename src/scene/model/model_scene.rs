@@ -2,14 +2,14 @@ use super::components_of::{spawn_camera, spawn_light};
 use super::lighting::{LitBy, bounds_of, exposure, lit_by, vertices};
 use super::load::load_meshes;
 use super::mesh::{Mesh, ModelNotes};
-use super::open_model::open_model;
+use super::open_model::{SceneTime, open_model, open_model_now};
 use crate::{
     Degrees, DirectionalLight, Exposure, FileProblem, FovAxis, Gradient, Integrator, LookAt, Name, PerspectiveCamera,
     Resolution, Rgb, Sampling, SceneFolder, printable_path,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole_models::{Model, Projection};
+use pinhole_models::{Model, ModelAnimation, Projection};
 use std::path::{Path, PathBuf};
 
 /// The endings of the model files that can be read.
@@ -47,6 +47,12 @@ pub struct ModelScene {
     pub exposure: f64,
     /// Whether materials that the file calls single-sided are not there from behind.
     pub single_sided: bool,
+    /// The animation that a film shows, as [`Mesh`] has it.
+    pub animation: String,
+    /// The animations of the file.
+    pub animations: Vec<ModelAnimation>,
+    /// The time of the animation that is shown, in seconds; none at rest.
+    pub seconds: Option<f64>,
 }
 
 impl ModelScene {
@@ -91,7 +97,16 @@ impl ModelScene {
             }
             LitBy::Nothing => said.push("it has no light: a sky and a sun are added".into()),
         }
-        Ok(Self { path: path.into(), said, exposure, single_sided: false })
+        let animations = model.model.animations.clone();
+        Ok(Self {
+            path: path.into(),
+            said,
+            exposure,
+            single_sided: false,
+            animation: String::new(),
+            animations,
+            seconds: None,
+        })
     }
 
     /// The same with another factor of the picture's light.
@@ -100,12 +115,31 @@ impl ModelScene {
         Self { exposure, ..self }
     }
 
-    /// The scene as a world.
+    /// The scene as a world, with the model at its time, or at rest.
     pub fn world(&self) -> World {
+        self.world_of(self.seconds.map(|seconds| SceneTime { seconds }))
+    }
+
+    /// The scene as a world at a time of its animation, in seconds.
+    ///
+    /// The cameras and lights of the file move with their nodes.
+    /// What pinhole adds follows from the model at rest, so that it is the same in every picture of a film: the fitted
+    /// camera, the factor of all light, and the sky and the sun.
+    pub fn world_at(&self, seconds: f64) -> World {
+        self.world_of(Some(SceneTime { seconds }))
+    }
+
+    fn world_of(&self, time: Option<SceneTime>) -> World {
         let mut scene = World::new();
+        if let Some(time) = time {
+            scene.insert_resource(time);
+        }
         let named = self.path.to_string_lossy().into_owned();
+        let mesh = Mesh { file: named.clone(), single_sided: self.single_sided, animation: self.animation.clone() };
         let open = open_model(&scene, &named);
-        let camera = open.as_ref().ok().and_then(|open| Some(spawn_camera(&mut scene, open.model.cameras.first()?)));
+        // What cannot be read at the time is refused where the mesh is loaded.
+        let now = if time.is_some() { open_model_now(&mut scene, &mesh) } else { open.clone() };
+        let camera = now.as_ref().ok().and_then(|now| Some(spawn_camera(&mut scene, now.model.cameras.first()?)));
         let camera = camera.unwrap_or_else(|| {
             let looks = open.as_ref().map_or_else(|_| LookAt::default(), |open| fitted(&open.model));
             let fitted = PerspectiveCamera { fov: FOV, axis: FovAxis::Smaller };
@@ -119,7 +153,7 @@ impl ModelScene {
             scene.entity_mut(camera).insert(Exposure { stops: stops_of(self.exposure), automatic: false });
         }
         if let Ok(open) = &open {
-            for light in &open.model.lights {
+            for light in &now.as_ref().unwrap_or(open).model.lights {
                 spawn_light(&mut scene, light);
             }
             if matches!(lit_by(&open.model), LitBy::Nothing | LitBy::NextToNothing) {
@@ -131,7 +165,7 @@ impl ModelScene {
             }
         }
         let name = self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        scene.spawn((Mesh { file: named, single_sided: self.single_sided }, Name::new(name)));
+        scene.spawn((mesh, Name::new(name)));
         scene.insert_resource(ModelNotes(self.said.clone()));
         load_meshes(&mut scene);
         scene.insert_resource(SceneFolder::default());
@@ -182,4 +216,102 @@ fn fitted(model: &Model) -> LookAt {
     };
     let away = vertices(model).map(away).fold(1e-3 * size, f64::max);
     LookAt { eye: target + towards * away, target, ..LookAt::default() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{MeshInstance, MeshPart, Placement, SceneFile, UnreadMesh};
+    use std::fs;
+
+    /// A triangle and a camera that a node carries from the origin to (4, 0, 0) in 2 s, and a second animation in which it
+    /// shrinks to nothing; beside it a triangle that stays.
+    fn written(folder: &Path) -> PathBuf {
+        let numbers: Vec<f32> =
+            vec![0., 0., 0., 1., 0., 0., 0., 1., 0., 0., 2., 0., 0., 0., 4., 0., 0., 1., 1., 1., 0., 0., 0.];
+        let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+        fs::write(folder.join("a.bin"), bytes).expect("written");
+        let text = "{'asset':{'version':'2.0'},'buffers':[{'byteLength':92,'uri':'a.bin'}],
+            'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':8},
+                {'buffer':0,'byteOffset':44,'byteLength':24},{'buffer':0,'byteOffset':68,'byteLength':24}],
+            'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},
+                {'bufferView':1,'componentType':5126,'count':2,'type':'SCALAR','min':[0],'max':[2]},
+                {'bufferView':2,'componentType':5126,'count':2,'type':'VEC3'},
+                {'bufferView':3,'componentType':5126,'count':2,'type':'VEC3'}],
+            'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],
+            'cameras':[{'type':'perspective','perspective':{'yfov':1,'znear':0.1}}],
+            'extensions':{'KHR_lights_punctual':{'lights':[{'type':'point','intensity':10}]}},
+            'nodes':[{'mesh':0,'children':[1,2]},{'camera':0,'translation':[0,0,5]},
+                {'translation':[0,3,0],'extensions':{'KHR_lights_punctual':{'light':0}}}],
+            'animations':[{'name':'go','samplers':[{'input':1,'output':2}],
+                'channels':[{'sampler':0,'target':{'node':0,'path':'translation'}}]},
+                {'name':'shrink','samplers':[{'input':1,'output':3}],
+                'channels':[{'sampler':0,'target':{'node':0,'path':'scale'}}]}]}";
+        fs::write(folder.join("a.gltf"), text.replace('\'', "\"")).expect("written");
+        fs::write(folder.join("still.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
+        folder.join("a.gltf")
+    }
+
+    /// The positions of the parts of meshes.
+    fn parts(world: &mut World) -> Vec<DVec3> {
+        let mut query = world.query_filtered::<&Placement, (With<MeshInstance>, With<MeshPart>)>();
+        query.iter(world).map(|placement| placement.position).collect()
+    }
+
+    #[test]
+    fn a_model_at_a_time_moves_what_hangs_on_its_nodes_and_nothing_else() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let scene = ModelScene::open(&written(folder.path())).expect("read");
+        assert_eq!(scene.animations.len(), 2);
+        let seen = |mut world: World| {
+            let parts = parts(&mut world);
+            let camera =
+                world.query_filtered::<&Placement, With<PerspectiveCamera>>().single(&world).expect("one").position;
+            let light = world.query::<(&Placement, &crate::PointLight)>().single(&world).expect("one");
+            (parts, camera, light.0.position, light.1.intensity)
+        };
+        let rest = seen(scene.world());
+        assert_eq!((&rest.0[..], rest.1, rest.2), (&[DVec3::ZERO][..], DVec3::Z * 5.0, DVec3::Y * 3.0));
+        for (seconds, x) in [(0.0, 0.0), (0.5, 1.0), (1.5, 3.0), (7.0, 4.0)] {
+            let apart = DVec3::X * x;
+            // The factor of the light follows from the model at rest, or it would change from picture to picture.
+            let expected = (vec![apart], rest.1 + apart, rest.2 + apart, rest.3);
+            assert_eq!(seen(scene.world_at(seconds)), expected, "{seconds}");
+        }
+        let shrink = ModelScene { animation: "shrink".into(), ..scene.clone() };
+        assert_eq!(seen(shrink.world_at(1.0)).0, [DVec3::ZERO]);
+        let mut gone = shrink.world_at(2.0);
+        assert_eq!(parts(&mut gone), []);
+        assert_eq!(gone.query::<&UnreadMesh>().iter(&gone).count(), 0);
+        let mut unknown = ModelScene { animation: "fly".into(), ..scene }.world_at(1.0);
+        let why = unknown.query::<&UnreadMesh>().single(&unknown).expect("refused").0.clone();
+        let accepted =
+            "the animation is \"fly\", but it must be a name (\"go\", \"shrink\"), a number from 0 to 1, or all";
+        assert!(why.ends_with(accepted), "{why}");
+    }
+
+    #[test]
+    fn a_scene_file_has_the_animation_that_it_names_and_shares_what_stays() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        written(folder.path());
+        let text = "[(name: \"a\", mesh: (file: \"a.gltf\", animation: \"all\")), (matte: (), mesh: (file: \"still.obj\")), \
+                    (perspective_camera: (), resolution: (width: 4, height: 4))]";
+        let file = SceneFile::parse(&folder.path().join("s.ron"), text.into()).expect("a scene");
+        let still = |world: &mut World| {
+            let mut query = world.query_filtered::<&MeshInstance, With<Mesh>>();
+            query.single(world).expect("the one that stays").geometry.clone()
+        };
+        let [mut first, mut second, mut rest] = [file.world_at(0.5), file.world_at(1.0), file.world()];
+        assert!(still(&mut first).is(&still(&mut second)), "what has no animations is read once");
+        let moved = |world: &mut World| {
+            let mut query = world.query_filtered::<&Placement, (With<MeshPart>, Without<Mesh>)>();
+            let placement = query.iter(world).find(|own| own.scale != DVec3::ZERO).expect("a part");
+            (placement.position.x, placement.scale.x)
+        };
+        assert_eq!([&mut first, &mut second, &mut rest].map(moved), [(1.0, 0.75), (2.0, 0.5), (0.0, 1.0)]);
+        let wrong = text.replace("still.obj\"", "still.obj\", animation: \"go\"");
+        let mut world = SceneFile::parse(&folder.path().join("s.ron"), wrong).expect("a scene").world_at(1.0);
+        let why = world.query::<&UnreadMesh>().single(&world).expect("refused").0.clone();
+        assert!(why.ends_with("still.obj has no animations"), "{why}");
+    }
 }

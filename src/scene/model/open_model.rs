@@ -1,11 +1,12 @@
 use super::closed::is_closed;
 use super::image_found::{check_bytes, check_file, ending_of, found_beside};
+use super::mesh::Mesh;
 use crate::{
     EmbeddedFiles, FileKind, FileStore, MeshGeometry, SceneFolder, Undecoded, check_memory, printable, printable_path,
     read_file,
 };
 use bevy_ecs::prelude::*;
-use pinhole_models::{ImageSource, Model, ModelError, read_model};
+use pinhole_models::{ImageSource, Model, ModelError, Moment, read_model_at};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -18,6 +19,19 @@ const BYTES_A_PART: u64 = 4096;
 
 /// Models that have been read.
 static MODELS: FileStore<OpenModel> = FileStore::new();
+
+/// The time at which the animations of model files are shown, of which all meshes that are loaded later take account;
+/// without it they are shown at rest.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+pub struct SceneTime {
+    /// In seconds, from the beginning of every animation.
+    pub seconds: f64,
+}
+
+/// The animated models of a scene at its time, by their paths and animations: they last as long as the scene, for the
+/// next picture of a film needs others.
+#[derive(Resource, Debug, Default)]
+struct AnimatedModels(BTreeMap<(PathBuf, String), Arc<OpenModel>>);
 
 /// A model with its meshes as all of their instances share them.
 #[derive(Debug)]
@@ -52,25 +66,53 @@ impl ModelFiles {
     }
 }
 
-/// Reads the model that a scene names, if that has not been done.
+/// Reads the model that a scene names at rest, if that has not been done.
 ///
 /// Errors: why it was not read, as a clause.
 pub fn open_model(scene: &World, file: &str) -> Result<Arc<OpenModel>, String> {
     let path = SceneFolder::path_of(scene, file);
     if let Some(bytes) = EmbeddedFiles::find(scene, file) {
-        return read(&path, bytes).map(|(model, _)| Arc::new(model));
+        return read(&path, bytes, None).map(|(model, _)| Arc::new(model));
     }
-    MODELS.get(&path, MODEL_FILE, |bytes| read(&path, bytes)).map_err(|why| match why {
+    MODELS.get(&path, MODEL_FILE, |bytes| read(&path, bytes, None)).map_err(|why| match why {
         Undecoded::File(error) => error.to_string(),
         Undecoded::Content(problem) => problem,
     })
 }
 
-fn read(path: &Path, bytes: &[u8]) -> Result<(OpenModel, usize), String> {
+/// Reads the model that a mesh names at the scene's time, if it has one and the model has animations.
+///
+/// Errors: why it was not read, as a clause.
+pub fn open_model_now(scene: &mut World, Mesh { file, animation, .. }: &Mesh) -> Result<Arc<OpenModel>, String> {
+    let at_rest = open_model(scene, file)?;
+    let Some(SceneTime { seconds }) = scene.get_resource().copied() else { return Ok(at_rest) };
+    let path = SceneFolder::path_of(scene, file);
+    if at_rest.model.animations.is_empty() {
+        let shown = printable_path(&path);
+        return if animation.is_empty() { Ok(at_rest) } else { Err(format!("{shown} has no animations")) };
+    }
+    let key = (path, animation.clone());
+    if let Some(known) = scene.get_resource::<AnimatedModels>().and_then(|known| known.0.get(&key)) {
+        return Ok(Arc::clone(known));
+    }
+    let moment = Moment { seconds, animation: (!animation.is_empty()).then_some(animation) };
+    let (model, _) = match EmbeddedFiles::find(scene, file) {
+        Some(bytes) => read(&key.0, bytes, Some(moment))?,
+        None => {
+            let bytes = read_file(&key.0, MODEL_FILE).map_err(|error| error.to_string())?;
+            read(&key.0, &bytes, Some(moment))?
+        }
+    };
+    let model = Arc::new(model);
+    scene.get_resource_or_init::<AnimatedModels>().0.insert(key, Arc::clone(&model));
+    Ok(model)
+}
+
+fn read(path: &Path, bytes: &[u8], moment: Option<Moment<'_>>) -> Result<(OpenModel, usize), String> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let beside = |name: &str| read_file(&found_beside(folder, name), MODEL_FILE).map_err(|error| error.to_string());
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let model = read_model(&name, bytes, &beside)
+    let model = read_model_at(&name, bytes, moment, &beside)
         .map_err(|problem| format!("{} cannot be read: {}", printable_path(path), without_file(&name, &problem)))?;
     let parts = model.instances.len() as u64;
     check_memory(parts * BYTES_A_PART)
