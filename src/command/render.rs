@@ -5,7 +5,7 @@ use super::format::{Format, print_json};
 use super::hints;
 use super::interrupt::{Waiting, interrupted};
 use super::long_render::{LongRender, render_long};
-use super::options::RenderOptions;
+use super::options::{RenderOptions, SceneOptions};
 use super::own_file::write_file;
 use super::preflight::before_rendering;
 use super::progress::Progress;
@@ -252,7 +252,10 @@ pub fn attributes(
     (render, mine): (&RenderInProgress, bool),
 ) -> FileAttributes {
     let mut attributes = FileAttributes { layer_names: options.layer_names, ..render.attributes.clone() };
-    attributes.texts.extend(hints::same_picture(subject, options, mine).map(|command| ("command", command)));
+    // An EXR does not depend on how its light is shown.
+    let scene_options = SceneOptions { exposure: None, tone_map: None, ..options.scene.clone() };
+    let own = RenderOptions { scene: scene_options, ..options.clone() };
+    attributes.texts.extend(hints::same_picture(subject, &own, mine).map(|command| ("command", command)));
     attributes.texts.extend(options.frame.map(|frame| ("frame", frame.to_string())));
     if render.is_sampled() {
         attributes.texts.push(("seed", render.sampling.seed.to_string()));

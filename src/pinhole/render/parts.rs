@@ -95,11 +95,11 @@ impl RenderInProgress {
             Some(pool) => _ = pool.broadcast(|context| work(context.index())),
             None => work(0),
         }
-        let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-        // The order in which workers finish is nobody's concern.
-        done.sort_by_key(|own| own.unit);
+        let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
         let mut complete = done.len() == left;
         own.units.extend(done);
+        // The order in which workers finish, and the stops between, are nobody's concern.
+        own.units.sort_by_key(|own| own.unit);
         if let Some(light) = &self.light {
             let means = Means { plan: &self.plan, tables: &self.tables, pool: self.pool.as_ref() };
             let all = own.part.batches(own.batches);
