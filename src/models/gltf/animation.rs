@@ -381,8 +381,8 @@ fn unit(parts: &[f64]) -> Option<DVec4> {
     (quaternion / quaternion.abs().max_element()).try_normalize()
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods, reason = "what a test expects may come from the platform's functions")]
+#[cfg(test)]
 mod tests {
     use crate::written::{data, floats, read, read_at};
     use crate::{Model, Moment};
