@@ -53,7 +53,6 @@ pub use cameras::{
 #[doc(hidden)]
 pub use check::{colour_within, finite_point, light_colour, number, positive_length, triple};
 pub use colour::Rgb;
-#[doc(hidden)]
 pub use exposure::{Exposure, ToneMapping};
 #[doc(hidden)]
 pub use file::FileProblem;

@@ -71,7 +71,7 @@ impl SceneFile {
     /// The scene at a frame of a film of so many frames in a unit of time, by the [`Keys`] of its entities.
     ///
     /// Its camera's [`Shutter`] opens and closes later by the time of the frame.
-    /// What moves by keys while the shutter is open, by `placement.position` or `look_at.eye`, gets the [`Motion`] that it
+    /// What moves by keys while the shutter is open, by `placement.position` or `look_at.eye`, gets the [`Motion`](crate::Motion) that it
     /// has on average from the moment when it opens to that when it closes.
     ///
     /// Errors: a key sets what cannot be set, in one sentence.
