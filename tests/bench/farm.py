@@ -235,7 +235,7 @@ def on_slurm(folder, parts):
 
 
 def on_others(folder, parts):
-    name, words = SCENES[4]
+    name, words = SCENES[min(4, len(SCENES) - 1)]
     whole = folder / "whole_others.exr"
     render(words, whole)
     for engine, program in [("openjd", "openjd"), ("parallel", "parallel")]:
@@ -271,8 +271,10 @@ def main():
     parser.add_argument("--parts", type=int, default=64)
     parser.add_argument("--merge", type=int, default=1000)
     parser.add_argument("--only", choices=["overhead", "slurm", "others", "merge"])
+    parser.add_argument("--scenes", type=int, default=len(SCENES), help="how many of the scenes")
     parser.add_argument("folder", nargs="?", default="/tmp/pinhole-farm")
     asked = parser.parse_args()
+    del SCENES[asked.scenes:]
     folder = pathlib.Path(asked.folder)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
