@@ -9,6 +9,7 @@ use super::progress::Progress;
 use super::render::{attributes, keep_guides};
 use super::streams::Streams;
 use super::subject::Subject;
+use bevy_ecs::prelude::World;
 use pinhole::extract::{FilterTable, adaptive_of, validate};
 use pinhole::film::{
     CheckpointAt, Film, Merged, Part, PartFilm, PngKind, Replaces, checkpoint_at, keep_checkpoint, merge_parts,
@@ -53,6 +54,23 @@ fn parts_beside(picture: &Path) -> Vec<PathBuf> {
     files
 }
 
+/// The scene that all parts are of, and its render.
+///
+/// Errors: what a render is refused for.
+fn begun(subject: &Subject<'_>, options: &RenderOptions) -> Result<(World, RenderInProgress)> {
+    let asked = options.asked(false);
+    let mut scene = subject.world(&asked);
+    if options.denoise {
+        keep_guides(&mut scene);
+    }
+    let placed = |error| subject.placed(error, &asked);
+    let census = &Census::of(&scene);
+    validate(census).map_err(|scene_error| placed(scene_error.into()))?;
+    let execution = Execution { threads: options.threads.map(usize::from), ..Execution::default() };
+    let render = RenderInProgress::begin(census, &subject.stages(), &execution).map_err(placed)?;
+    Ok((scene, render))
+}
+
 /// Computes one part of a render and leaves it in a file beside the picture, which is not written.
 ///
 /// Errors: what a render is refused for; a stop, after which the same command with `--resume` continues.
@@ -70,16 +88,8 @@ pub fn render_part(
         return Err(Error::CommandLine(what.into()));
     };
     let path = part_file(picture, part.number, part.of);
-    let asked = options.asked(false);
-    let mut scene = subject.world(&asked);
-    if options.denoise {
-        keep_guides(&mut scene);
-    }
-    let placed = |error| subject.placed(error, &asked);
+    let (scene, mut render) = begun(subject, options)?;
     let census = &Census::of(&scene);
-    validate(census).map_err(|scene_error| placed(scene_error.into()))?;
-    let execution = Execution { threads: options.threads.map(usize::from), ..Execution::default() };
-    let mut render = RenderInProgress::begin(census, &subject.stages(), &execution).map_err(placed)?;
     let waiting = Waiting::with(if options.quiet { Progress::hidden() } else { Progress::bar(0) }, 0);
     let key = render.key(&scene, &waiting).map_err(before_it_began)?;
     let adaptive = adaptive_of(census)?;
@@ -131,7 +141,13 @@ pub fn render_part(
         );
         let advanced = render.advance_part(&mut own, Instant::now() + pause, &waiting);
         let began = Instant::now();
-        write_part(&render, &own, key, &path)?;
+        let written = write_part(&render, &own, key, &path);
+        if let (Err(refused @ pinhole::Error::Write { .. }), Ok(false)) = (&written, &advanced) {
+            // A disk that is full now may have room later.
+            streams.note(&format!("warning: {refused}; the part goes on, and it is written again later"))?;
+        } else {
+            written?;
+        }
         pause = options.write_every.unwrap_or(WRITE_EVERY.max(began.elapsed() * FRACTION_FOR_WRITING));
         match advanced {
             Ok(true) => break,
@@ -189,15 +205,8 @@ pub fn merge(
 ) -> Result {
     let targets = Targets::of(subject, options)?;
     targets.check()?;
-    let asked = options.asked(false);
-    let mut scene = subject.world(&asked);
-    if options.denoise {
-        keep_guides(&mut scene);
-    }
-    let placed = |error| subject.placed(error, &asked);
+    let (scene, render) = begun(subject, options)?;
     let census = &Census::of(&scene);
-    validate(census).map_err(|scene_error| placed(scene_error.into()))?;
-    let render = RenderInProgress::begin(census, &subject.stages(), &Execution::default()).map_err(placed)?;
     let key = render.key(&scene, &Waiting::with(Progress::hidden(), 0))?;
     let paths = match (parts, targets.pictures.first()) {
         ([], Some(picture)) => parts_beside(picture),
@@ -213,7 +222,10 @@ pub fn merge(
         )));
     }
     let filter = census.table::<FilterTable>()?.filter;
-    let Merged { film, samples, complete, used, missing, refused } = merge_parts(&render.film, key, filter, &paths)?;
+    // Where the number of samples depends on the error, only the parts know it.
+    let expected = adaptive_of(census)?.is_none().then(|| render.expected());
+    let Merged { film, samples, complete, used, missing, refused } =
+        merge_parts(&render.film, key, (filter, expected), &paths)?;
     for (_, why) in &refused {
         streams.note(&format!("warning: {why}"))?;
     }
@@ -258,7 +270,10 @@ impl Told {
     fn of(film: &Film, samples: u32, complete: bool, used: usize, missing: &[Part]) -> Self {
         let error = error_of(film);
         let is_told = match error {
-            Some(error) => format!("the pixels' standard error is {:.2} % of their light", 100.0 * error),
+            Some(error) if complete => format!("the pixels' standard error is {:.2} % of their light", 100.0 * error),
+            Some(error) => {
+                format!("where there are samples, the standard error is {:.2} % of the light", 100.0 * error)
+            }
             None => "its error is not known, which takes more than 64 samples or --layers variance".into(),
         };
         let parts = if used == 1 { "1 part".into() } else { format!("{used} parts") };

@@ -269,9 +269,12 @@ struct Place {
     sum: u32,
 }
 
-fn each_entry(film: &Film, key: u64, path: &Path, each: &mut dyn FnMut(Entry, Place)) -> Result<PartHeading> {
+/// What a part's file begins with, the numbers that follow, and the length of the file.
+type Begun = (PartHeading, Numbers<BufReader<File>>, u64);
+
+/// Opens a part of a film of this shape and reads what it begins with.
+fn begun(film: &Film, key: u64, path: &Path) -> Result<Begun> {
     let failed = |what: &str| Error::Usage(format!("cannot use {}: {what}", printable_path(path)));
-    let unread = |error: io::Error| failed(&why_unread(&error));
     let Opened { heading: Heading { key: own, .. }, shape: found, mut numbers, length } = opened(path, "merge", "use")?;
     if found[3] & PART == 0 {
         return Err(failed("it is a checkpoint of a whole render, and not of a part"));
@@ -288,16 +291,23 @@ fn each_entry(film: &Film, key: u64, path: &Path, each: &mut dyn FnMut(Entry, Pl
     if found != expected {
         return Err(failed("it is a part of a film that keeps something else"));
     }
-    let heading = read_heading(planned != 0, &mut numbers).map_err(unread)?;
-    let PartHeading { part, samples, batches, .. } = heading;
-    if part.number == 0 || part.number > part.of {
+    let heading = read_heading(planned != 0, &mut numbers).map_err(|error| failed(&why_unread(&error)))?;
+    if heading.part.number == 0 || heading.part.number > heading.part.of {
         return Err(failed(DAMAGED));
     }
+    Ok((heading, numbers, length))
+}
+
+fn each_entry(film: &Film, key: u64, path: &Path, each: &mut dyn FnMut(Entry, Place)) -> Result<PartHeading> {
+    let failed = |what: &str| Error::Usage(format!("cannot use {}: {what}", printable_path(path)));
+    let unread = |error: io::Error| failed(&why_unread(&error));
+    let (heading, mut numbers, length) = begun(film, key, path)?;
+    let PartHeading { part, planned, samples, batches, .. } = heading;
     let places = places(film.tiles.len() as u32);
     let expected_batches = part.batches(batches);
     for _ in 0..heading.units {
         let offset = numbers.begin_entry();
-        let own = read_unit(film, planned != 0, &mut numbers).map_err(unread)?;
+        let own = read_unit(film, planned, &mut numbers).map_err(unread)?;
         if !part.holds(own.unit, &places, samples) || !is_plausible_unit(&own, samples) {
             return Err(failed("it holds numbers that no render can have produced"));
         }
@@ -418,7 +428,8 @@ struct Indexed {
     heading: PartHeading,
 }
 
-/// Merges parts into a film of the shape of this one, which is empty; `filter` is that of the camera.
+/// Merges parts into a film of the shape of this one, which is empty; `filter` is that of the camera, and `expected` the
+/// number of samples of a pixel and of batches of light paths, if they are known: otherwise most parts have them.
 ///
 /// A unit that several parts hold counts once; a file that holds another result for a unit than the files before it is
 /// refused, as is one that is damaged, of another render, or of another number of samples: by name, and the others are
@@ -427,7 +438,13 @@ struct Indexed {
 /// Memory holds one film and a line for each unit, never all parts.
 ///
 /// Errors: no file can be used, or one cannot be read a second time.
-pub fn merge_parts(film: &Film, key: u64, filter: Filter, paths: &[PathBuf]) -> Result<Merged> {
+pub fn merge_parts(
+    film: &Film,
+    key: u64,
+    (filter, expected): (Filter, Option<(u32, u64)>),
+    paths: &[PathBuf],
+) -> Result<Merged> {
+    let expected = expected.or_else(|| usual(film, key, paths));
     let mut files: Vec<Indexed> = Vec::new();
     let mut units: BTreeMap<Unit, (usize, Place)> = BTreeMap::new();
     let mut light: BTreeMap<u64, (u64, usize, Place)> = BTreeMap::new();
@@ -446,13 +463,13 @@ pub fn merge_parts(film: &Film, key: u64, filter: Filter, paths: &[PathBuf]) -> 
             }
         };
         let failed = |what: String| (path.clone(), format!("cannot use {}: {what}", printable_path(path)));
-        if let Some(first) = files.first() {
-            let (theirs, expected) = (heading.samples, first.heading.samples);
-            if theirs != expected || heading.batches != first.heading.batches {
-                let first = printable_path(&first.path);
-                refused.push(failed(format!("it is of a render of {theirs} samples, and {first} of {expected}")));
-                continue;
-            }
+        if let Some((samples, batches)) = expected.filter(|own| *own != (heading.samples, heading.batches)) {
+            let theirs = (heading.samples, heading.batches);
+            refused.push(failed(format!(
+                "it is of a render of {} samples and {} batches of light paths, and not of {samples} and {batches}",
+                theirs.0, theirs.1
+            )));
+            continue;
         }
         let other = own
             .iter()
@@ -532,6 +549,17 @@ pub fn merge_parts(film: &Film, key: u64, filter: Filter, paths: &[PathBuf]) -> 
     }
     let missing = if complete { Vec::new() } else { missing(&files, film.tiles.len() as u32) };
     Ok(Merged { film: merged, samples: first.samples, complete, used: files.len(), missing, refused })
+}
+
+/// The numbers of samples and of batches that most of the parts say their render has.
+fn usual(film: &Film, key: u64, paths: &[PathBuf]) -> Option<(u32, u64)> {
+    let mut counts: BTreeMap<(u32, u64), usize> = BTreeMap::new();
+    for path in paths {
+        if let Ok((PartHeading { samples, batches, .. }, ..)) = begun(film, key, path) {
+            *counts.entry((samples, batches)).or_default() += 1;
+        }
+    }
+    counts.into_iter().max_by_key(|(_, count)| *count).map(|(own, _)| own)
 }
 
 /// The parts that are missing or unfinished, where all files agree on how many there are.

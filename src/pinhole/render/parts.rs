@@ -28,7 +28,7 @@ impl RenderInProgress {
         watch: &dyn Watch,
         keep: &mut dyn FnMut(&Film) -> Result,
     ) -> Result<PartFilm> {
-        let mut samples = if self.is_sampled() { self.sampling.samples } else { 1 };
+        let (mut samples, _) = self.expected();
         if let Some(adaptive) = adaptive {
             if !self.film.pilot {
                 self.begin_pilot();
@@ -38,9 +38,19 @@ impl RenderInProgress {
             self.begin_planned(planned_samples(&self.film, adaptive.error));
             samples = samples.min(self.film.most_planned());
         }
+        Ok(PartFilm::new(part, samples, self.batches_of(samples)))
+    }
+
+    /// The number of samples of a pixel and that of batches of light paths of the whole render, where both are the same for
+    /// every pixel.
+    pub fn expected(&self) -> (u32, u64) {
+        let samples = if self.is_sampled() { self.sampling.samples } else { 1 };
+        (samples, self.batches_of(samples))
+    }
+
+    fn batches_of(&self, samples: u32) -> u64 {
         let all = self.film.samples_between(0, steps_of(samples));
-        let batches = self.light.as_ref().map_or(0, |light| light.batches(all));
-        Ok(PartFilm::new(part, samples, batches))
+        self.light.as_ref().map_or(0, |light| light.batches(all))
     }
 
     /// How many samples of pixels a part has yet to take.
