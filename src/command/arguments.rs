@@ -314,6 +314,9 @@ pub struct MergeParts {
     /// The parts (default: those beside the picture)
     #[arg(value_name = "PART")]
     pub parts: Vec<PathBuf>,
+    /// Render so many pieces of each part again, chosen at random, and refuse a part of which one differs
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub verify: usize,
     #[command(flatten)]
     pub options: RenderOptions,
 }

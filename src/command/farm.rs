@@ -267,7 +267,7 @@ fn run_and_wait(run: &[String]) -> Result {
 fn joined(job: &Job<'_>, subject: &Subject<'_>, streams: &mut Streams<'_>) -> Result {
     match job.asked.options.frames {
         Some(frames) => missing_frames(subject, &job.asked.options, frames, streams),
-        None => merge(subject, &job.asked.options, &[], Format::Text, streams),
+        None => merge(subject, &job.asked.options, (&[], 0), Format::Text, streams),
     }
 }
 

@@ -156,7 +156,7 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
             let subject = Subject::find(chapters, &asked.chapter)?.set(&asked.options.scene.set)?;
             match asked.options.frames {
                 Some(frames) => frames::missing_frames(&subject, &asked.options, frames, streams),
-                None => parts::merge(&subject, &asked.options, &asked.parts, format, streams),
+                None => parts::merge(&subject, &asked.options, (&asked.parts, asked.verify), format, streams),
             }
         }
         Some(Command::Farm(asked)) => farm::farm(chapters, &asked, &words, format, streams),

@@ -12,7 +12,7 @@ use super::subject::Subject;
 use bevy_ecs::prelude::World;
 use pinhole::extract::{FilterTable, adaptive_of, validate};
 use pinhole::film::{
-    CheckpointAt, Film, Merged, Part, PartFilm, PngKind, Replaces, checkpoint_at, keep_checkpoint, merge_parts,
+    Check, CheckpointAt, Film, Merged, Part, PartFilm, PngKind, Replaces, checkpoint_at, keep_checkpoint, merge_parts,
     read_checkpoint,
 };
 use pinhole::plan::Census;
@@ -199,7 +199,7 @@ fn write_part(render: &RenderInProgress, own: &PartFilm, key: u64, path: &Path) 
 pub fn merge(
     subject: &Subject<'_>,
     options: &RenderOptions,
-    parts: &[PathBuf],
+    (parts, verify): (&[PathBuf], usize),
     format: Format,
     streams: &mut Streams<'_>,
 ) -> Result {
@@ -224,8 +224,9 @@ pub fn merge(
     let filter = census.table::<FilterTable>()?.filter;
     // Where the number of samples depends on the error, only the parts know it.
     let expected = adaptive_of(census)?.is_none().then(|| render.expected());
+    let check = Check { pieces: verify, is_right: &mut |entry, samples| render.computes(entry, samples) };
     let Merged { film, samples, complete, used, missing, refused } =
-        merge_parts(&render.film, key, (filter, expected), &paths)?;
+        merge_parts(&render.film, key, (filter, expected), &paths, check)?;
     for (_, why) in &refused {
         streams.note(&format!("warning: {why}"))?;
     }

@@ -1,7 +1,7 @@
 //! Parts of a render: whoever computes them, however the work is divided, they add up to the bits of one machine.
 
 use super::*;
-use pinhole::film::{Part, PartFilm, Split, Unit, merge_parts};
+use pinhole::film::{Check, Part, PartEntry, PartFilm, Split, Unit, merge_parts};
 use pinhole::{Chapter, Overrides, SamplingOverrides, Size};
 use pinhole_lab::measure::draws::Draws;
 use std::collections::BTreeSet;
@@ -113,6 +113,11 @@ fn shuffled(mut paths: Vec<PathBuf>, seed: u64) -> Vec<PathBuf> {
     paths
 }
 
+/// No piece is checked but those on which two files disagree.
+fn rendered_again(is_right: &mut dyn FnMut(&PartEntry, u32) -> bool) -> Check<'_> {
+    Check { pieces: 0, is_right }
+}
+
 /// The camera's filter, and how many samples and light paths there are to be, where that does not depend on the error.
 fn known(case: &Case, scene: &World) -> (Filter, Option<(u32, u64)>) {
     let filter = Census::of(scene).table::<pinhole::extract::FilterTable>().expect("a camera").filter;
@@ -139,7 +144,9 @@ fn parts_add_up_to_the_bits_of_one_machine() {
                     parts += 1;
                 }
                 let paths = shuffled((1..=of).map(path).collect(), u64::from(of));
-                let merged = merge_parts(&shape.film, key, known(case, &scene), &paths).expect("merges");
+                let merged =
+                    merge_parts(&shape.film, key, known(case, &scene), &paths, rendered_again(&mut |_, _| false))
+                        .expect("merges");
                 let what = format!("{}, {of} parts by {word}", case.name);
                 assert_eq!((merged.complete, merged.used, merged.refused.len()), (true, of as usize, 0), "{what}");
                 FilmBits::of(&merged.film).assert_is(&FilmBits::of(&expected), &what);
@@ -164,7 +171,8 @@ fn a_merge_without_some_parts_says_so_and_shows_what_there_is() {
     for number in [3, 1, 4, 2] {
         write_part(case, &scene, part(number), 1, &path(number));
         let paths: Vec<PathBuf> = (1..=4).map(path).filter(|path| path.exists()).collect();
-        let merged = merge_parts(&shape.film, key, known(case, &scene), &paths).expect("merges");
+        let merged = merge_parts(&shape.film, key, known(case, &scene), &paths, rendered_again(&mut |_, _| false))
+            .expect("merges");
         assert_eq!(merged.complete, paths.len() == 4);
         assert_eq!(merged.missing.len(), 4 - paths.len());
         let done = merged.film.tiles.iter().zip(&expected.tiles).filter(|(own, other)| own == other).count();
@@ -176,7 +184,8 @@ fn a_merge_without_some_parts_says_so_and_shows_what_there_is() {
     write_part(case, &scene, Part { number: 2, of: 3, split: Split::Samples }, 1, &path(9));
     let mut paths: Vec<PathBuf> = (1..=4).map(path).collect();
     paths.extend([folder.path().join("again.checkpoint"), path(9)]);
-    let merged = merge_parts(&shape.film, key, known(case, &scene), &paths).expect("merges");
+    let merged =
+        merge_parts(&shape.film, key, known(case, &scene), &paths, rendered_again(&mut |_, _| false)).expect("merges");
     assert!(merged.complete && merged.refused.is_empty() && merged.film == expected);
     eprintln!("parts: tiles as they come {lit:?}, a part twice, and one of another division");
 }
@@ -204,7 +213,8 @@ fn a_part_that_is_not_of_this_render_is_refused_by_name() {
     let mut refused = |because: &str| {
         // Whether it comes first or last, except where two hold the same samples: then the first counts.
         let paths = if because == "other sums" { [good.clone(), bad.clone()] } else { [bad.clone(), good.clone()] };
-        let merged = merge_parts(&shape.film, key, known(case, &scene), &paths).expect("the good part is used");
+        let merged = merge_parts(&shape.film, key, known(case, &scene), &paths, rendered_again(&mut |_, _| false))
+            .expect("the good part is used");
         assert_eq!((merged.used, merged.complete), (1, false), "{because}");
         let [(path, why)] = &merged.refused[..] else { panic!("{because}: {:?}", merged.refused) };
         assert!(path == &bad && why.contains("bad.checkpoint") && why.contains(because), "{because}: {why}");
@@ -281,8 +291,70 @@ fn a_part_that_is_not_of_this_render_is_refused_by_name() {
         refused("");
     }
     fs::write(&bad, &whole).expect("written");
-    assert!(merge_parts(&shape.film, key, known(case, &scene), &[good, bad]).expect("merges").complete);
+    assert!(
+        merge_parts(&shape.film, key, known(case, &scene), &[good, bad], rendered_again(&mut |_, _| false))
+            .expect("merges")
+            .complete
+    );
     eprintln!("parts: {tried} damaged, forged or foreign ones, each refused by name, the other one used");
+}
+
+/// A part whose sums somebody else has rendered, or made up, under this scene's key: nothing but rendering tells.
+#[test]
+fn a_part_that_is_made_up_is_told_by_rendering_some_of_it_again() {
+    let mut tried = 0;
+    for case in [&CASES[1], &CASES[5], &CASES[7], &CASES[9]] {
+        let scene = case.world();
+        let shape = begun(case, &scene, 2);
+        let key = shape.key(&scene, &()).expect("nobody stops it");
+        let expected = whole(case, &scene);
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = |name: &str| folder.path().join(format!("{name}.checkpoint"));
+        let part = |number: u32, split: Split| Part { number, of: 2, split };
+        for number in [1, 2] {
+            write_part(case, &scene, part(number, Split::Tiles), 1, &path(&number.to_string()));
+        }
+        let adaptive = pinhole::extract::adaptive_of(&Census::of(&scene)).expect("a camera");
+        for split in [Split::Tiles, Split::Both] {
+            // All of its sums are half of what they are.
+            let mut render = begun(case, &scene, 1);
+            let mut own = render.begin_part(part(2, split), adaptive, &(), &mut |_| Ok(())).expect("begins");
+            render.advance_part(&mut own, Instant::now() + Duration::from_secs(60), &()).expect("goes on");
+            own.units.iter_mut().flat_map(|own| own.tile.sum.iter_mut().flatten()).for_each(|sum| *sum *= 0.5);
+            own.light.iter_mut().flat_map(|own| own.rgb.iter_mut().flatten()).for_each(|part| *part *= 0.5);
+            own.write(&render.film, key, &path("made up")).expect("written");
+            let again = begun(case, &scene, 2);
+            let merged_with = |names: &[&str], pieces: usize| {
+                let paths: Vec<PathBuf> = names.iter().map(|name| path(name)).collect();
+                let check = Check { pieces, is_right: &mut |entry, samples| again.computes(entry, samples) };
+                merge_parts(&shape.film, key, known(case, &scene), &paths, check).expect("merges")
+            };
+            let refused = |merged: &pinhole::film::Merged| match &merged.refused[..] {
+                [(own, why)] => *own == path("made up") && why.contains("made up") && why.contains("other sums"),
+                _ => false,
+            };
+            let checked = merged_with(&["1", "made up", "2"], 2);
+            assert!(refused(&checked) && checked.film == expected, "{}: {:?}", case.name, checked.refused);
+            if split == Split::Tiles {
+                // Two that hold the same samples are told apart, whichever comes first.
+                for names in [["1", "made up", "2"], ["2", "1", "made up"], ["made up", "2", "1"]] {
+                    let merged = merged_with(&names, 0);
+                    assert!(
+                        refused(&merged) && merged.film == expected,
+                        "{}, {names:?}: {:?}",
+                        case.name,
+                        merged.refused
+                    );
+                    tried += 1;
+                }
+                assert!(merged_with(&["1", "2"], 3).complete, "{}: true parts pass", case.name);
+            }
+            tried += 1;
+        }
+    }
+    eprintln!(
+        "parts: {tried} merges with one that is made up, which is refused by name, the picture that of one machine"
+    );
 }
 
 /// Whatever the number of parts, every unit is in one part.

@@ -71,7 +71,7 @@ pub use film_tile::{FIRST_SAMPLE_STEPS, FilmTile, Rejected};
 #[doc(hidden)]
 pub use layers::{FilmLayers, MATTE_BYTES, add_to_layers, column_of_layer, layers_stage};
 #[doc(hidden)]
-pub use parts::{LightUnit, Merged, Part, PartFilm, Split, Unit, UnitFilm, merge_parts};
+pub use parts::{Check, LightUnit, Merged, Part, PartEntry, PartFilm, Split, Unit, UnitFilm, merge_parts};
 pub use png_files::write_png;
 #[doc(hidden)]
 pub use png_files::{PngKind, png_bytes, png_bytes_as, png_bytes_by, rgba_bytes, rgba_of, write_png_as};

@@ -19,6 +19,7 @@ use crate::scene::{Filter, open_file, printable_path};
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 use std::fs::File;
+use std::hash::{BuildHasher, RandomState};
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -250,16 +251,28 @@ impl PartFilm {
     pub fn read(film: &Film, key: u64, path: &Path) -> Result<Self> {
         let mut found = Self::new(Part { number: 1, of: 1, split: Split::Chosen }, 0, 0);
         let heading = each_entry(film, key, path, &mut |entry, _| match entry {
-            Entry::Unit(own) => found.units.push(*own),
-            Entry::Light(own) => found.light.push(own),
+            PartEntry::Unit(own) => found.units.push(*own),
+            PartEntry::Light(own) => found.light.push(own),
         })?;
         Ok(Self { part: heading.part, samples: heading.samples, batches: heading.batches, ..found })
     }
 }
 
-enum Entry {
+/// A piece of a part.
+pub enum PartEntry {
+    /// Samples of a tile.
     Unit(Box<UnitFilm>),
+    /// Batches of light paths.
     Light(LightUnit),
+}
+
+/// How parts are checked by rendering some of them again.
+pub struct Check<'c> {
+    /// How many pieces of each file are, chosen at random.
+    pub pieces: usize,
+    /// Whether this program computes the same piece, of a render of so many samples; it also decides between two files of
+    /// which one must be wrong.
+    pub is_right: &'c mut dyn FnMut(&PartEntry, u32) -> bool,
 }
 
 /// Where an entry lies in its file, and a checksum of it.
@@ -298,7 +311,7 @@ fn begun(film: &Film, key: u64, path: &Path) -> Result<Begun> {
     Ok((heading, numbers, length))
 }
 
-fn each_entry(film: &Film, key: u64, path: &Path, each: &mut dyn FnMut(Entry, Place)) -> Result<PartHeading> {
+fn each_entry(film: &Film, key: u64, path: &Path, each: &mut dyn FnMut(PartEntry, Place)) -> Result<PartHeading> {
     let failed = |what: &str| Error::Usage(format!("cannot use {}: {what}", printable_path(path)));
     let unread = |error: io::Error| failed(&why_unread(&error));
     let (heading, mut numbers, length) = begun(film, key, path)?;
@@ -312,7 +325,7 @@ fn each_entry(film: &Film, key: u64, path: &Path, each: &mut dyn FnMut(Entry, Pl
             return Err(failed("it holds numbers that no render can have produced"));
         }
         let sum = numbers.sum_of_entry();
-        each(Entry::Unit(Box::new(own)), Place { offset, sum });
+        each(PartEntry::Unit(Box::new(own)), Place { offset, sum });
     }
     for _ in 0..heading.light {
         let offset = numbers.begin_entry();
@@ -323,7 +336,7 @@ fn each_entry(film: &Film, key: u64, path: &Path, each: &mut dyn FnMut(Entry, Pl
             return Err(failed("it holds light paths that no render can have traced"));
         }
         let sum = numbers.sum_of_entry();
-        each(Entry::Light(own), Place { offset, sum });
+        each(PartEntry::Light(own), Place { offset, sum });
     }
     if numbers.ends_here().map_err(unread)? { Ok(heading) } else { Err(failed(DAMAGED)) }
 }
@@ -428,12 +441,94 @@ struct Indexed {
     heading: PartHeading,
 }
 
+/// The pieces of all files that can be used, and the files that cannot.
+#[derive(Default)]
+struct Index {
+    files: Vec<Indexed>,
+    units: BTreeMap<Unit, (usize, Place)>,
+    light: BTreeMap<u64, (u64, usize, Place)>,
+    refused: Vec<(PathBuf, String)>,
+}
+
+impl Index {
+    fn refuse(&mut self, path: &Path, what: &str) {
+        self.refused.push((path.into(), format!("cannot use {}: {what}", printable_path(path))));
+    }
+
+    /// Adds a file, or refuses it; gives an earlier file that must be wrong if this one is right.
+    fn add(
+        &mut self,
+        film: &Film,
+        (key, expected): (u64, Option<(u32, u64)>),
+        path: &Path,
+        check: &mut Check<'_>,
+    ) -> Option<(PathBuf, PathBuf, Place)> {
+        let (mut units, mut light, mut chosen) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut seen, random) = (0_u64, RandomState::new());
+        let read = each_entry(film, key, path, &mut |entry, place| {
+            match &entry {
+                PartEntry::Unit(own) => units.push((own.unit, place)),
+                PartEntry::Light(own) => light.push((own.first, own.batches, place)),
+            }
+            // Each of those so far has the same probability to be among the chosen.
+            let at = random.hash_one(seen) % (seen + 1);
+            seen += 1;
+            if chosen.len() < check.pieces {
+                chosen.push(entry);
+            } else if let Some(place) = chosen.get_mut(at as usize) {
+                *place = entry;
+            }
+        });
+        let heading = match read {
+            Ok(heading) => heading,
+            Err(why) => {
+                self.refused.push((path.into(), why.to_string()));
+                return None;
+            }
+        };
+        if let Some((samples, batches)) = expected.filter(|own| *own != (heading.samples, heading.batches)) {
+            self.refuse(
+                path,
+                &format!(
+                    "it is of a render of {} samples and {} batches of light paths, and not of {samples} and {batches}",
+                    heading.samples, heading.batches
+                ),
+            );
+            return None;
+        }
+        if !chosen.iter().all(|entry| (check.is_right)(entry, heading.samples)) {
+            self.refuse(path, "it holds other sums than a render of the same samples gives");
+            return None;
+        }
+        let other = units.iter().find_map(|(unit, place)| {
+            self.units.get(unit).filter(|(_, held)| held.sum != place.sum).map(|(file, _)| (*file, *place))
+        });
+        let other = other.or_else(|| {
+            light.iter().find_map(|(first, batches, place)| {
+                let differs = |held: &&(u64, usize, Place)| held.0 == *batches && held.2.sum != place.sum;
+                self.light.get(first).filter(differs).map(|(_, file, _)| (*file, *place))
+            })
+        });
+        if let Some((other, place)) = other {
+            return Some((path.into(), self.files[other].path.clone(), place));
+        }
+        let number = self.files.len();
+        units.into_iter().for_each(|(unit, place)| _ = self.units.entry(unit).or_insert((number, place)));
+        for (first, batches, place) in light {
+            self.light.entry(first).or_insert((batches, number, place));
+        }
+        self.files.push(Indexed { path: path.into(), heading });
+        None
+    }
+}
+
 /// Merges parts into a film of the shape of this one, which is empty; `filter` is that of the camera, and `expected` the
 /// number of samples of a pixel and of batches of light paths, if they are known: otherwise most parts have them.
 ///
-/// A unit that several parts hold counts once; a file that holds another result for a unit than the files before it is
-/// refused, as is one that is damaged, of another render, or of another number of samples: by name, and the others are
-/// merged.
+/// A piece that several parts hold counts once; where two hold other sums for the same samples, these are rendered again,
+/// and the file that is wrong is refused.
+/// So is one that is damaged, of another render or of another number of samples, and one of which a piece that is checked
+/// is wrong: by name, and the others are merged.
 /// As long as parts are missing, the film holds the units that are there; of a tile's blocks, those that the gaps leave.
 /// Memory holds one film and a line for each unit, never all parts.
 ///
@@ -443,55 +538,21 @@ pub fn merge_parts(
     key: u64,
     (filter, expected): (Filter, Option<(u32, u64)>),
     paths: &[PathBuf],
+    mut check: Check<'_>,
 ) -> Result<Merged> {
     let expected = expected.or_else(|| usual(film, key, paths));
-    let mut files: Vec<Indexed> = Vec::new();
-    let mut units: BTreeMap<Unit, (usize, Place)> = BTreeMap::new();
-    let mut light: BTreeMap<u64, (u64, usize, Place)> = BTreeMap::new();
-    let mut refused = Vec::new();
-    for path in paths {
-        let (mut own, mut paths_of_light) = (Vec::new(), Vec::new());
-        let read = each_entry(film, key, path, &mut |entry, place| match entry {
-            Entry::Unit(unit) => own.push((unit.unit, place)),
-            Entry::Light(unit) => paths_of_light.push((unit.first, unit.batches, place)),
-        });
-        let heading = match read {
-            Ok(heading) => heading,
-            Err(why) => {
-                refused.push((path.clone(), why.to_string()));
-                continue;
-            }
-        };
-        let failed = |what: String| (path.clone(), format!("cannot use {}: {what}", printable_path(path)));
-        if let Some((samples, batches)) = expected.filter(|own| *own != (heading.samples, heading.batches)) {
-            let theirs = (heading.samples, heading.batches);
-            refused.push(failed(format!(
-                "it is of a render of {} samples and {} batches of light paths, and not of {samples} and {batches}",
-                theirs.0, theirs.1
-            )));
-            continue;
+    let mut wrong: Vec<PathBuf> = Vec::new();
+    let Index { files, units, light, refused } = 'all: loop {
+        let mut index = Index::default();
+        wrong.iter().for_each(|path| index.refuse(path, "it holds other sums than a render of the same samples gives"));
+        for path in paths.iter().filter(|path| !wrong.contains(path)) {
+            let Some((one, other, place)) = index.add(film, (key, expected), path, &mut check) else { continue };
+            // One of the two is wrong, and maybe all that follows from it: the wrong one is left out, and all is read anew.
+            wrong.push(if is_right_at(film, key, &one, place, &mut check)? { other } else { one });
+            continue 'all;
         }
-        let other = own
-            .iter()
-            .find_map(|(unit, place)| units.get(unit).filter(|(_, held)| held.sum != place.sum).map(|(file, _)| *file));
-        let other = other.or_else(|| {
-            paths_of_light.iter().find_map(|(first, batches, place)| {
-                let differs = |held: &&(u64, usize, Place)| held.0 == *batches && held.2.sum != place.sum;
-                light.get(first).filter(differs).map(|(_, file, _)| *file)
-            })
-        });
-        if let Some(other) = other {
-            let other = printable_path(&files[other].path);
-            refused.push(failed(format!("it holds other sums than {other} for the same samples")));
-            continue;
-        }
-        let number = files.len();
-        own.into_iter().for_each(|(unit, place)| _ = units.entry(unit).or_insert((number, place)));
-        for (first, batches, place) in paths_of_light {
-            light.entry(first).or_insert((batches, number, place));
-        }
-        files.push(Indexed { path: path.clone(), heading });
-    }
+        break index;
+    };
     let Some(first) = files.first().map(|file| file.heading) else {
         let why =
             refused.first().map_or("there is no part to merge".into(), |(_, why): &(PathBuf, String)| why.clone());
@@ -549,6 +610,16 @@ pub fn merge_parts(
     }
     let missing = if complete { Vec::new() } else { missing(&files, film.tiles.len() as u32) };
     Ok(Merged { film: merged, samples: first.samples, complete, used: files.len(), missing, refused })
+}
+
+/// Whether a piece of a file is what this program computes.
+fn is_right_at(film: &Film, key: u64, path: &Path, place: Place, check: &mut Check<'_>) -> Result<bool> {
+    let mut is_right = true;
+    let heading = begun(film, key, path)?.0;
+    each_entry(film, key, path, &mut |entry, own| {
+        is_right &= own != place || (check.is_right)(&entry, heading.samples);
+    })?;
+    Ok(is_right)
 }
 
 /// The numbers of samples and of batches that most of the parts say their render has.

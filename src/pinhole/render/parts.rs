@@ -4,7 +4,7 @@ use super::light_pass::Means;
 use super::render_world::RenderWorld;
 use super::steps::steps_of;
 use super::{RenderInProgress, Watch, planned_samples};
-use crate::film::{BLOCK, Film, LightUnit, Part, PartFilm, Unit, UnitFilm};
+use crate::film::{BLOCK, Film, LightUnit, Part, PartEntry, PartFilm, Unit, UnitFilm};
 use crate::follow::{Splats, Stop};
 use crate::plan::VectorRows;
 use crate::scene::Adaptive;
@@ -96,7 +96,7 @@ impl RenderInProgress {
             while (is_first || Instant::now() < until) && !watch.stopped() {
                 is_first = false;
                 let Some(unit) = queue.lock().unwrap_or_else(PoisonError::into_inner).next() else { return };
-                if let Some(unit) = self.run_unit(world, unit, samples, watch) {
+                if let Some(unit) = self.run_unit(world, self.film.unit(unit), samples, watch) {
                     done.lock().unwrap_or_else(PoisonError::into_inner).push(unit);
                 }
             }
@@ -125,9 +125,33 @@ impl RenderInProgress {
         if watch.stopped() { Err(Error::Interrupted) } else { Ok(complete) }
     }
 
+    /// Whether a piece of a part is what this render computes, of a render of so many samples.
+    pub fn computes(&self, entry: &PartEntry, samples: u32) -> bool {
+        match (entry, &self.light) {
+            (PartEntry::Unit(own), _) => {
+                let mut world = self.worlds[0].lock().unwrap_or_else(PoisonError::into_inner);
+                let world = world.get_or_insert_with(|| RenderWorld::new(&self.plan, &self.tables, 1, &[]));
+                let empty = UnitFilm { planned: own.planned.clone(), ..self.film.unit(own.unit) };
+                self.run_unit(world, empty, samples, &()).is_some_and(|again| again == **own)
+            }
+            (PartEntry::Light(own), Some(light)) => {
+                let means = Means { plan: &self.plan, tables: &self.tables, pool: self.pool.as_ref() };
+                let again = light.lists(own.first, own.batches, &means, &());
+                again.is_some_and(|(batches, lists)| unit_of(own.first, batches, &lists) == *own)
+            }
+            (PartEntry::Light(_), None) => false,
+        }
+    }
+
     /// Sums a unit's samples from zero; none if it was abandoned.
-    fn run_unit(&self, world: &mut RenderWorld, unit: Unit, samples: u32, watch: &dyn Watch) -> Option<UnitFilm> {
-        let mut own = self.film.unit(unit);
+    fn run_unit(
+        &self,
+        world: &mut RenderWorld,
+        mut own: UnitFilm,
+        samples: u32,
+        watch: &dyn Watch,
+    ) -> Option<UnitFilm> {
+        let unit = own.unit;
         let first = unit.block.map_or(0, |block| block * BLOCK);
         let mut done = if first == 0 { 0 } else { steps_of(first) };
         let to = steps_of(unit.block.map_or(samples, |_| (first + BLOCK).min(samples)));
