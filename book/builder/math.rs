@@ -49,11 +49,24 @@ pub fn edits(text: &str) -> (Vec<Edit>, Vec<Mistake>) {
             _ => continue,
         };
         match found {
-            Ok(text) => edits.push(Edit { range, text }),
+            Ok(mathml) => edits.push(with_punctuation(text, range, mathml)),
             Err(what) => mistakes.push(Mistake { at: range.start, what }),
         }
     }
     (edits, mistakes)
+}
+
+/// A formula with the punctuation mark after it, which browsers would put at the start of the next line.
+fn with_punctuation(text: &str, range: Range<usize>, mathml: String) -> Edit {
+    let mark = text[range.end..].chars().next().filter(|next| ".,;:!?)".contains(*next));
+    match (mark, mathml.rfind("<math")) {
+        (Some(mark), Some(last)) if !mathml.ends_with("</span>") => {
+            let (before, last) = mathml.split_at(last);
+            let range = range.start..range.end + mark.len_utf8();
+            Edit { range, text: format!("{before}<span class=\"whole\">{last}{mark}</span>") }
+        }
+        _ => Edit { range, text: mathml },
+    }
 }
 
 /// A short text with its formulas converted.
@@ -211,6 +224,8 @@ mod tests {
         let text = expand("the angle $\\theta$ is").expect("a formula");
         assert!(text.starts_with("the angle <math"), "{text}");
         assert!(text.contains("<mi>θ</mi>") && text.ends_with("</math> is"), "{text}");
+        let text = expand("by $\\theta$. So").expect("a formula");
+        assert!(text.starts_with("by <span class=\"whole\"><math") && text.ends_with("</math>.</span> So"), "{text}");
         let text = expand("$$\n\\frac{a}{b}\n$$").expect("a formula");
         assert!(text.starts_with("<span class=\"formula\"><math display=\"block\""), "{text}");
         let space = expand("$a,\\ b$").expect("a formula");

@@ -173,11 +173,12 @@ impl Job<'_> {
              #SBATCH --output={log}\n\
              # One part of the picture. A stop in time leaves what there is, and the part is queued again.\n\
              PART=$((${{BEFORE:-0}} + SLURM_ARRAY_TASK_ID))\n\
+             trap 'test -n \"$pid\" && kill -TERM $pid' TERM\n\
              {line} &\n\
-             trap 'kill -TERM $!' TERM\n\
-             wait $!\n\
+             pid=$!\n\
+             wait $pid\n\
              status=$?\n\
-             if [ $status -gt 128 ]; then wait $!; status=$?; fi\n\
+             if [ $status -gt 128 ]; then wait $pid; status=$?; fi\n\
              # 75 is a part that is not done, 130 one that was not begun, other signals may pass. Where RequeueExit=75 is set,\n\
              # Slurm does this too.\n\
              if [ $status -eq 75 ] || [ $status -ge 128 -a \"${{SLURM_RESTART_COUNT:-0}}\" -lt {TRIES} ]; then\n\

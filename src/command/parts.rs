@@ -90,7 +90,11 @@ pub fn render_part(
     let path = part_file(picture, part.number, part.of);
     let (scene, mut render) = begun(subject, options)?;
     let census = &Census::of(&scene);
-    let waiting = Waiting::with(if options.quiet { Progress::hidden() } else { Progress::bar(0) }, 0);
+    let progress = match streams.waits && !options.quiet && !options.openjd {
+        true => Progress::of(&format!("part {} of {}", part.number, part.of), 0, None),
+        false => Progress::hidden(),
+    };
+    let waiting = Waiting::with(progress, 0);
     let key = render.key(&scene, &waiting).map_err(before_it_began)?;
     let adaptive = adaptive_of(census)?;
     let pilot = picture.with_extension("pilot.checkpoint");
