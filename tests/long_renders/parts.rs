@@ -158,6 +158,41 @@ fn parts_add_up_to_the_bits_of_one_machine() {
     eprintln!("parts: {merges} merges of {} scenes, {parts} parts, every bit that of one machine", CASES.len());
 }
 
+/// A block ends with its 64th sample, wherever a pass does, and in one world for all tiles as in many.
+#[test]
+fn blocks_do_not_depend_on_passes_or_worlds() {
+    let mut tried = 0;
+    for case in [&CASES[1], &CASES[6], &CASES[9]] {
+        let scene = case.world();
+        let expected = whole(case, &scene);
+        let adaptive = pinhole::extract::adaptive_of(&Census::of(&scene)).expect("a camera");
+        for worlds in [Worlds::PerWorker, Worlds::One] {
+            for cuts in [&[4, 66, 67, 68, 131][..], &[1, 67], &[130]] {
+                let execution = Execution { threads: Some(2), tile_side: 16, worlds, ..Execution::default() };
+                let mut render =
+                    RenderInProgress::begin(&Census::of(&scene), &case.chapter().stages(), &execution).expect("begins");
+                if let Some(adaptive) = adaptive {
+                    render.begin_pilot();
+                    render.advance(steps_of(adaptive.pilot), &()).expect("goes on");
+                    let planned = pinhole::render::planned_samples(&render.film, adaptive.error);
+                    render.begin_planned(planned);
+                }
+                let last = steps_of(if adaptive.is_some() {
+                    render.film.most_planned().min(case.samples)
+                } else {
+                    case.samples
+                });
+                for &step in cuts.iter().filter(|step| **step < last).chain([&last]) {
+                    render.advance(step, &()).expect("goes on");
+                }
+                assert!(render.film == expected, "{}, {worlds:?}, {cuts:?}", case.name);
+                tried += 1;
+            }
+        }
+    }
+    eprintln!("blocks: {tried} ways to cut films of more than 64 samples, every field the same");
+}
+
 #[test]
 fn a_merge_without_some_parts_says_so_and_shows_what_there_is() {
     let case = &CASES[5];

@@ -453,7 +453,8 @@ impl Film {
         let rows = |tile: &FilmTile| tile.count.len() + tile.negative_count.len();
         let of_tile = |tile: &FilmTile| rows(tile) * a_row + tile.earlier_bytes() + size_of::<FilmTile>();
         let sums: usize = self.tiles.iter().map(of_tile).sum();
-        let moments = self.moments.iter().map(|own| own.rows() * 3 * size_of::<f64>() + size_of::<FilmMoments>());
+        let of_moments = |own: &FilmMoments| (own.rows() + own.earlier[0].len()) * 3 * size_of::<f64>();
+        let moments = self.moments.iter().map(|own| of_moments(own) + size_of::<FilmMoments>());
         let planned = self.planned.iter().map(|own| own.len() * size_of::<u32>());
         let splats = self.splats.as_ref().map_or(0, FilmSplats::bytes);
         splats + sums + moments.chain(planned).chain(self.layers.iter().map(FilmLayers::bytes)).sum::<usize>()

@@ -342,12 +342,11 @@ impl RenderWorld {
                 let mut active = 0;
                 for (number, &tile) in tiles.iter().enumerate() {
                     let planned = film.planned.get(number).map(Vec::as_slice);
-                    if behind[number] {
+                    let own = if behind[number] { self.activate(tile, &run, planned) } else { self.rest(tile) };
+                    if own > 0 {
                         self.begin_block(tile, &run);
-                        active += self.activate(tile, &run, planned);
-                    } else {
-                        active += self.rest(tile);
                     }
+                    active += own;
                 }
                 if active > 0 {
                     self.run();

@@ -32,7 +32,7 @@ impl RenderInProgress {
         let mut hash = fnv(FNV_BASIS, env!("CARGO_PKG_VERSION").as_bytes());
         hash = fnv(hash, fingerprint(scene).as_bytes());
         for row in self.plan.rows.iter().filter(|row| row.kept) {
-            hash = fnv(hash, row.stage.as_bytes());
+            hash = fnv(fnv(hash, row.stage.as_bytes()), b"\n");
         }
         let mut world = RenderWorld::new(&self.plan, &self.tables, 1, &[]);
         world.stop_at(Stop::at_flag(watch.stop_flag()));
