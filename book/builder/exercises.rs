@@ -91,7 +91,8 @@ mod tests {
         let [sheet, answers] = sheets.as_slice() else { panic!("two sheets") };
         for sheet in [sheet, answers] {
             assert!(
-                sheet.html.contains("<h2>7. Seven</h2>") && sheet.html.contains("<strong>7.1</strong> ★★ Which <math")
+                sheet.html.contains("<h2>7. Seven</h2>")
+                    && sheet.html.contains("<strong>7.1</strong> ★★ Which <span class=\"whole\"><math")
             );
         }
         assert!(sheet.html.contains("class=\"room level2\"") && !sheet.html.contains("This."));

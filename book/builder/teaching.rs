@@ -164,7 +164,10 @@ mod tests {
         assert!(needed.contains("| [1. The one](01_a.md) | [2](02_b.md) to [3](03_c.md) |  |"), "{needed}");
         assert!(needed.contains("| [3. The three](03_c.md) | **none: it may be skipped** | |"), "{needed}");
         let goals = part(Part::Goals, &all).expect("a table");
-        assert!(goals.contains("<li>Derive <math") && goals.contains("| *0.0* | *0.0* | *0.0* |"), "{goals}");
+        assert!(
+            goals.contains("<li>Derive <span class=\"whole\"><math") && goals.contains("| *0.0* | *0.0* | *0.0* |"),
+            "{goals}"
+        );
         let without = part(Part::Goals, &all[1..]).expect("no summary, no chapters");
         assert!(!without.contains("<li>"));
     }

@@ -45,9 +45,7 @@ pub fn render_long(
     waiting: &Waiting,
     say: &mut dyn FnMut(&str) -> Result,
 ) -> Result<LongRender> {
-    let (key, first) = (render.key(scene, waiting)?, files.targets.checkpoint());
-    // The film of a part of the image is another film.
-    let key = options.crop.map_or(key, |part| fnv(key, format!("{part:?}").as_bytes()));
+    let (key, first) = (key_of(render, scene, options, waiting)?, files.targets.checkpoint());
     let limits = Limits { time: options.time, write_every: options.write_every, adaptive: adaptive_of(scene)? };
     if let (Some(_), Some(first)) = (options.frame, &first) {
         let is_there = files.targets.pictures.iter().all(|picture| picture.exists());
@@ -117,6 +115,19 @@ pub fn render_long(
         kept.remove(&render.film)?;
     }
     Ok(LongRender { outcome, checkpoint, was_done: false })
+}
+
+/// The key of a render: the film of a part of the image is another film.
+///
+/// Errors: stopped.
+pub fn key_of(
+    render: &RenderInProgress,
+    scene: &Census<'_>,
+    options: &RenderOptions,
+    waiting: &Waiting,
+) -> pinhole::Result<u64> {
+    let key = render.key(scene, waiting)?;
+    Ok(options.crop.map_or(key, |part| fnv(key, format!("{part:?}").as_bytes())))
 }
 
 /// What is kept of a render on the way.

@@ -114,7 +114,7 @@ pub struct RenderOptions {
     #[arg(long, value_name = "TIME", value_parser = span)]
     pub write_every: Option<Duration>,
     /// Compute one part of the picture, such as 3/64, and leave it in a file beside the picture, for `merge`
-    #[arg(long, value_name = "I/N", conflicts_with_all = ["time", "naive", "crop"], value_parser = part)]
+    #[arg(long, value_name = "I/N", conflicts_with_all = ["time", "naive"], value_parser = part)]
     pub part: Option<[u32; 2]>,
     /// How the picture is divided into parts: by tiles, samples, both, or as chosen for the number of parts
     #[arg(long, value_name = "WORD", requires = "part", value_parser = |word: &str| one_of(word, "split", &Split::ALL))]

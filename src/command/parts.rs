@@ -4,6 +4,7 @@ use super::files::{Files, Targets};
 use super::format::{Format, print_json};
 use super::hints;
 use super::interrupt::{EndsByItself, Waiting};
+use super::long_render::key_of;
 use super::options::RenderOptions;
 use super::progress::Progress;
 use super::render::{attributes, keep_guides};
@@ -66,7 +67,7 @@ fn begun(subject: &Subject<'_>, options: &RenderOptions) -> Result<(World, Rende
     let placed = |error| subject.placed(error, &asked);
     let census = &Census::of(&scene);
     validate(census).map_err(|scene_error| placed(scene_error.into()))?;
-    let execution = Execution { threads: options.threads.map(usize::from), ..Execution::default() };
+    let execution = Execution { threads: options.threads.map(usize::from), part: options.crop, ..Execution::default() };
     let render = RenderInProgress::begin(census, &subject.stages(), &execution).map_err(placed)?;
     Ok((scene, render))
 }
@@ -95,7 +96,7 @@ pub fn render_part(
         false => Progress::hidden(),
     };
     let waiting = Waiting::with(progress, 0);
-    let key = render.key(&scene, &waiting).map_err(before_it_began)?;
+    let key = key_of(&render, census, options, &waiting).map_err(before_it_began)?;
     let adaptive = adaptive_of(census)?;
     let pilot = picture.with_extension("pilot.checkpoint");
     let has_pilot = adaptive.is_some() && matches!(checkpoint_at(&pilot, key), CheckpointAt::Own(_));
@@ -211,7 +212,7 @@ pub fn merge(
     targets.check()?;
     let (scene, render) = begun(subject, options)?;
     let census = &Census::of(&scene);
-    let key = render.key(&scene, &Waiting::with(Progress::hidden(), 0))?;
+    let key = key_of(&render, census, options, &Waiting::with(Progress::hidden(), 0))?;
     let paths = match (parts, targets.pictures.first()) {
         ([], Some(picture)) => parts_beside(picture),
         (named, _) => named.to_vec(),
@@ -292,15 +293,11 @@ impl Told {
                 )
             }
         };
-        let lacks = match missing {
-            [] => "some parts are unfinished or of different divisions, and do not make a whole yet".into(),
-            missing => {
-                let shown: Vec<String> = missing.iter().take(12).map(|part| part.number.to_string()).collect();
-                let more = missing.len().saturating_sub(shown.len());
-                let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
-                format!("not complete: missing or unfinished of {} parts: {}{rest}", missing[0].of, shown.join(", "))
-            }
-        };
+        let shown: Vec<String> = missing.iter().take(12).map(|part| part.number.to_string()).collect();
+        let more = missing.len().saturating_sub(shown.len());
+        let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+        let of = missing.first().map_or(0, |part| part.of);
+        let lacks = format!("not complete: missing or unfinished of {of} parts: {}{rest}", shown.join(", "));
         Self { sentence, lacks, error }
     }
 }

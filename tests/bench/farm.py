@@ -2,7 +2,7 @@
 """A farm on one machine: parts on a Slurm of four nodes (two killed, one slow, one part forged), by Open Job
 Description and by GNU parallel, each against one process, bit by bit; what parts cost; and many parts merged.
 
-    cargo build --release && tests/bench/farm.py [--parts 64] [--merge 1000] [FOLDER]
+    cargo build --release && tests/bench/farm.py [--parts 64] [--scale 4] [--merge 1000] [FOLDER]
 
 What is not installed is skipped, and that is said. Debian: apt-get install --no-install-recommends slurm-wlm
 slurm-client munge parallel; pip install openjd-cli.
@@ -21,7 +21,7 @@ import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PINHOLE = ROOT / "target/release/pinhole"
+PINHOLE = pathlib.Path(os.environ.get("PINHOLE", ROOT / "target/release/pinhole"))
 
 # A scene of every integrator, with what a film keeps beside its sums.
 SCENES = [
@@ -272,9 +272,12 @@ def main():
     parser.add_argument("--merge", type=int, default=1000)
     parser.add_argument("--only", choices=["overhead", "slurm", "others", "merge"])
     parser.add_argument("--scenes", type=int, default=len(SCENES), help="how many of the scenes")
+    parser.add_argument("--scale", type=int, default=1, help="how many times as wide and as high the pictures are")
     parser.add_argument("folder", nargs="?", default="/tmp/pinhole-farm")
     asked = parser.parse_args()
     del SCENES[asked.scenes:]
+    size = f"--size {240 * asked.scale}x{135 * asked.scale}"
+    SCENES[:] = [(name, words.replace("--size 240x135", size)) for name, words in SCENES]
     folder = pathlib.Path(asked.folder)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)

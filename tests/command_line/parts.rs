@@ -51,7 +51,16 @@ fn a_farm_on_this_machine_gives_the_picture_of_one_process() {
     // What was merged is a checkpoint like any other.
     let more = with(folder.path(), &["render"], &["--resume", "-o", "b.exr"]);
     assert!(text(&more.stderr).contains("continuing from b.checkpoint, 150 samples"), "{}", text(&more.stderr));
-    eprintln!("parts: {tried} processes, 4 merges, every bit that of one process");
+    // A part of the image is divided like a whole one, and its parts are none of the whole image's.
+    let crop = ["--crop", "9,3,45,30"];
+    let expected = picture(folder.path(), &crop);
+    let farm = [&["--parts", "3", "--local", "-o", "c.exr"], &crop[..]].concat();
+    let done = with(folder.path(), &["farm"], &farm);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    assert!(fs::read(folder.path().join("c.exr")).expect("a picture") == expected, "cropped");
+    let without = with(folder.path(), &["merge"], &["-o", "c.exr"]);
+    assert!(text(&without.stderr).contains("it is a part of another scene"), "{}", text(&without.stderr));
+    eprintln!("parts: {tried} processes, 5 merges, every bit that of one process");
 }
 
 #[test]

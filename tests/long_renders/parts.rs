@@ -222,6 +222,11 @@ fn a_merge_without_some_parts_says_so_and_shows_what_there_is() {
     let merged =
         merge_parts(&shape.film, key, known(case, &scene), &paths, rendered_again(&mut |_, _| false)).expect("merges");
     assert!(merged.complete && merged.refused.is_empty() && merged.film == expected);
+    // Without one, what is missing is a part of the division that most are of.
+    paths.remove(0);
+    let merged =
+        merge_parts(&shape.film, key, known(case, &scene), &paths, rendered_again(&mut |_, _| false)).expect("merges");
+    assert_eq!(merged.missing, [part(1)]);
     eprintln!("parts: tiles as they come {lit:?}, a part twice, and one of another division");
 }
 
@@ -351,11 +356,14 @@ fn a_part_that_is_made_up_is_told_by_rendering_some_of_it_again() {
         }
         let adaptive = pinhole::extract::adaptive_of(&Census::of(&scene)).expect("a camera");
         for split in [Split::Tiles, Split::Both] {
-            // All of its sums are half of what they are.
+            // All of its sums are others, black tiles included: whichever pieces are chosen, they are told.
             let mut render = begun(case, &scene, 1);
             let mut own = render.begin_part(part(2, split), adaptive, &(), &mut |_| Ok(())).expect("begins");
             render.advance_part(&mut own, Instant::now() + Duration::from_secs(60), &()).expect("goes on");
-            own.units.iter_mut().flat_map(|own| own.tile.sum.iter_mut().flatten()).for_each(|sum| *sum *= 0.5);
+            own.units
+                .iter_mut()
+                .flat_map(|own| own.tile.sum.iter_mut().flatten())
+                .for_each(|sum| *sum = 0.5 * *sum + 0.01);
             own.light.iter_mut().flat_map(|own| own.rgb.iter_mut().flatten()).for_each(|part| *part *= 0.5);
             own.write(&render.film, key, &path("made up")).expect("written");
             let again = begun(case, &scene, 2);

@@ -17,7 +17,7 @@ use super::{
 use crate::follow::LIGHT_PATHS;
 use crate::scene::{Filter, open_file, printable_path};
 use crate::{Error, Result};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::hash::{BuildHasher, RandomState};
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
@@ -91,17 +91,6 @@ impl Part {
                 self.cut(blocks).flat_map(|block| (block * tiles..(block + 1) * tiles).map(unit)).collect()
             }
             Split::Both | Split::Chosen => self.cut(tiles * blocks).map(unit).collect(),
-        }
-    }
-
-    /// How many units it has.
-    fn count(&self, tiles: u64, samples: u32) -> u64 {
-        let blocks = u64::from(blocks_of(samples));
-        let length = |range: Range<u64>| range.end - range.start;
-        match self.split(tiles, blocks) {
-            Split::Tiles => length(self.cut(tiles)),
-            Split::Samples => length(self.cut(blocks)) * tiles,
-            Split::Both | Split::Chosen => length(self.cut(tiles * blocks)),
         }
     }
 
@@ -429,7 +418,7 @@ pub struct Merged {
     pub complete: bool,
     /// How many files were used.
     pub used: usize,
-    /// The parts of which something is missing, by what the files say of how many there are.
+    /// The parts of which something is in no file, of the division that most of the files are of.
     pub missing: Vec<Part>,
     /// The files that were not used, and why.
     pub refused: Vec<(PathBuf, String)>,
@@ -565,6 +554,7 @@ pub fn merge_parts(
     let mut reader = Reader { film, files: &files, open: None };
     let last = blocks_of(first.samples);
     let mut blocks = vec![0; film.tiles.len()];
+    let there: BTreeSet<Unit> = units.keys().copied().collect();
     // All of a tile before its blocks, and these in order: as the units are sorted.
     for (unit, (file, place)) in units {
         let tile = unit.tile as usize;
@@ -580,7 +570,7 @@ pub fn merge_parts(
         }
         merged.append(own);
     }
-    let mut complete = blocks.iter().all(|&own| own == last);
+    let mut gaps: Vec<Range<u64>> = Vec::new();
     for (done, &own) in merged.done.iter_mut().zip(&blocks) {
         *done = match own {
             0 => 0,
@@ -595,7 +585,7 @@ pub fn merge_parts(
             if start < next {
                 continue;
             }
-            complete &= start == next;
+            gaps.push(next..start);
             next = start + batches;
             let own = reader.light(file, place)?;
             let [x, y] = &own.raster;
@@ -605,10 +595,20 @@ pub fn merge_parts(
             }
             splats.paths += batches * u64::from(LIGHT_PATHS);
         }
-        complete &= next == first.batches;
+        gaps.push(next..first.batches);
         merged.splats = Some(splats);
     }
-    let missing = if complete { Vec::new() } else { missing(&files, film.tiles.len() as u32) };
+    gaps.retain(|gap| !gap.is_empty());
+    let complete = gaps.is_empty() && blocks.iter().all(|&own| own == last);
+    let lacks = |part: &Part| {
+        let lit = part.batches(first.batches);
+        gaps.iter().any(|gap| gap.start < lit.end && lit.start < gap.end)
+            || part
+                .units(blocks.len() as u32, first.samples)
+                .iter()
+                .any(|unit| blocks[unit.tile as usize] != last && !(unit.block.is_some() && there.contains(unit)))
+    };
+    let missing = parts_of_most(&files).filter(|part| !complete && lacks(part)).collect();
     Ok(Merged { film: merged, samples: first.samples, complete, used: files.len(), missing, refused })
 }
 
@@ -633,20 +633,12 @@ fn usual(film: &Film, key: u64, paths: &[PathBuf]) -> Option<(u32, u64)> {
     counts.into_iter().max_by_key(|(_, count)| *count).map(|(own, _)| own)
 }
 
-/// The parts that are missing or unfinished, where all files agree on how many there are.
-fn missing(files: &[Indexed], tiles: u32) -> Vec<Part> {
-    let first = files[0].heading.part;
-    let is_alike = |file: &Indexed| (file.heading.part.of, file.heading.part.split) == (first.of, first.split);
-    if !files.iter().all(is_alike) {
-        return Vec::new();
-    }
-    let is_done = |number: u32| {
-        let part = Part { number, ..first };
-        files.iter().map(|file| file.heading).any(|heading| {
-            heading.part == part && u64::from(heading.units) >= part.count(u64::from(tiles), heading.samples)
-        })
-    };
-    (1..=first.of).filter(|&number| !is_done(number)).map(|number| Part { number, ..first }).collect()
+/// The parts of the division that most of the files are of; of several, the first.
+fn parts_of_most(files: &[Indexed]) -> impl Iterator<Item = Part> {
+    let division = |file: &Indexed| Part { number: 1, ..file.heading.part };
+    let alike = |one: Part| files.iter().filter(|file| division(file) == one).count();
+    let most = files.iter().rev().map(division).max_by_key(|one| alike(*one));
+    most.into_iter().flat_map(|first| (1..=first.of).map(move |number| Part { number, ..first }))
 }
 
 /// Reads entries of several files, of which one is open at a time.
