@@ -352,8 +352,10 @@ impl Access {
         let (mut world, mut schedule) = (World::new(), Schedule::default());
         schedule.add_systems(configs);
         let mut access = Self::default();
-        let built = schedule.initialize(&mut world).is_ok();
-        for (_, system) in schedule.systems_with_access().ok().filter(|_| built).into_iter().flatten() {
+        // Its systems say what they touch before the schedule is built, which would take most of a program's start.
+        schedule.graph_mut().initialize(&mut world);
+        let systems = &schedule.graph().systems;
+        for system in systems.iter().filter_map(|(key, ..)| systems.get(key)) {
             if let SystemAccess::Shared(parameters) = system.access() {
                 parameters.filtered_accesses().iter().for_each(|parameter| access.add(parameter, &world));
             }
