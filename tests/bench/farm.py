@@ -12,6 +12,7 @@ import argparse
 import json
 import os
 import pathlib
+import re
 import resource
 import shutil
 import signal
@@ -271,13 +272,16 @@ def main():
     parser.add_argument("--parts", type=int, default=64)
     parser.add_argument("--merge", type=int, default=1000)
     parser.add_argument("--only", choices=["overhead", "slurm", "others", "merge"])
-    parser.add_argument("--scenes", type=int, default=len(SCENES), help="how many of the scenes")
+    parser.add_argument("--scenes", help="the numbers of the scenes, from 1, such as 1,3,4")
+    parser.add_argument("--times", type=int, default=1, help="how many times as many samples")
     parser.add_argument("--scale", type=int, default=1, help="how many times as wide and as high the pictures are")
     parser.add_argument("folder", nargs="?", default="/tmp/pinhole-farm")
     asked = parser.parse_args()
-    del SCENES[asked.scenes:]
+    if asked.scenes:
+        SCENES[:] = [SCENES[int(number) - 1] for number in asked.scenes.split(",")]
     size = f"--size {240 * asked.scale}x{135 * asked.scale}"
-    SCENES[:] = [(name, words.replace("--size 240x135", size)) for name, words in SCENES]
+    more = lambda words: re.sub(r"-n (\d+)", lambda found: f"-n {int(found[1]) * asked.times}", words)
+    SCENES[:] = [(name, more(words.replace("--size 240x135", size))) for name, words in SCENES]
     folder = pathlib.Path(asked.folder)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)

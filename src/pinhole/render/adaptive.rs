@@ -1,5 +1,4 @@
 use crate::film::{Film, FilmTile};
-use std::ops::RangeInclusive;
 
 /// The constant added to the square of a pixel's radiance before its squared error is divided by it, as in relMSE.
 pub const EPSILON: f64 = 1e-2;
@@ -24,36 +23,31 @@ pub fn samples_for(variance: f64, mean_square: f64, error: f64) -> u32 {
 /// The pilot samples are independent of the new ones, so the mean of the new ones stays unbiased whatever is decided
 /// from the pilot (Kirk and Arvo, "Unbiased sampling techniques for image synthesis", 1991).
 pub fn planned_samples(pilot: &Film, error: f64) -> Vec<Vec<u32>> {
-    let mut all = Noise::default();
-    let mut first = Vec::new();
-    for tile in &pilot.tiles {
-        for row in 0..tile.tile.rows() {
-            let [x, y] = tile.tile.pixel_of(row);
-            let (own, around) = (Noise::of(pilot, x..=x, y..=y), Noise::around(pilot, x, y));
-            all.add(&own);
-            let known = own.variance().max(around.variance()) + around.one_event(around.event_size());
-            first.push((known, around));
-        }
-    }
+    let pixels = Noise::of_pixels(pilot);
+    let around = |tile: &FilmTile, row: usize| Noise::around(&pixels, pilot.width, tile.tile.pixel_of(row));
+    let known =
+        |[own, around]: &[Noise; 2]| own.variance().max(around.variance()) + around.one_event(around.event_size());
     let planned =
         |tile: &FilmTile, row: usize, variance: f64| samples_for(variance, mean_square(tile.shown_f64(row)), error);
-    let rows = || pilot.tiles.iter().flat_map(|tile| (0..tile.tile.rows()).map(move |row| (tile, row)));
-    let total: f64 = rows().zip(&first).map(|((tile, row), (known, _))| f64::from(planned(tile, row, *known))).sum();
+    let (mut all, mut total) = (Noise::default(), 0.0);
+    for tile in &pilot.tiles {
+        for row in 0..tile.tile.rows() {
+            let noise = around(tile, row);
+            all.add(&noise[0]);
+            total += f64::from(planned(tile, row, known(&noise)));
+        }
+    }
     let max = (total / all.pixels).ceil() as u32;
-    let mut first = first.into_iter();
-    let of_tile = |tile: &FilmTile| {
-        let of_row = |row: usize| {
-            let (known, around) = first.next().unwrap_or_default();
-            match (all.event_size(), around.event_size()) {
-                (Some(size), None) => planned(tile, row, around.one_event(Some(size))).min(max),
-                // Nothing was seen to vary anywhere: all samples together have just missed light like that of a white wall.
-                (None, _) => planned(tile, row, all.one_event(Some(1.0))),
-                _ => planned(tile, row, known),
-            }
-        };
-        (0..tile.tile.rows()).map(of_row).collect()
+    let of_row = |tile: &FilmTile, row: usize| {
+        let noise = around(tile, row);
+        match (all.event_size(), noise[1].event_size()) {
+            (Some(size), None) => planned(tile, row, noise[1].one_event(Some(size))).min(max),
+            // Nothing was seen to vary anywhere: all samples together have just missed light like that of a white wall.
+            (None, _) => planned(tile, row, all.one_event(Some(1.0))),
+            _ => planned(tile, row, known(&noise)),
+        }
     };
-    pilot.tiles.iter().map(of_tile).collect()
+    pilot.tiles.iter().map(|tile| (0..tile.tile.rows()).map(|row| of_row(tile, row)).collect()).collect()
 }
 
 /// What the pilot samples of some pixels say together about their noise.
@@ -76,27 +70,33 @@ struct Noise {
 }
 
 impl Noise {
-    fn of(pilot: &Film, columns: RangeInclusive<u32>, lines: RangeInclusive<u32>) -> Self {
-        let mut noise = Self::default();
-        for y in lines {
-            for x in columns.clone() {
-                let (tile, row) = pilot.place(x, y);
-                let film = &pilot.tiles[tile];
-                let variance = mean_of(pilot.moments.get(tile).map_or([0.0; 3], |own| own.variance(film, row)));
-                let light = mean_of(film.shown_f64(row)).abs();
-                noise.pixels += 1.0;
-                noise.samples += f64::from(film.count[row]);
-                noise.variances += variance;
-                noise.sized += if light > 0.0 { variance * (variance / light) } else { 0.0 };
+    /// That of each pixel, line by line.
+    fn of_pixels(pilot: &Film) -> Vec<Self> {
+        let mut pixels = vec![Self::default(); pilot.width as usize * pilot.height as usize];
+        for (number, tile) in pilot.tiles.iter().enumerate() {
+            for row in 0..tile.tile.rows() {
+                let variance = mean_of(pilot.moments.get(number).map_or([0.0; 3], |own| own.variance(tile, row)));
+                let light = mean_of(tile.shown_f64(row)).abs();
+                let [x, y] = tile.tile.pixel_of(row);
+                pixels[y as usize * pilot.width as usize + x as usize] = Self {
+                    pixels: 1.0,
+                    samples: f64::from(tile.count[row]),
+                    variances: variance,
+                    sized: if light > 0.0 { variance * (variance / light) } else { 0.0 },
+                };
             }
         }
-        noise
+        pixels
     }
 
-    /// That of the 3 × 3 pixels around one, as far as they are in the picture.
-    fn around(pilot: &Film, x: u32, y: u32) -> Self {
-        let columns = x.saturating_sub(1)..=(x + 1).min(pilot.width - 1);
-        Self::of(pilot, columns, y.saturating_sub(1)..=(y + 1).min(pilot.height - 1))
+    /// That of a pixel, and that of the 3 × 3 pixels around it, as far as they are in the picture.
+    fn around(pixels: &[Self], width: u32, [x, y]: [u32; 2]) -> [Self; 2] {
+        let mut around = Self::default();
+        for line in pixels.chunks(width as usize).take(y as usize + 2).skip(y.saturating_sub(1) as usize) {
+            let columns = x.saturating_sub(1) as usize..(x as usize + 2).min(line.len());
+            line[columns].iter().for_each(|pixel| around.add(pixel));
+        }
+        [pixels[y as usize * width as usize + x as usize], around]
     }
 
     fn add(&mut self, other: &Self) {
