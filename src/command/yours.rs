@@ -79,7 +79,7 @@ fn tell(found: &Comparison, format: Format, out: &mut dyn Write) -> Result {
         Comparison::Same { resolved } => {
             let percent = 100.0 * resolved;
             writeln!(out, "The same picture: no block of 16 × 10 pixels differs by more than noise and rounding.")?;
-            writeln!(out, "In half of the blocks, {percent:.1} % more or less light would have been told.")?;
+            writeln!(out, "In half of the blocks, a difference of {percent:.1} % of the light would have shown.")?;
         }
         Comparison::Shifted { by: [right, down] } => {
             let by = format!("{right:+.2} pixels to the right and {down:+.2} downward");

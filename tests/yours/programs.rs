@@ -39,10 +39,10 @@ pub const MISTAKES: [Edit; 58] = [
     (19, "2.0 * normal.dot(direction)", "normal.dot(direction)"),
     (19, "                weight = weight.by(colour);\n", ""),
     (19, "direction.sub(normal.times(2.0", "direction.add(normal.times(2.0"),
-    (20, "{ 1.0 / index } else { index }", "{ index } else { 1.0 / index }"),
+    (20, "{ index } else { 1.0 / index }", "{ 1.0 / index } else { index }"),
     (20, "random.next() < reflected", "random.next() < 0.0"),
     (20, "origin = point.sub(normal.times(1e-9));", "origin = point.add(normal.times(1e-9));"),
-    (20, "normal.times(eta * cosine - beyond)", "normal.times(eta * cosine + beyond)"),
+    (20, "normal.times(cosine / eta - beyond)", "normal.times(cosine / eta + beyond)"),
     (21, "cosine * cosine_there * area", "cosine * area"),
     (21, "4.0 * PI * radius", "2.0 * PI * radius"),
     (21, "|hit| hit.0 < 1.0 - 1e-9", "|hit| hit.0 < 0.0"),
@@ -122,8 +122,8 @@ pub const BLIND: [Edit; 93] = [
     (19, "return weight.by(V(0.5, 0.7, 1.0));", "return V(0.5, 0.7, 1.0);"), // sky without the weight
     (19, "0..12", "0..1"),                               // 0..1 bounces
     (19, "origin = point.add(normal.times(1e-9));", "origin = point.sub(normal.times(1e-9));"), // mirror's origin inside
-    (20, "if enters { 1.0 / index } else { index }", "if enters { index } else { 1.0 / index }"), // eta inverted
-    (20, "eta * eta * (1.0", "eta * (1.0"), // Snell: eta not squared
+    (20, "if enters { index } else { 1.0 / index }", "if enters { 1.0 / index } else { index }"), // eta inverted
+    (20, "/ (eta * eta);", "/ eta;"), // Snell: eta not squared
     (20, "squared <= 0.0 || random.next() < reflected", "squared <= 0.0"), // no Fresnel: only total reflection
     (20, "random.next() < reflected", "random.next() > reflected"), // > for < reflected
     (20, "        direction = direction.unit();\n", ""), // direction not normalised

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 /// The nearest t > 0 where the ray hits the sphere: the quadratic formula, straight from school,
 /// in f32.
 ///
-/// Most first ray tracers hold this function. Far away b² and 4ac are both huge and nearly equal, so
+/// Nearly every first ray tracer has it. Far away b² and 4ac are both huge and nearly equal, so
 /// their difference is made of rounding errors: from a thousand radii on, a ray within a few
 /// rounding steps of the silhouette is decided no better than by a coin.
 #[must_use]

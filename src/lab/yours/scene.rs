@@ -182,6 +182,9 @@ pub fn variants() -> Vec<Variant> {
                 .iter_mut(world)
                 .for_each(|mut camera| camera.fov = Degrees(2.0 * half));
         }),
+        within(10, 100, "the camera stands where page 1 put it: the step of chapter 9 is missing.", |world| {
+            look_at(world, |look| *look = LookAt { eye: DVec3::ZERO, target: DVec3::NEG_Z, ..LookAt::default() });
+        }),
         within(9, 100, "the eye is still at the origin.", |world| {
             let target = DVec3::new(0.0, -0.3, -3.0);
             look_at(world, |look| *look = LookAt { eye: DVec3::ZERO, target, ..LookAt::default() });
