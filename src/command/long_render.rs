@@ -48,6 +48,11 @@ pub fn render_long(
     let (key, first) = (render.key(scene, waiting)?, files.targets.checkpoint());
     // The film of a part of the image is another film.
     let key = options.crop.map_or(key, |part| fnv(key, format!("{part:?}").as_bytes()));
+    // Other moments, or other samples at each of them, make another film; so do those of another film's frames.
+    let key = match render.moments() {
+        1 => key,
+        moments => fnv(key, format!("{moments} {} {:?}", render.sampling.samples, options.fps).as_bytes()),
+    };
     let limits = Limits { time: options.time, write_every: options.write_every, adaptive: adaptive_of(scene)? };
     if let (Some(_), Some(first)) = (options.frame, &first) {
         let is_there = files.targets.pictures.iter().all(|picture| picture.exists());

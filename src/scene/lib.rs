@@ -79,8 +79,8 @@ pub use material::{ThinGlass, UsedByShapes};
 pub use memory::{TooLittleMemory, check_memory, check_workers, in_words};
 #[doc(hidden)]
 pub use model::{
-    MODEL_FILE, MeshInMemory, MeshPart, ModelFiles, ModelNotes, ModelScene, SceneTime, UnreadMesh, is_model_file,
-    meshes_in_memory,
+    MODEL_FILE, MeshInMemory, MeshPart, ModelFiles, ModelNotes, ModelScene, SceneTime, UnreadMesh, animates_after,
+    is_model_file, meshes_in_memory,
 };
 pub use model::{Mesh, load_meshes};
 #[doc(hidden)]
