@@ -36,7 +36,8 @@ pub fn same_picture(subject: &Subject<'_>, options: &RenderOptions, mine: bool) 
     let mine = if mine { " --mine" } else { "" };
     let size = options.scene.typed_size();
     let frame = options.frame.map(|frame| format!(" --frames {frame}..{frame} --fps {}", options.fps));
-    let moments = options.frame.filter(|_| options.moments != MOMENTS).map(|_| format!(" --moments {}", options.moments));
+    let moments =
+        options.frame.filter(|_| options.moments != MOMENTS).map(|_| format!(" --moments {}", options.moments));
     let frame = [frame, moments].into_iter().flatten().collect::<String>();
     let crop = options.crop.map(|Tile { x, y, width, height }| format!(" --crop {x},{y},{width},{height}"));
     let crop = crop.unwrap_or_default();

@@ -155,7 +155,8 @@ pub fn render_with(
     let Foretold { warnings: said, lit_pixel } =
         before_rendering(subject, census, options, (&render, began), json, streams)?;
 
-    let mut png = PngKind { is_deep: options.bits == Some(16), text: hints::provenance(subject, options, mine.is_some()) };
+    let mut png =
+        PngKind { is_deep: options.bits == Some(16), text: hints::provenance(subject, options, mine.is_some()) };
     if render.moments() > 1 {
         png.text.push(("Moments", render.moments().to_string()));
     }

@@ -70,6 +70,8 @@ pub use image_kind::{KINDS_READ, TELLING_BYTES, image_kind};
 #[doc(hidden)]
 pub use integrator::LightTransport;
 pub use integrator::{Integrator, LightStrategy};
+#[doc(hidden)]
+pub use keys::smooth;
 pub use keys::{KeyCurve, KeyedValues, Keys};
 pub use lights::{DirectionalLight, Emissive, PointLight, Sides, SpotLight};
 pub use material::{BlinnPhong, Glass, Matte, Metal, Mirror, Phong, Principled, RoughGlass, UsesMaterial};

@@ -6,7 +6,8 @@ use super::refer::resolve;
 use super::scan::{entities, fields};
 use super::{FileProblem, PlaceInFile};
 use crate::{
-    ChildOf, Disabled, KeyCurve, Keys, LookAt, Name, SceneError, SceneFolder, SceneTime, Shutter, UsesMaterial, load_meshes,
+    ChildOf, Disabled, KeyCurve, Keys, LookAt, Name, SceneError, SceneFolder, SceneTime, Shutter, UsesMaterial,
+    load_meshes,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -140,7 +141,8 @@ impl SceneFile {
     ///
     /// Errors: as for a [frame](Self::at).
     pub fn changes(&self, frame: f64, rate: f64, stretches: u32) -> Result<bool, String> {
-        let Some(Shutter { open, close }) = self.shutter_at(frame)?.filter(|shutter| shutter.close > shutter.open) else {
+        let Some(Shutter { open, close }) = self.shutter_at(frame)?.filter(|shutter| shutter.close > shutter.open)
+        else {
             return Ok(false);
         };
         let halves = 2 * stretches;
@@ -173,7 +175,8 @@ impl SceneFile {
         let has = |entity: &FileEntity| entity.parts.iter().any(|part| part.word == "shutter");
         let Some(index) = self.entities.iter().position(has) else { return Ok(None) };
         let mut file = self.clone();
-        if let (Some(keys), Some(name)) = (self.component::<Keys>(&self.entities[index], "keys"), &self.entities[index].name)
+        if let (Some(keys), Some(name)) =
+            (self.component::<Keys>(&self.entities[index], "keys"), &self.entities[index].name)
         {
             for (path, value) in keys.at(frame).filter(|(path, _)| path.starts_with("shutter")) {
                 file = file.set(&format!("{name}.{path}={value}"))?;
