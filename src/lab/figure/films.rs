@@ -20,8 +20,8 @@ const RATE: f64 = 24.0;
 /// Where the camera stands that looks at the wheel alone.
 const AT_THE_WHEEL: [&str; 4] = [
     "camera.keys=(values: {})",
-    "camera.look_at.eye=(-1.3, 1.2, 3)",
-    "camera.look_at.target=(-1.3, 1.2, -1.2)",
+    "camera.look_at.eye=(-2.2, 1.2, 3.6)",
+    "camera.look_at.target=(-2.2, 1.2, -0.6)",
     "camera.perspective_camera.fov=32",
 ];
 
@@ -57,14 +57,14 @@ fn exhibit(film: &Film, line: String) -> Result<Exhibit> {
     Ok(Exhibit { picture, lines: vec![line] })
 }
 
-/// Where the ball is at every other frame, along straight lines and along the chapter's curve.
+/// Where the ball is at every frame, along straight lines and along the chapter's curve.
 pub fn draw_curves(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let shown = |curve: &str, line: &str| {
         let curve = format!("ball.keys.curve={curve}");
         let file = film(chapter, SIZE, 16, &["camera.keys=(values: {})", "camera.shutter.close=0", &curve])?;
         let at = |frame: f64| file.at(frame, RATE).map_err(Error::Usage);
         let mut still = at(0.0)?;
-        for number in (2..48).step_by(2) {
+        for number in 1..48 {
             let place = at(f64::from(number))?.value("ball.placement.position").map_err(Error::Usage)?;
             still = still.set(&format!("pearl {number}.placement.position={place}")).map_err(Error::Usage)?;
         }
