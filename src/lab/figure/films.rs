@@ -25,6 +25,14 @@ const AT_THE_WHEEL: [&str; 4] = [
     "camera.perspective_camera.fov=32",
 ];
 
+/// Where it stands that looks at the ball's path.
+const AT_THE_PATH: [&str; 4] = [
+    "camera.keys=(values: {})",
+    "camera.look_at.eye=(0.9, 1.1, 6.3)",
+    "camera.look_at.target=(0.9, 1.05, 0.6)",
+    "camera.perspective_camera.fov=26",
+];
+
 /// A chapter's film with these settings.
 fn film(chapter: &Chapter, [width, height]: [u32; 2], samples: u32, settings: &[&str]) -> Result<SceneFile> {
     let usage = |what: String| Error::Usage(what);
@@ -61,7 +69,7 @@ fn exhibit(film: &Film, line: String) -> Result<Exhibit> {
 pub fn draw_curves(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let shown = |curve: &str, line: &str| {
         let curve = format!("ball.keys.curve={curve}");
-        let file = film(chapter, SIZE, 16, &["camera.keys=(values: {})", "camera.shutter.close=0", &curve])?;
+        let file = film(chapter, SIZE, 16, &[&AT_THE_PATH[..], &["camera.shutter.close=0", &curve]].concat())?;
         let at = |frame: f64| file.at(frame, RATE).map_err(Error::Usage);
         let mut still = at(0.0)?;
         for number in 1..48 {

@@ -30,11 +30,13 @@ pub(super) struct Moments {
     shown: Option<u32>,
 }
 
+// ANCHOR: first_sample_of
 /// The number of the first sample of one of so many moments, which is also the end of those of the moment before: each
 /// gets as many samples as the others, or one more where they do not divide evenly.
 pub fn first_sample_of(number: u32, moments: u32, samples: u32) -> u32 {
     (u64::from(number) * u64::from(samples) / u64::from(moments)) as u32
 }
+// ANCHOR_END: first_sample_of
 
 impl RenderInProgress {
     /// Makes this the render of a scene at so many moments, of which nothing has been rendered yet; no more than there are
