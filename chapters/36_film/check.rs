@@ -37,7 +37,7 @@ fn question() -> Question<Input, f64> {
         hints: &[
             "with u from 0 to 1 between the two keys, the cubic 2u³ − 3u² + 1 leads from 1 to 0 and is level at both ends",
             "the slope at the second key: the third value less the first, over the time from the first key to the third",
-            "u³ − 2u² + u leaves 0 with the slope 1 per unit of u; how many units of time is one of u?",
+            "the cubic of a slope has the slope 1 per unit of u at its key; how many units of time is one of u?",
         ],
     }
 }
@@ -101,7 +101,7 @@ fn mistakes() -> Mistakes<Input, f64> {
         .say("u is the time itself; it begins at 0 at the second key and is 1 at the third")
         .when(|i| curve(i, i.2, slopes(i).map(|slope| slope * step(i))))
         .say("the curve runs backwards: u is 0 at the second key and 1 at the third")
-        .when(|i| curve(i, 1.0 - share(i), slopes(i).map(|slope| slope * step(i))))
+        .when(|i| curve(i, 1.0 - fraction(i), slopes(i).map(|slope| slope * step(i))))
 }
 
 /// The distance of the two keys in time.
@@ -110,13 +110,13 @@ fn step((times, ..): &Input) -> f64 {
 }
 
 /// How far the time is from the second key to the third.
-fn share(input: &Input) -> f64 {
+fn fraction(input: &Input) -> f64 {
     (input.2 - input.0[1]) / step(input)
 }
 
 fn line(input: &Input) -> f64 {
     let [a, b] = [input.1[1], input.1[2]];
-    a + (b - a) * share(input)
+    a + (b - a) * fraction(input)
 }
 
 /// The slope of the line between two keys.
@@ -130,7 +130,7 @@ fn slopes(input: &Input) -> [f64; 2] {
 
 /// The cubic with these slopes at its keys, per unit of time.
 fn hermite(input: &Input, slopes: [f64; 2]) -> f64 {
-    curve(input, share(input), slopes.map(|slope| slope * step(input)))
+    curve(input, fraction(input), slopes.map(|slope| slope * step(input)))
 }
 
 /// The same at u, with slopes per unit of u.

@@ -8,7 +8,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
         Figure {
             name: "36_curves",
             chapter,
-            about: "one path through five keys, along straight lines and along a smooth curve",
+            about: "one path through five keys along straight lines, along a curve for even keys and along the smooth one",
             draw: films::draw_curves,
         },
         Figure {

@@ -127,7 +127,7 @@ pub struct RenderOptions {
     /// How many frames a unit of time has, which is a second in models
     #[arg(long, value_name = "N", default_value_t = 24.0, hide_default_value = true, value_parser = rate)]
     pub fps: f64,
-    /// At how many moments a frame is rendered, each with its share of the samples, where something changes while the shutter
+    /// At how many moments a frame is rendered, each with its part of the samples, where something changes while the shutter
     /// is open that does not just move along a straight line: 1 leaves that blur out (default: 16)
     #[arg(long, value_name = "N", requires = "frames", default_value_t = MOMENTS, hide_default_value = true,
           allow_hyphen_values = true, value_parser = moments)]

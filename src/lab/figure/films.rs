@@ -5,10 +5,11 @@ use super::gallery::{Exhibit, gallery_foot, hang};
 use super::picture::{Picture, few};
 use super::svg::Drawing;
 use bevy_ecs::prelude::*;
+use glam::DVec3;
 use pinhole::film::{Curve, Film, png_bytes};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
-use pinhole::scene::{SceneFile, scene_text};
+use pinhole::scene::{Name, Placement, SceneFile, scene_text, smooth};
 use pinhole::{Chapter, Error, Result, stages};
 use std::path::Path;
 
@@ -17,6 +18,8 @@ const SIZE: [u32; 2] = [276, 184];
 const SQUARE: [u32; 2] = [200, 200];
 /// The frames in a unit of time.
 const RATE: f64 = 24.0;
+/// The frames of the ball's keys.
+const KEYS: [f64; 7] = [-8.0, 0.0, 6.0, 12.0, 32.0, 48.0, 56.0];
 /// Where the camera stands that looks at the wheel alone.
 const AT_THE_WHEEL: [&str; 4] = [
     "camera.keys=(values: {})",
@@ -65,21 +68,43 @@ fn exhibit(film: &Film, line: String) -> Result<Exhibit> {
     Ok(Exhibit { picture, lines: vec![line] })
 }
 
-/// Where the ball is at every frame, along straight lines and along the chapter's curve.
+/// Where a film's ball is at a frame.
+fn ball(film: &SceneFile, frame: f64) -> Result<DVec3> {
+    let mut scene = film.at(frame, RATE).map_err(Error::Usage)?.world();
+    let mut query = scene.query::<(&Name, &Placement)>();
+    let ball = query.iter(&scene).find(|(name, _)| name.as_str() == "ball").map(|(_, placement)| placement.position);
+    ball.ok_or_else(|| Error::Usage("the film has no ball".into()))
+}
+
+/// The same on the curve for keys that are one apart, whatever their distances.
+fn ball_of_even_keys(film: &SceneFile, frame: f64) -> Result<DVec3> {
+    let next = KEYS.iter().position(|key| *key > frame).unwrap_or(5).clamp(2, 5);
+    let four = [0, 1, 2, 3].map(|key| KEYS[next + key - 2]);
+    let places = four.iter().map(|key| ball(film, *key)).collect::<Result<Vec<_>>>()?;
+    let u = (frame - four[1]) / (four[2] - four[1]);
+    let along = |axis: usize| smooth([0.0, 1.0, 2.0, 3.0], [0, 1, 2, 3].map(|key: usize| places[key][axis]), 1.0 + u);
+    Ok(DVec3::new(along(0), along(1), along(2)))
+}
+
+/// Where the ball is at every frame, along straight lines and along curves.
 pub fn draw_curves(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let shown = |curve: &str, line: &str| {
+    let shown = |curve: &str, line: &str, ball: fn(&SceneFile, f64) -> Result<DVec3>| {
         let curve = format!("ball.keys.curve={curve}");
-        let file = film(chapter, SIZE, 16, &[&AT_THE_PATH[..], &["camera.shutter.close=0", &curve]].concat())?;
-        let at = |frame: f64| file.at(frame, RATE).map_err(Error::Usage);
-        let mut still = at(0.0)?;
+        let film = film(chapter, SIZE, 16, &[&AT_THE_PATH[..], &["camera.shutter.close=0", &curve]].concat())?;
+        let mut still = film.at(0.0, RATE).map_err(Error::Usage)?;
         for number in 1..48 {
-            let place = at(f64::from(number))?.value("ball.placement.position").map_err(Error::Usage)?;
-            still = still.set(&format!("pearl {number}.placement.position={place}")).map_err(Error::Usage)?;
+            let DVec3 { x, y, z } = ball(&film, f64::from(number))?;
+            let place = format!("pearl {number}.placement.position=({x:?}, {y:?}, {z:?})");
+            still = still.set(&place).map_err(Error::Usage)?;
         }
         exhibit(&frame(&still, 0.0, 1)?, line.into())
     };
-    let exhibits = [shown("Linear", "straight lines")?, shown("Smooth", "a smooth curve")?];
-    Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, SIZE)))
+    let exhibits = [
+        shown("Linear", "straight lines", ball)?,
+        shown("Smooth", "as if the keys were one apart", ball_of_even_keys)?,
+        shown("Smooth", "the smooth curve", ball)?,
+    ];
+    Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SIZE)))
 }
 
 /// Four frames in a row, the shutter closed at once.

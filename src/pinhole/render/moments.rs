@@ -16,7 +16,7 @@ use std::sync::PoisonError;
 /// A scene at one of so many moments, by its number from 0 on and by how many there are.
 pub type SceneAt = Box<dyn Fn(u32, u32) -> Result<World> + Send + Sync>;
 
-/// The moments of a render: each has its share of the samples of every pixel, the first the first ones, and so on.
+/// The moments of a render: each has its part of the samples of every pixel, the first the first ones, and so on.
 ///
 /// The picture is the mean of the pictures at the moments, as the accumulation buffer computes it (Haeberli and Akeley,
 /// "The accumulation buffer: hardware support for high-quality rendering", 1990).

@@ -146,8 +146,9 @@ impl SceneFile {
             return Ok(false);
         };
         let halves = 2 * stretches;
-        let share = |half: u32| f64::from(half) / f64::from(halves);
-        let frames: Vec<f64> = (0..=halves).map(|half| frame + rate * (open + (close - open) * share(half))).collect();
+        let fraction = |half: u32| f64::from(half) / f64::from(halves);
+        let frames: Vec<f64> =
+            (0..=halves).map(|half| frame + rate * (open + (close - open) * fraction(half))).collect();
         let keyed = self.entities.iter().filter_map(|entity| self.component::<Keys>(entity, "keys"));
         for keys in keyed {
             let values: Vec<Vec<(&str, String)>> = frames.iter().map(|frame| keys.at(*frame).collect()).collect();
@@ -157,8 +158,8 @@ impl SceneFile {
                 let is_straight = match places {
                     Some(places) if keys.moves(path) => {
                         let [from, to] = [places[0], places[halves as usize]];
-                        let near = (to - from).length() * share(1) + 1e-12 * from.abs().max(to.abs()).max_element();
-                        (0..).zip(&places).all(|(half, place)| place.distance(from.lerp(to, share(half))) <= near)
+                        let near = (to - from).length() * fraction(1) + 1e-12 * from.abs().max(to.abs()).max_element();
+                        (0..).zip(&places).all(|(half, place)| place.distance(from.lerp(to, fraction(half))) <= near)
                     }
                     _ => texts().all(|text| text == first),
                 };
