@@ -169,30 +169,30 @@ fn what_needs_moments_is_found() {
         "\"placement.euler_xyz\": [(0, (0, 0, 0)), (8, (0, 90, 0))]",
     );
     let corner = "\"placement.position\": [(0, (0, 0, 0)), (4, (4, 0, 0)), (8, (4, 4, 0))]";
-    let half = "open: 0, close: 0.5";
+    let short = "open: 0, close: 0.5";
     for (shutter, keys, curve, frame, expected) in [
-        (half, line, "Linear", 3.0, false),
-        (half, line, "Linear", 99.0, false),
+        (short, line, "Linear", 3.0, false),
+        (short, line, "Linear", 99.0, false),
         ("open: -1e6, close: 1e6", line, "Linear", 3.0, true),
         ("open: 0, close: 1e-9", line, "Linear", 3.0, false),
         ("open: 0, close: 1e-15", line, "Linear", 3.0, false),
         ("open: 0, close: 0", turn, "Linear", 3.0, false),
         ("open: 0, close: 1e-9", turn, "Linear", 3.0, true),
-        (half, turn, "Linear", 3.0, true),
-        (half, turn, "Linear", -2.0, false),
-        (half, turn, "Linear", 8.0, false),
+        (short, turn, "Linear", 3.0, true),
+        (short, turn, "Linear", -2.0, false),
+        (short, turn, "Linear", 8.0, false),
         ("open: -0.25, close: 0.25", turn, "Linear", 8.0, true),
-        (half, turn, "Step", 3.0, false),
-        (half, turn, "Step", 7.75, true),
-        (half, line, "Step", 3.0, false),
-        (half, line, "Step", 7.75, true),
-        (half, corner, "Linear", 3.0, false),
+        (short, turn, "Step", 3.0, false),
+        (short, turn, "Step", 7.75, true),
+        (short, line, "Step", 3.0, false),
+        (short, line, "Step", 7.75, true),
+        (short, corner, "Linear", 3.0, false),
         ("open: -0.5, close: 0.5", corner, "Linear", 4.0, true),
         // From rest it is far from an even speed, later it is all but even.
-        (half, line, "Smooth", 0.0, true),
-        (half, line, "Smooth", 3.75, false),
-        (half, "\"matte.colour\": [(0, (0, 0, 0)), (8, (1, 1, 1))]", "Linear", 3.0, true),
-        (half, "\"sphere.radius\": [(0, 1), (8, 1)]", "Linear", 3.0, false),
+        (short, line, "Smooth", 0.0, true),
+        (short, line, "Smooth", 3.75, false),
+        (short, "\"matte.colour\": [(0, (0, 0, 0)), (8, (1, 1, 1))]", "Linear", 3.0, true),
+        (short, "\"sphere.radius\": [(0, 1), (8, 1)]", "Linear", 3.0, false),
     ] {
         let needed = scene(shutter, keys, curve).changes(frame, 1.0, 16).expect("keys");
         assert_eq!(needed, expected, "{shutter}, {keys}, {curve}, frame {frame}");
