@@ -45,7 +45,7 @@ fn question() -> Question<Input, f64> {
 fn mistakes() -> Mistakes<Input, f64> {
     Mistakes::<Input, f64>::new()
         .say("that is the straight line between the two keys: at each key it has a corner")
-        .when(|i| line(i))
+        .when(line)
         .say("that is the value of the key before: nothing moves between the keys")
         .when(|i| i.1[1])
         .when(|i| i.1[2])
@@ -145,12 +145,19 @@ fn curve((_, values, _): &Input, u: f64, [first, last]: [f64; 2]) -> f64 {
 fn asked() -> Vec<Probe<Input>> {
     let even = [0.0, 1.0, 2.0, 3.0];
     let mut asked: Vec<_> =
-        probes("keys on a straight line", [(even, [1.0, 3.0, 5.0, 7.0], 1.25), (even, [1.0, 3.0, 5.0, 7.0], 1.5)]).collect();
-    asked.extend(probes("at the keys themselves", [(even, [4.0, 1.0, 3.0, -2.0], 1.0), (even, [4.0, 1.0, 3.0, -2.0], 2.0)]));
-    asked.extend(probes("one value that differs", [(even, [0.0, 1.0, 0.0, 0.0], 1.5), (even, [0.0, 0.0, 0.0, 1.0], 1.25)]));
+        probes("keys on a straight line", [(even, [1.0, 3.0, 5.0, 7.0], 1.25), (even, [1.0, 3.0, 5.0, 7.0], 1.5)])
+            .collect();
+    asked.extend(probes(
+        "at the keys themselves",
+        [(even, [4.0, 1.0, 3.0, -2.0], 1.0), (even, [4.0, 1.0, 3.0, -2.0], 2.0)],
+    ));
+    asked.extend(probes(
+        "one value that differs",
+        [(even, [0.0, 1.0, 0.0, 0.0], 1.5), (even, [0.0, 0.0, 0.0, 1.0], 1.25)],
+    ));
     asked.extend(probes(
         "keys of the page",
-        [([0.0, 6.0, 12.0, 32.0], [-2.8, -1.6, -0.2, 0.9], 9.0), ([6.0, 12.0, 32.0, 48.0], [0.3, 1.7, 0.4, 1.5], 17.0)],
+        [([6.0, 12.0, 32.0, 48.0], [-0.1, 0.7, 1.5, 2.7], 22.0), ([6.0, 12.0, 32.0, 48.0], [0.4, 1.8, 0.4, 1.5], 17.0)],
     ));
     asked.extend(probes("keys at any distances", (0..200).map(drawn)));
     asked
