@@ -15,6 +15,9 @@ mod meant;
 #[path = "command_line/model.rs"]
 pub mod model;
 #[cfg(unix)]
+#[path = "command_line/moments.rs"]
+mod moments;
+#[cfg(unix)]
 #[path = "command_line/names.rs"]
 mod names_shown;
 #[path = "command_line/parts.rs"]

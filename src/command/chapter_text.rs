@@ -121,18 +121,13 @@ impl ChapterText {
         Ok(self.with(file))
     }
 
-    /// The chapter at a frame of a film; none where nothing in it has keys.
-    ///
-    /// Errors: as for [`set`](Self::set).
-    pub fn at(&self, frame: f64, rate: f64) -> Result<Option<Chapter>> {
-        if !self.file.may_change() {
-            return Ok(None);
-        }
-        let file = self.file.at(frame, rate).map_err(Error::usage)?;
-        Ok(Some(self.with(file)))
+    /// The scene as a file.
+    pub fn file(&self) -> &SceneFile {
+        &self.file
     }
 
-    fn with(&self, file: SceneFile) -> Chapter {
+    /// The chapter with another text of its scene.
+    pub fn with(&self, file: SceneFile) -> Chapter {
         let held = Arc::clone(&self.held);
         self.chapter.clone().with_scene(move |world| {
             *world = file.world();

@@ -1,5 +1,5 @@
 use super::called::{called, quoted};
-use super::options::RenderOptions;
+use super::options::{MOMENTS, RenderOptions};
 use super::subject::Subject;
 use super::visible::is_hidden;
 use pinhole::rays::Tile;
@@ -35,8 +35,10 @@ pub fn same_picture(subject: &Subject<'_>, options: &RenderOptions, mine: bool) 
     let naive = options.naive.map(|method| format!(" --naive {}", method.name)).unwrap_or_default();
     let mine = if mine { " --mine" } else { "" };
     let size = options.scene.typed_size();
-    let frame =
-        options.frame.map(|frame| format!(" --frames {frame}..{frame} --fps {}", options.fps)).unwrap_or_default();
+    let frame = options.frame.map(|frame| format!(" --frames {frame}..{frame} --fps {}", options.fps));
+    let moments =
+        options.frame.filter(|_| options.moments != MOMENTS).map(|_| format!(" --moments {}", options.moments));
+    let frame = [frame, moments].into_iter().flatten().collect::<String>();
     let crop = options.crop.map(|Tile { x, y, width, height }| format!(" --crop {x},{y},{width},{height}"));
     let crop = crop.unwrap_or_default();
     Some(format!("pinhole render {name}{size}{}{frame}{crop}{naive}{mine}", options.scene.typed()))

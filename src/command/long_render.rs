@@ -117,7 +117,8 @@ pub fn render_long(
     Ok(LongRender { outcome, checkpoint, was_done: false })
 }
 
-/// The key of a render: the film of a part of the image is another film.
+/// The key of a render: the film of a part of the image is another film, and so is that of other moments, of other samples
+/// at each of them, or of another film's frames.
 ///
 /// Errors: stopped.
 pub fn key_of(
@@ -126,7 +127,10 @@ pub fn key_of(
     options: &RenderOptions,
     waiting: &Waiting,
 ) -> pinhole::Result<u64> {
-    let key = render.key(scene, waiting)?;
+    let key = match (render.key(scene, waiting)?, render.moments()) {
+        (key, 1) => key,
+        (key, moments) => fnv(key, format!("{moments} {} {:?}", render.sampling.samples, options.fps).as_bytes()),
+    };
     Ok(options.crop.map_or(key, |part| fnv(key, format!("{part:?}").as_bytes())))
 }
 

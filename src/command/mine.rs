@@ -77,7 +77,7 @@ pub fn render_mine(
         (options.output, options.output_is_chosen) = (vec![file], true);
     }
     let subject = Subject::Chapter(Cow::Owned(mine.chapter.clone()));
-    render_with(&subject, &options, Some(mine), format, streams)
+    render_with(&subject, &options, (Some(mine), None), format, streams)
 }
 
 /// Both pictures and their difference in each scene of the exercise, all in one file, and a sentence for each scene.

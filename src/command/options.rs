@@ -16,6 +16,8 @@ use std::time::Duration;
 
 /// The last frame that a film may have.
 const MAX_FRAME: u32 = 9_999_999;
+/// At how many moments a frame is rendered unless that is said.
+pub const MOMENTS: u32 = 16;
 /// The greatest number of parts.
 pub const MAX_PARTS: u32 = 1_000_000;
 
@@ -125,6 +127,11 @@ pub struct RenderOptions {
     /// How many frames a unit of time has, which is a second in models
     #[arg(long, value_name = "N", default_value_t = 24.0, hide_default_value = true, value_parser = rate)]
     pub fps: f64,
+    /// At how many moments a frame is rendered, each with its part of the samples, where something changes while the shutter
+    /// is open that does not just move along a straight line: 1 leaves that blur out (default: 16)
+    #[arg(long, value_name = "N", requires = "frames", default_value_t = MOMENTS, hide_default_value = true,
+          allow_hyphen_values = true, value_parser = moments)]
+    pub moments: u32,
     /// The one of them that this picture is, which leaves a mark when it is done
     #[arg(skip)]
     pub frame: Option<u32>,
@@ -332,6 +339,11 @@ fn frames(text: &str) -> Result<[u32; 2], String> {
         Some((Ok(first), Ok(last))) if first <= last && last <= MAX_FRAME => Ok([first, last]),
         _ => Err(format!("frames are the first and the last with .. between, such as 0..47, up to {MAX_FRAME}")),
     }
+}
+
+fn moments(text: &str) -> Result<u32, String> {
+    let number = text.trim().parse().ok().filter(|number| (1..=MAX_SAMPLES).contains(number));
+    number.ok_or(format!("a number of moments is a whole number from 1 to {MAX_SAMPLES}, such as 16"))
 }
 
 fn rate(text: &str) -> Result<f64, String> {

@@ -19,7 +19,7 @@ use pinhole::extract::{ChosenIntegrator, LayerTable, adaptive_of, camera_entity,
 use pinhole::film::{Curve, FileAttributes, PICTURE_GUIDES, PngKind, png_bytes, stops_of};
 use pinhole::look::{Foretold, RenderStats};
 use pinhole::plan::Census;
-use pinhole::render::{Execution, RenderInProgress};
+use pinhole::render::{Execution, RenderInProgress, SceneAt};
 use pinhole::scene::{
     Exposure, FNV_BASIS, FileKind, Integrator, Layers, Sampling, check_memory, fingerprint, fnv, read_file,
 };
@@ -45,7 +45,7 @@ pub fn render_naive(
     format: Format,
     streams: &mut Streams<'_>,
 ) -> Result {
-    render_with(subject, options, None, format, streams)?;
+    render_with(subject, options, (None, None), format, streams)?;
     let targets = Targets::of(subject, options)?;
     match targets.pictures.first() {
         Some(naive) if is_compared(options, format) => {
@@ -103,14 +103,14 @@ pub fn render_subject(
     format: Format,
     streams: &mut Streams<'_>,
 ) -> Result {
-    render_with(subject, options, None, format, streams)
+    render_with(subject, options, (None, None), format, streams)
 }
 
-/// The same with a reader's function in one of its stages.
+/// The same with a reader's function in one of its stages, or at so many moments.
 pub fn render_with(
     subject: &Subject<'_>,
     options: &RenderOptions,
-    mine: Option<Mine>,
+    (mine, moments): (Option<Mine>, Option<(u32, SceneAt)>),
     format: Format,
     streams: &mut Streams<'_>,
 ) -> Result {
@@ -142,6 +142,9 @@ pub fn render_with(
     if options.denoise {
         check_denoiser_fits(&render)?;
     }
+    if let Some((count, scene_at)) = moments {
+        render.at_moments(count, scene_at, offer);
+    }
     let watched = (!json && !options.quiet).then(|| subject.shown());
     if let (Some(what), true) = (&watched, streams.waits) {
         Progress::announce(what, render.film.width, render.film.height);
@@ -152,7 +155,11 @@ pub fn render_with(
     let Foretold { warnings: said, lit_pixel } =
         before_rendering(subject, census, options, (&render, began), json, streams)?;
 
-    let png = PngKind { is_deep: options.bits == Some(16), text: hints::provenance(subject, options, mine.is_some()) };
+    let mut png =
+        PngKind { is_deep: options.bits == Some(16), text: hints::provenance(subject, options, mine.is_some()) };
+    if render.moments() > 1 {
+        png.text.push(("Moments", render.moments().to_string()));
+    }
     let attributes = attributes(subject, options, &scene, (&render, mine.is_some()));
     let files = Files::new(targets, (attributes, options.denoise), &render, (png, mine));
     let waiting = waiting(watched.as_deref(), options, &render, streams);
@@ -257,6 +264,9 @@ pub fn attributes(
     let own = RenderOptions { scene: scene_options, ..options.clone() };
     attributes.texts.extend(hints::same_picture(subject, &own, mine).map(|command| ("command", command)));
     attributes.texts.extend(options.frame.map(|frame| ("frame", frame.to_string())));
+    if render.moments() > 1 {
+        attributes.texts.push(("moments", render.moments().to_string()));
+    }
     if render.is_sampled() {
         attributes.texts.push(("seed", render.sampling.seed.to_string()));
     }

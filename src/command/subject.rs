@@ -19,6 +19,7 @@ use std::time::Duration;
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// What a reader names: a chapter, or a scene file.
+#[derive(Clone)]
 pub enum Subject<'c> {
     /// A chapter, with the stages that it offers.
     Chapter(Cow<'c, Chapter>),
@@ -74,6 +75,15 @@ impl<'c> Subject<'c> {
                 }
                 Ok(Self::Model { model, typed })
             }
+        }
+    }
+
+    /// The same without what it borrows.
+    pub fn owned(self) -> Subject<'static> {
+        match self {
+            Self::Chapter(chapter) => Subject::Chapter(Cow::Owned(chapter.into_owned())),
+            Self::File { file, typed } => Subject::File { file, typed },
+            Self::Model { model, typed } => Subject::Model { model, typed },
         }
     }
 
@@ -174,11 +184,15 @@ fn set_on_model(model: ModelScene, typed: &str, setting: &str) -> Result<ModelSc
             Ok(single_sided) => return Ok(ModelScene { single_sided, ..model }),
             Err(_) => format!("single_sided is {}, but it must be true or false", shown(written)),
         },
+        Some(("shutter", written)) => match written.parse::<f64>() {
+            Ok(shutter) if (0.0..=1e6).contains(&shutter) => return Ok(ModelScene { shutter, ..model }),
+            _ => format!("the shutter is {}, but it must be a time in seconds from 0 to 1e6", shown(written)),
+        },
         Some(("animation", written)) => return Ok(ModelScene { animation: written.into(), ..model }),
         _ => format!(
             "{typed} is a model file, which has no values to set but its exposure, as in exposure=1, whether backs of \
-             its single-sided materials are left out, as in single_sided=true, and which animation a film shows, as in \
-             animation=walk: `export` makes a scene file of it"
+             its single-sided materials are left out, as in single_sided=true, which animation a film shows, as in \
+             animation=walk, and how long its shutter is open, as in shutter=0.02: `export` makes a scene file of it"
         ),
     };
     Err(Error::CommandLine(what))

@@ -82,6 +82,30 @@ fn check(path: &str, keys: &[(f64, String)]) -> Result<(), String> {
 }
 
 impl Keys {
+    /// No keys yet, with [smooth](KeyCurve::Smooth) curves through those that come.
+    pub fn smooth() -> Self {
+        Self { curve: KeyCurve::Smooth, ..Self::default() }
+    }
+
+    /// The same with the keys of one more value: frames, and the texts of the value there.
+    ///
+    /// They are put into the order of their frames; of two at one frame the later one counts.
+    #[must_use]
+    pub fn with(mut self, path: &str, keys: impl IntoIterator<Item = (f64, impl Into<String>)>) -> Self {
+        let mut own: Vec<(f64, String)> = Vec::new();
+        for (frame, text) in keys {
+            let at = own.partition_point(|(earlier, _)| *earlier < frame);
+            match own.get_mut(at).filter(|(other, _)| *other == frame) {
+                Some(same) => same.1 = text.into(),
+                None => own.insert(at, (frame, text.into())),
+            }
+        }
+        if !own.is_empty() {
+            self.values.0.insert(path.into(), own);
+        }
+        self
+    }
+
     /// Each path with the text of its value at a frame.
     pub fn at(&self, frame: f64) -> impl Iterator<Item = (&str, String)> {
         self.values.0.iter().map(move |(path, keys)| (path.as_str(), value_at(keys, self.curve, frame)))
@@ -107,8 +131,12 @@ fn value_at(keys: &[(f64, String)], curve: KeyCurve, frame: f64) -> String {
         let is_alike = parts.len() == from.len() && parts.iter().zip(from).all(|(one, other)| one.is_alike(other));
         is_alike.then_some((*own, parts))
     };
-    let (earlier, later) = (neighbour(before.checked_sub(1)), neighbour(Some(after + 1)));
     let (start, end) = (keys[before].0, next.0);
+    // Without a neighbour the curve is level, as if it came back from there to the same value.
+    let earlier = neighbour(before.checked_sub(1));
+    let later = neighbour(Some(after + 1));
+    let times =
+        [earlier.as_ref().map_or(start - 1.0, |key| key.0), start, end, later.as_ref().map_or(end + 1.0, |key| key.0)];
     let t = (frame - start) / (end - start);
     let mut value = String::new();
     for (place, part) in from.iter().enumerate() {
@@ -119,15 +147,9 @@ fn value_at(keys: &[(f64, String)], curve: KeyCurve, frame: f64) -> String {
         let (a, b) = (*a, *b);
         let mixed = match curve {
             KeyCurve::Smooth => {
-                let number = |parts: &[Part<'_>]| parts[place].number();
-                let slope = |one: (f64, f64), other: (f64, f64)| (other.1 - one.1) / (other.0 - one.0);
-                let first = earlier.as_ref().map_or(0.0, |(own, parts)| slope((*own, number(parts)), (end, b)));
-                let last = later.as_ref().map_or(0.0, |(own, parts)| slope((start, a), (*own, number(parts))));
-                let (square, cube) = (t * t, t * t * t);
-                (2.0 * cube - 3.0 * square + 1.0) * a
-                    + (cube - 2.0 * square + t) * (end - start) * first
-                    + (3.0 * square - 2.0 * cube) * b
-                    + (cube - square) * (end - start) * last
+                let first = earlier.as_ref().map_or(b, |(_, parts)| parts[place].number());
+                let last = later.as_ref().map_or(a, |(_, parts)| parts[place].number());
+                smooth(times, [first, a, b, last], frame)
             }
             _ => a + (b - a) * t,
         };
@@ -135,6 +157,21 @@ fn value_at(keys: &[(f64, String)], curve: KeyCurve, frame: f64) -> String {
     }
     value
 }
+
+// ANCHOR: smooth
+/// The value at a time between the second and the third of four keys at any distances, on the cubic Hermite curve whose
+/// slope at a key is that of the line between its neighbours (Catmull and Rom 1974).
+pub fn smooth(times: [f64; 4], values: [f64; 4], time: f64) -> f64 {
+    let slope = |one: usize, other: usize| (values[other] - values[one]) / (times[other] - times[one]);
+    let step = times[2] - times[1];
+    let u = (time - times[1]) / step;
+    let (square, cube) = (u * u, u * u * u);
+    (2.0 * cube - 3.0 * square + 1.0) * values[1]
+        + (cube - 2.0 * square + u) * step * slope(0, 2)
+        + (3.0 * square - 2.0 * cube) * values[2]
+        + (cube - square) * step * slope(1, 3)
+}
+// ANCHOR_END: smooth
 
 /// A piece of a value's text.
 enum Part<'t> {

@@ -70,6 +70,8 @@ pub use image_kind::{KINDS_READ, TELLING_BYTES, image_kind};
 #[doc(hidden)]
 pub use integrator::LightTransport;
 pub use integrator::{Integrator, LightStrategy};
+#[doc(hidden)]
+pub use keys::smooth;
 pub use keys::{KeyCurve, KeyedValues, Keys};
 pub use lights::{DirectionalLight, Emissive, PointLight, Sides, SpotLight};
 pub use material::{BlinnPhong, Glass, Matte, Metal, Mirror, Phong, Principled, RoughGlass, UsesMaterial};
@@ -79,8 +81,8 @@ pub use material::{ThinGlass, UsedByShapes};
 pub use memory::{TooLittleMemory, check_memory, check_workers, in_words};
 #[doc(hidden)]
 pub use model::{
-    MODEL_FILE, MeshInMemory, MeshPart, ModelFiles, ModelNotes, ModelScene, SceneTime, UnreadMesh, is_model_file,
-    meshes_in_memory,
+    MODEL_FILE, MeshInMemory, MeshPart, ModelFiles, ModelNotes, ModelScene, SceneTime, UnreadMesh, animates_after,
+    is_model_file, meshes_in_memory,
 };
 pub use model::{Mesh, load_meshes};
 #[doc(hidden)]

@@ -22,6 +22,7 @@ pub mod denoising;
 pub mod directions;
 mod drawn_image;
 pub mod field_of_view;
+pub mod films;
 pub mod filters;
 pub mod fresnel;
 pub mod gallery;

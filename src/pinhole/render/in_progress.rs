@@ -2,6 +2,7 @@ use super::clock::{Lap, StageClock, laps_of};
 use super::execution::{tile_side, workers};
 use super::light_pass::{LightPass, Means, batches};
 use super::memory::check_film_fits;
+use super::moments::Moments;
 use super::render_world::{RenderWorld, prepare};
 use super::steps::{Run, WHOLE, runs, steps_of};
 use super::{Execution, Rendered, Watch, Worlds};
@@ -40,6 +41,8 @@ pub struct RenderInProgress {
     pub(super) worlds: Vec<Mutex<Option<RenderWorld>>>,
     /// The pass that traces paths from the lights, where the plan has one.
     pub(super) light: Option<LightPass>,
+    /// The moments of a scene that changes while the shutter is open.
+    pub(super) moments: Option<Moments>,
     pub(super) time: Duration,
 }
 
@@ -80,6 +83,7 @@ impl RenderInProgress {
         let light = LightPass::of(scene, &plan, worlds)?;
         Ok(Self {
             light,
+            moments: None,
             curve: Curve::of(scene, &plan)?,
             attributes: FileAttributes::of(scene)?,
             plan,
@@ -158,8 +162,13 @@ impl RenderInProgress {
     /// again.
     /// A sample in progress is discarded.
     pub fn advance(&mut self, to: u32, watch: &dyn Watch) -> Result {
-        let started = Instant::now();
         let to = if self.is_sampled() { to } else { WHOLE };
+        if self.moments.is_some() { self.advance_at_moments(to, watch) } else { self.advance_scene(to, watch) }
+    }
+
+    /// The same with the scene whose tables the worlds have.
+    pub(super) fn advance_scene(&mut self, to: u32, watch: &dyn Watch) -> Result {
+        let started = Instant::now();
         let stop = Stop::at_flag(watch.stop_flag());
         match &self.pool {
             Some(pool) => {
@@ -219,7 +228,7 @@ impl RenderInProgress {
     }
 
     /// Uses these sample numbers from now on.
-    fn renumber(&mut self, numbers: SamplingTable) {
+    pub(super) fn renumber(&mut self, numbers: SamplingTable) {
         for table in self.tables.iter_mut().filter(|table| table.id == TypeId::of::<SamplingTable>()) {
             table.insert = Box::new(move |world: &mut World| world.insert_resource(Shared::new(numbers)));
         }

@@ -81,6 +81,16 @@ impl LightPass {
         batches_for(samples as f64, self.paths)
     }
 
+    /// Whether the film has the light paths that correspond to so many pixel samples.
+    pub fn is_done(&self, film: &Film, samples: u64) -> bool {
+        film.splats.as_ref().is_none_or(|splats| splats.paths / u64::from(LIGHT_PATHS) >= self.batches(samples))
+    }
+
+    /// Lets the worlds go, so that the next batches are those of another scene.
+    pub fn forget_scene(&mut self) {
+        self.worlds.iter_mut().for_each(|world| *world = Mutex::new(None));
+    }
+
     /// Advances the light pass to correspond to so many pixel samples, or as far as the observer allows; batches in
     /// progress when it is stopped do not contribute.
     pub fn advance(&self, film: &mut Film, samples: u64, means: &Means<'_>, watch: &dyn Watch) {

@@ -31,6 +31,7 @@ mod inspect;
 mod key;
 mod light_pass;
 mod memory;
+mod moments;
 mod parts;
 mod passes;
 mod render_world;
@@ -52,6 +53,8 @@ pub use inspect::{
 pub use light_pass::probe_light_paths;
 #[doc(hidden)]
 pub use memory::{check_film_fits, film_bytes_per_pixel, peak_memory};
+#[doc(hidden)]
+pub use moments::{SceneAt, first_sample_of};
 #[doc(hidden)]
 pub use passes::{Limits, Outcome, render_in_passes};
 #[doc(hidden)]

@@ -19,6 +19,7 @@ const FOUR_NUMBERS: &str = "four numbers in round brackets, such as (0.0, 0.0, 0
 const THREE_OF_THEM: &str = "three of them in round brackets, one per vertex, each in brackets of its own";
 
 /// A word of an entity, and its position.
+#[derive(Clone)]
 pub struct FilePart {
     /// The word.
     pub word: String,
@@ -29,6 +30,7 @@ pub struct FilePart {
 }
 
 /// An entity as it was read.
+#[derive(Clone)]
 pub struct FileEntity {
     /// The byte offset of its opening bracket.
     pub at: usize,

@@ -6,7 +6,8 @@ use super::refer::resolve;
 use super::scan::{entities, fields};
 use super::{FileProblem, PlaceInFile};
 use crate::{
-    ChildOf, Disabled, Keys, LookAt, Name, SceneError, SceneFolder, SceneTime, Shutter, UsesMaterial, load_meshes,
+    ChildOf, Disabled, KeyCurve, Keys, LookAt, Name, SceneError, SceneFolder, SceneTime, Shutter, UsesMaterial,
+    load_meshes,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -19,11 +20,40 @@ const MARK: char = '\u{fdd0}';
 /// The paths of values that move an entity.
 const MOVES: [&str; 2] = ["placement.position", "look_at.eye"];
 
+/// The components that say how the picture is taken, rather than what is in it.
+const OF_THE_PICTURE: [&str; 12] = [
+    "shutter",
+    "resolution",
+    "sampling",
+    "adaptive",
+    "rasterisation",
+    "integrator",
+    "light_tracing",
+    "exposure",
+    "tone_mapping",
+    "view",
+    "layers",
+    "statistics",
+];
+
+/// Whether the path of a value leads into one of them.
+fn is_of_the_picture(path: &str) -> bool {
+    path.split('.').next().is_some_and(|word| OF_THE_PICTURE.contains(&word))
+}
+
+impl Keys {
+    /// Whether they move their entity, by the value of this path.
+    fn moves(&self, path: &str) -> bool {
+        self.curve != KeyCurve::Step && MOVES.contains(&path) && self.at(0.0).any(|(own, _)| own == path)
+    }
+}
+
 fn triple(v: DVec3) -> String {
     format!("({:?}, {:?}, {:?})", v.x, v.y, v.z)
 }
 
 /// A scene read from a file, with the position of each of its parts in the file.
+#[derive(Clone)]
 pub struct SceneFile {
     /// The file's path as it was given.
     pub path: PathBuf,
@@ -72,22 +102,111 @@ impl SceneFile {
     ///
     /// Its camera's [`Shutter`] opens and closes later by the time of the frame.
     /// What moves by keys while the shutter is open, by `placement.position` or `look_at.eye`, gets the [`Motion`](crate::Motion) that it
-    /// has on average from the moment when it opens to that when it closes.
+    /// has on average from the moment when it opens to that when it closes, unless its curve is
+    /// [`Step`](crate::KeyCurve::Step).
     ///
     /// Errors: a key sets what cannot be set, in one sentence.
     pub fn at(&self, frame: f64, rate: f64) -> Result<Self, String> {
-        let shutter = self.entities.iter().find_map(|entity| self.component::<Shutter>(entity, "shutter"));
-        let mut file = Self::parse(&self.path, self.text.clone()).map_err(|problem| problem.what)?;
+        let shutter = self.shutter_at(frame)?;
+        self.keyed([frame, rate], 0.0, shutter.map_or(0.0, |shutter| shutter.open), shutter)
+    }
+
+    /// The scene at one of so many moments of a frame, from 0 on: the time while its shutter is open is divided into as many
+    /// equal stretches, and the shutter is open for one of them.
+    ///
+    /// Everything has the value of the middle of its stretch, but the settings of the picture, such as its number of
+    /// samples, have that of the frame.
+    /// What moves by `placement.position` or `look_at.eye` moves meanwhile, as at a [frame](Self::at); where it is `frozen`,
+    /// the shutter is open for the middle alone.
+    ///
+    /// Errors: as for a [frame](Self::at).
+    pub fn at_moment(&self, frame: f64, rate: f64, [number, of]: [u32; 2], frozen: bool) -> Result<Self, String> {
+        let Shutter { open, close } = self.shutter_at(frame)?.unwrap_or(Shutter { open: 0.0, close: 0.0 });
+        let time = |half: f64| open + (close - open) * (half / (2.0 * f64::from(of)));
+        let [begins, middle, ends] = [0.0, 1.0, 2.0].map(|half| time(2.0 * f64::from(number) + half));
+        let [open, close] = if frozen { [middle; 2] } else { [begins, ends] };
+        self.keyed([frame, rate], middle, middle, Some(Shutter { open, close }))
+    }
+
+    /// How long the shutter is open at a frame, in units of time; 0 without one.
+    ///
+    /// Errors: as for a [frame](Self::at).
+    pub fn exposure_time(&self, frame: f64) -> Result<f64, String> {
+        Ok(self.shutter_at(frame)?.map_or(0.0, |shutter| shutter.close - shutter.open))
+    }
+
+    /// Whether keys change something while the shutter is open that no [`Motion`](crate::Motion) shows: anything but
+    /// `placement.position` and `look_at.eye`, and these where they are farther from a straight line at an even speed than
+    /// half of one of so many equal stretches.
+    ///
+    /// Errors: as for a [frame](Self::at).
+    pub fn changes(&self, frame: f64, rate: f64, stretches: u32) -> Result<bool, String> {
+        let Some(Shutter { open, close }) = self.shutter_at(frame)?.filter(|shutter| shutter.close > shutter.open)
+        else {
+            return Ok(false);
+        };
+        let halves = 2 * stretches;
+        let fraction = |half: u32| f64::from(half) / f64::from(halves);
+        let frames: Vec<f64> =
+            (0..=halves).map(|half| frame + rate * (open + (close - open) * fraction(half))).collect();
+        let keyed = self.entities.iter().filter_map(|entity| self.component::<Keys>(entity, "keys"));
+        for keys in keyed {
+            let values: Vec<Vec<(&str, String)>> = frames.iter().map(|frame| keys.at(*frame).collect()).collect();
+            for (at, (path, first)) in values[0].iter().enumerate().filter(|(_, (path, _))| !is_of_the_picture(path)) {
+                let texts = || values.iter().map(|values| &values[at].1);
+                let places: Option<Vec<DVec3>> = texts().map(|text| ron::from_str(text).ok()).collect();
+                let is_straight = match places {
+                    Some(places) if keys.moves(path) => {
+                        let [from, to] = [places[0], places[halves as usize]];
+                        let near = (to - from).length() * fraction(1) + 1e-12 * from.abs().max(to.abs()).max_element();
+                        (0..).zip(&places).all(|(half, place)| place.distance(from.lerp(to, fraction(half))) <= near)
+                    }
+                    _ => texts().all(|text| text == first),
+                };
+                if !is_straight {
+                    return Ok(true);
+                }
+            }
+        }
+        Ok(false)
+    }
+
+    /// The shutter at a frame, in units of time from that of the frame on.
+    fn shutter_at(&self, frame: f64) -> Result<Option<Shutter>, String> {
+        let has = |entity: &FileEntity| entity.parts.iter().any(|part| part.word == "shutter");
+        let Some(index) = self.entities.iter().position(has) else { return Ok(None) };
+        let mut file = self.clone();
+        if let (Some(keys), Some(name)) =
+            (self.component::<Keys>(&self.entities[index], "keys"), &self.entities[index].name)
+        {
+            for (path, value) in keys.at(frame).filter(|(path, _)| path.starts_with("shutter")) {
+                file = file.set(&format!("{name}.{path}={value}"))?;
+            }
+        }
+        Ok(file.component::<Shutter>(&file.entities[index], "shutter"))
+    }
+
+    /// The scene at a frame, with the values of a time from that of the frame on, and with what moves where its motion is at a
+    /// reference time while this shutter is open.
+    fn keyed(
+        &self,
+        [frame, rate]: [f64; 2],
+        time: f64,
+        reference: f64,
+        shutter: Option<Shutter>,
+    ) -> Result<Self, String> {
+        let (now, mut file) = (frame / rate, self.clone());
         for entity in &self.entities {
             let Some(keys) = self.component::<Keys>(entity, "keys") else { continue };
             let Some(name) = &entity.name else {
                 return Err("an entity with keys has no name, by which a key sets its value".into());
             };
-            for (path, value) in keys.at(frame) {
+            let (of_the_frame, of_the_time) = (keys.at(frame), keys.at(frame + time * rate));
+            for ((path, of_the_frame), (_, of_the_time)) in of_the_frame.zip(of_the_time) {
+                let value = if is_of_the_picture(path) { of_the_frame } else { of_the_time };
                 file = file.set(&format!("{name}.{path}={value}"))?;
             }
-            let moves = MOVES.into_iter().filter(|path| keys.at(frame).any(|(own, _)| own == *path));
-            for path in moves {
+            for path in MOVES.into_iter().filter(|path| keys.moves(path)) {
                 let open = shutter.filter(|shutter| shutter.close > shutter.open);
                 let Some(Shutter { open, close }) = open else { continue };
                 let there = |time: f64| {
@@ -100,7 +219,8 @@ impl SceneFile {
                     continue;
                 }
                 // What has a motion is placed as it would be at time 0, and what a camera looks at goes with it.
-                let back = -velocity * (frame / rate + open);
+                let back = -velocity * (now + reference);
+                let from = from + velocity * (reference - open);
                 file = file.set(&format!("{name}.{path}={}", triple(from + back)))?;
                 file = file.set(&format!("{name}.motion.velocity={}", triple(velocity)))?;
                 if path == "look_at.eye" {
@@ -111,11 +231,10 @@ impl SceneFile {
             }
         }
         if let (Some(Shutter { open, close }), Some(name)) = (shutter, self.name_of_shutter()) {
-            let time = frame / rate;
-            file = file.set(&format!("{name}.shutter.open={:?}", open + time))?;
-            file = file.set(&format!("{name}.shutter.close={:?}", close + time))?;
+            file = file.set(&format!("{name}.shutter.open={:?}", open + now))?;
+            file = file.set(&format!("{name}.shutter.close={:?}", close + now))?;
         }
-        file.seconds = Some(frame / rate);
+        file.seconds = Some(now + time);
         Ok(file)
     }
 

@@ -12,6 +12,7 @@ use ron::ser::PrettyConfig;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::any::TypeId;
+use std::sync::Arc;
 
 // ANCHOR: words
 /// Every component that a scene file may hold, with its word there; a new component adds one line.
@@ -78,7 +79,7 @@ pub fn words() -> impl Iterator<Item = &'static str> {
 }
 
 /// Inserts a component that was read into an entity.
-pub type Put = Box<dyn Fn(&mut EntityWorldMut<'_>) + Send + Sync>;
+pub type Put = Arc<dyn Fn(&mut EntityWorldMut<'_>) + Send + Sync>;
 
 /// A component and its word in scene files.
 pub struct Word {
@@ -129,7 +130,7 @@ fn component<C>() -> &'static str {
 
 fn read<C: Component + Clone + DeserializeOwned>(text: &str) -> Result<Put, SpannedError> {
     let component: C = ron::from_str(text)?;
-    Ok(Box::new(move |entity| {
+    Ok(Arc::new(move |entity| {
         entity.insert(component.clone());
     }))
 }

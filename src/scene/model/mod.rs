@@ -18,4 +18,4 @@ pub use in_memory::{MeshInMemory, meshes_in_memory};
 pub use load::load_meshes;
 pub use mesh::{Mesh, MeshPart, ModelNotes, UnreadMesh};
 pub use model_scene::{ModelScene, is_model_file};
-pub use open_model::{MODEL_FILE, ModelFiles, SceneTime};
+pub use open_model::{MODEL_FILE, ModelFiles, SceneTime, animates_after};

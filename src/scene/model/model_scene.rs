@@ -5,7 +5,7 @@ use super::mesh::{Mesh, ModelNotes};
 use super::open_model::{SceneTime, open_model, open_model_now};
 use crate::{
     Degrees, DirectionalLight, Exposure, FileProblem, FovAxis, Gradient, Integrator, LookAt, Name, PerspectiveCamera,
-    Resolution, Rgb, Sampling, SceneFolder, printable_path,
+    Resolution, Rgb, Sampling, SceneFolder, Shutter, printable_path,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -53,6 +53,8 @@ pub struct ModelScene {
     pub animations: Vec<ModelAnimation>,
     /// The time of the animation that is shown, in seconds; none at rest.
     pub seconds: Option<f64>,
+    /// For how long the shutter is open from that time on, in seconds.
+    pub shutter: f64,
 }
 
 impl ModelScene {
@@ -106,6 +108,7 @@ impl ModelScene {
             animation: String::new(),
             animations,
             seconds: None,
+            shutter: 0.0,
         })
     }
 
@@ -149,6 +152,9 @@ impl ModelScene {
         let resolution =
             open.as_ref().map_or_else(|_| resolution_of(None), |open| resolution_of(aspect_of(&open.model)));
         scene.entity_mut(camera).insert((resolution, sampling, Integrator::PATH));
+        if let (Some(SceneTime { seconds }), true) = (time, self.shutter > 0.0) {
+            scene.entity_mut(camera).insert(Shutter { open: seconds, close: seconds + self.shutter });
+        }
         if self.exposure != 1.0 {
             scene.entity_mut(camera).insert(Exposure { stops: stops_of(self.exposure), automatic: false });
         }

@@ -33,6 +33,14 @@ pub struct SceneTime {
 #[derive(Resource, Debug, Default)]
 struct AnimatedModels(BTreeMap<(PathBuf, String), Arc<OpenModel>>);
 
+/// Whether an animated model of a scene may still change after a time, in seconds.
+pub fn animates_after(scene: &World, seconds: f64) -> bool {
+    let Some(AnimatedModels(models)) = scene.get_resource() else { return false };
+    // A file that does not say how long an animation is says 0.
+    let lasts = |length: f64| length == 0.0 || length > seconds;
+    models.values().flat_map(|own| &own.model.animations).any(|animation| lasts(animation.seconds))
+}
+
 /// A model with its meshes as all of their instances share them.
 #[derive(Debug)]
 pub struct OpenModel {
