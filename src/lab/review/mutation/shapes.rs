@@ -7,7 +7,8 @@ use pinhole::plan::{Column, Shared};
 use pinhole::rasterise::Projection;
 use pinhole::rays::{Tile, WorldRays};
 use pinhole::shapes::{
-    PlacedDisk, PlacedMesh, PlacedRectangle, ShapeKind, Slabs, TriangleHit, TriangleRow, crossing, rectangle_t,
+    Listed, PlacedDisk, PlacedMesh, PlacedRectangle, PlacedTorus, ShapeKind, Slabs, TriangleHit, TriangleRow, crossing,
+    rectangle_t,
 };
 
 fn pairs(rows: usize, shapes: usize) -> impl Iterator<Item = (usize, usize)> {
@@ -61,8 +62,20 @@ pub fn cuboid_far_side(cuboids: Res<Shared<CuboidTable>>, mut tiles: Query<(&Wor
     }
 }
 
+/// No torus is looked for.
+pub fn tori_ignored() {}
+
 /// Normals of disks on the far side.
-pub fn disk_inward(mut tiles: Query<(&ShapeRows<PlacedDisk>, &mut Surfaces)>) {
+pub fn disk_inward(tiles: Query<(&ShapeRows<PlacedDisk>, &mut Surfaces)>) {
+    negate_normals(tiles);
+}
+
+/// Normals of tori into the tube.
+pub fn torus_inward(tiles: Query<(&ShapeRows<PlacedTorus>, &mut Surfaces)>) {
+    negate_normals(tiles);
+}
+
+fn negate_normals<S: Listed>(mut tiles: Query<(&ShapeRows<S>, &mut Surfaces)>) {
     for (list, mut surfaces) in &mut tiles {
         for &row in &list.row {
             let mut surface = surfaces.get(row as usize);

@@ -22,7 +22,9 @@ use pinhole::shade::{
     point_light_stage, shape_shadow_stage, sphere_shadow_stage, spot_light_stage, start_shadow_rays_stage,
     start_shadow_stage, stripes_stage, texture_point_stage, unlit_stage,
 };
-use pinhole::shapes::{Ellipsoid, PlacedDisk, PlacedMesh, PlacedRectangle, PlacedSphere, Slabs, TriangleRow};
+use pinhole::shapes::{
+    Ellipsoid, PlacedDisk, PlacedMesh, PlacedRectangle, PlacedSphere, PlacedTorus, Slabs, TriangleRow,
+};
 use pinhole::{intersect, shade};
 
 /// A row of the table.
@@ -58,6 +60,8 @@ const SOFT: &str = "21_soft_shadows";
 const BLURRED: &str = "23_depth_of_field";
 /// Things that move while the shutter is open.
 const MOVING: &str = "24_motion_blur";
+/// A wheel with a round rim.
+const FILM: &str = "36_film";
 /// Models of many triangles.
 const MODELS: &str = "28_meshes";
 /// A camera that rasterises.
@@ -98,6 +102,7 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("disk-square", disk_stage, "the square about it", SHAPES, Bug::Instead(|| shapes::disk_square.into_configs())),
     bug("one-coordinate", rectangle_stage, "one coordinate asked", SHAPES, Bug::Instead(|| shapes::one_coordinate.into_configs())),
     bug("cuboid-far-side", cuboid_stage, "where the ray leaves", SHAPES, Bug::Instead(|| shapes::cuboid_far_side.into_configs())),
+    bug("tori-unseen", intersect::intersect_stage::<PlacedTorus>, "not looked for", FILM, Bug::Instead(|| shapes::tori_ignored.into_configs())),
     bug("nothing-moves", moving_stage, "not looked for", MOVING, Bug::Instead(|| moving::nothing_moves.into_configs())),
     bug("zero-is-none", classify_stage, "shape 0 taken for none", PINHOLE, Bug::After(|| hits::zero_is_none.into_configs())),
     bug("normal-inward", sphere_surface_stage, "sign of the normal", PINHOLE, Bug::After(|| hits::normal_inward.into_configs())),
@@ -110,6 +115,7 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("disk-inward", disk_surface_stage, "sign of the normal", SHAPES, Bug::After(|| shapes::disk_inward.into_configs())),
     bug("rectangle-epsilon", rectangle_surface_stage, "one epsilon, 1e-4", SHAPES, Bug::After(|| shapes::rectangle_epsilon.into_configs())),
     bug("round-cuboid", cuboid_surface_stage, "normal as a sphere's", SHAPES, Bug::After(|| shapes::round_cuboid.into_configs())),
+    bug("torus-inward", intersect::surface_stage::<PlacedTorus>, "sign of the normal", FILM, Bug::After(|| shapes::torus_inward.into_configs())),
     bug("turned-inward", moving_surface_stage, "sign of the normal", MOVING, Bug::After(|| moving::turned_inward.into_configs())),
     bug("two-pixels", footprint_stage, "two pixels for one", TEXTURED, Bug::After(|| textures::two_pixels.into_configs())),
     bug("half-colour", colour_stage, "half of red", TEXTURED, Bug::After(|| textures::half_colour.into_configs())),
@@ -133,6 +139,7 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("disks-ignored", shape_shadow_stage::<PlacedDisk>, "not looked for", SHAPES, Bug::Instead(|| light::disks_ignored.into_configs())),
     bug("rectangles-ignored", shape_shadow_stage::<PlacedRectangle>, "not looked for", SHAPES, Bug::Instead(|| light::rectangles_ignored.into_configs())),
     bug("cuboids-ignored", shape_shadow_stage::<Slabs>, "not looked for", SHAPES, Bug::Instead(|| light::cuboids_ignored.into_configs())),
+    bug("tori-ignored", shape_shadow_stage::<PlacedTorus>, "not looked for", FILM, Bug::Instead(|| shapes::tori_ignored.into_configs())),
     bug("movers-ignored", moving_shadow_stage, "not looked for", MOVING, Bug::Instead(|| moving::nothing_moves.into_configs())),
     bug("blue-first", unlit_stage, "blue, green, red", PARALLEL, Bug::After(|| light::blue_first.into_configs())),
     bug("shadow-forgotten", direct_light_stage::<MatteTable>, "shadows not looked up", PINHOLE, Bug::Instead(|| light::shadow_forgotten.into_configs())),
