@@ -7,6 +7,9 @@
 #[path = "../yours/programs.rs"]
 mod programs;
 
+#[path = "yours/second.rs"]
+mod second;
+
 use bevy_ecs::prelude::World;
 use pinhole::extract::linear_from_srgb;
 use pinhole::film::srgb_from_linear;
@@ -37,11 +40,13 @@ fn main() {
     // `-- --blind 21 30` tries those of chapters 21 to 30 that were written by someone else.
     let numbers: Vec<u32> = words.iter().filter_map(|word| word.parse().ok()).collect();
     let chapters = numbers.first().copied().unwrap_or(0)..=numbers.get(1).copied().unwrap_or(99);
-    let tried: Vec<Edit> = if asks("--blind") { &BLIND[..] } else { &MISTAKES }
-        .iter()
-        .copied()
-        .filter(|edit| chapters.contains(&edit.0))
-        .collect();
+    let (mistakes, right) = match () {
+        () if asks("--second") => (&second::MISTAKES[..], &second::RIGHT[..]),
+        () if asks("--blind") => (&BLIND[..], &[][..]),
+        () => (&MISTAKES[..], &RIGHT[..]),
+    };
+    let of = |edits: &[Edit]| edits.iter().copied().filter(|edit| chapters.contains(&edit.0)).collect::<Vec<_>>();
+    let (tried, right) = (of(mistakes), of(right));
     let (mut told, mut named) = (0, 0);
     for ((chapter, old, new), found) in found(&tried) {
         let said = said(&found);
@@ -50,11 +55,8 @@ fn main() {
         println!("{chapter:>2}  {:<50}  {:<40}  {}", old.trim(), new.trim(), said.unwrap_or("not told"));
     }
     println!("mistakes: {} tried, {told} told, {named} named", tried.len());
-    if asks("--blind") {
-        return;
-    }
-    let refused: Vec<_> = found(&RIGHT).into_iter().filter(|(_, found)| said(found).is_some()).collect();
-    println!("right programs: {} tried, {} called wrong {refused:?}", RIGHT.len(), refused.len());
+    let refused: Vec<_> = found(&right).into_iter().filter(|(_, found)| said(found).is_some()).collect();
+    println!("right programs: {} tried, {} called wrong {refused:?}", right.len(), refused.len());
 }
 
 /// Seconds and errors of the reader's program and of pinhole, for each step from the first with samples.

@@ -6,6 +6,7 @@ mod from_08;
 mod from_15;
 mod from_22;
 mod from_29;
+mod second;
 
 use pinhole_lab::exercise::Exercise;
 
@@ -17,6 +18,11 @@ pub struct Fresh {
     pub wrong: Vec<(Exercise, &'static str)>,
     /// Right ones.
     pub right: Vec<Exercise>,
+}
+
+/// Of all chapters: those that were written second.
+pub fn second() -> Vec<Fresh> {
+    second::all()
 }
 
 /// Of all chapters.
