@@ -100,6 +100,10 @@ fn question() -> Question<Vector, Option<Vector>> {
                  largest part first",
             )
             .when(|&v| (length(v) > 0.0 && length(v).is_finite()).then(|| plain(v)))
+            .say(
+                "short vectors are taken for 0, and of long ones the squares overflow; however short or long one is, \
+                 it has a direction: divide by the largest part first",
+            )
             .when(|&v| (length(v) > 1e-12 && length(v).is_finite()).then(|| plain(v)))
             .say(
                 "the length itself overflows, or is rounded coarsely, at the ends of f64: divide by the largest \

@@ -102,6 +102,8 @@ fn question() -> Question<Input, Option<Vector>> {
             .when(|i| parts(i, 1.0 / i.2, root(squared(i)).map(|_| (1.0 - cosine(i).powi(2)).max(0.0).sqrt())? / i.2))
             .say("η is not squared under the root: g² is η² − 1 + c²")
             .when(|i| bent(i, cosine(i) - root(i.2 - 1.0 + cosine(i) * cosine(i))?))
+            .say("η is not squared under the root: the cosine on the far side is √(1 − sin² / η²)")
+            .when(|i| parts(i, 1.0 / i.2, root(1.0 - (1.0 - cosine(i) * cosine(i)) / i.2)?))
             .say("the signs under the root are wrong: g² is η² − 1 + c²")
             .when(|i| bent(i, cosine(i) - root(1.0 - i.2 * i.2 + cosine(i) * cosine(i))?))
             .say(
