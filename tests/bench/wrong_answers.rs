@@ -14,7 +14,11 @@ use wrong_answers::Fresh;
 fn main() {
     let only = std::env::args().find_map(|word| word.parse::<usize>().ok());
     let asks = |word: &str| std::env::args().any(|own| own == word);
-    let answers = if asks("--second") { wrong_answers::second() } else { wrong_answers::all() };
+    let answers = match () {
+        () if asks("--second") => wrong_answers::second(),
+        () if asks("--third") => wrong_answers::third(),
+        () => wrong_answers::all(),
+    };
     let (mut tried, mut named, mut refused) = (0, 0, 0);
     for Fresh { chapter, wrong, right } in answers {
         if only.is_some_and(|only| only != chapter) {

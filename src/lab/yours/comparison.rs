@@ -1,6 +1,6 @@
 //! Whether a picture of bytes shows what another one of light shows, block by block.
 
-use super::known::{Picture, known_mistakes};
+use super::known::{Picture, altered_pictures, known_mistakes};
 use super::scene::{SIZE, film_after, picture_of, sample_at_most, scene_after, variants};
 use pinhole::Error;
 use pinhole::extract::linear_from_srgb;
@@ -107,7 +107,8 @@ pub struct Expected {
     curve: Curve,
     right: Pixels,
     rewritten_or_changed: OnceCell<Vec<Mistaken>>,
-    known: OnceCell<Vec<Mistaken>>,
+    known: OnceCell<Vec<(String, Picture)>>,
+    altered: OnceCell<Vec<(String, Picture)>>,
 }
 
 /// What a picture looks like, and the picture.
@@ -119,8 +120,8 @@ impl Expected {
     /// Errors: those of a render.
     pub fn after(chapter: u32) -> Result<Self, Error> {
         let right = light_of(&film_after(chapter, u32::MAX)?);
-        let (rewritten_or_changed, known) = <(OnceCell<_>, OnceCell<_>)>::default();
-        Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known })
+        let (rewritten_or_changed, known, altered) = <(OnceCell<_>, OnceCell<_>, OnceCell<_>)>::default();
+        Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known, altered })
     }
 
     /// Compares the picture that a reader's program wrote; `waits` is called before known mistakes are made in the program,
@@ -142,11 +143,16 @@ impl Expected {
             let same = Comparison::Same { resolved: resolved[resolved.len() / 2] };
             return Ok(shift(&readers, right, 0.0).map_or(same, |by| Comparison::Shifted { by }));
         };
-        let mut looks_like = self.closest(&readers, apart.len(), self.rewritten_or_changed()?);
+        let mut looks_like = self.closest(&readers, apart.len(), self.rewritten_or_changed()?, Clone::clone);
         if looks_like.as_ref().is_none_or(|(left, _)| *left > 0) {
             waits();
-            let known = self.closest(&readers, apart.len(), self.known());
+            let of_bytes = |(_, bytes): &Picture| pixels_of(bytes, &self.curve);
+            let known = self.closest(&readers, apart.len(), self.known(), of_bytes);
             looks_like = [looks_like, known].into_iter().flatten().min_by_key(|found| found.0);
+            if looks_like.as_ref().is_none_or(|(left, _)| *left > 0) {
+                let altered = self.closest(&readers, apart.len(), self.altered(), of_bytes);
+                looks_like = [looks_like, altered].into_iter().flatten().min_by_key(|found| found.0);
+            }
         }
         if looks_like.is_none()
             && let Some(by) = shift(&readers, right, EXPLAINED)
@@ -161,16 +167,23 @@ impl Expected {
 
     /// What the picture looks like that leaves the fewest blocks apart, if those are few; it must itself be apart from the
     /// right one about as far as the reader's is. With it, in how many blocks they still differ.
-    fn closest(&self, readers: &Pixels, apart: usize, mistakes: &[Mistaken]) -> Option<(usize, String)> {
+    fn closest<P>(
+        &self,
+        readers: &Pixels,
+        apart: usize,
+        mistakes: &[(String, P)],
+        pixels: impl Fn(&P) -> Pixels,
+    ) -> Option<(usize, String)> {
         let differing = |one: &Pixels, other: &Pixels| {
             blocks(one, other, &self.curve).iter().filter(|block| block.differs()).count()
         };
-        let shown = mistakes.iter().filter(|(_, wrong)| {
-            let alone = differing(wrong, &self.right);
-            2 * alone >= apart && alone <= 3 * apart
-        });
-        let all = shown.map(|(what, wrong)| (differing(readers, wrong), what.clone()));
+        let left = |(what, wrong): &(String, P)| {
+            let wrong = pixels(wrong);
+            let alone = differing(&wrong, &self.right);
+            (2 * alone >= apart && alone <= 3 * apart).then(|| (differing(readers, &wrong), what.clone()))
+        };
         // Noise alone may set one block apart.
+        let all = mistakes.iter().filter_map(left);
         all.min_by_key(|found| found.0).filter(|found| found.0 <= (apart / 10).max(usize::from(apart > 4)))
     }
 
@@ -194,12 +207,18 @@ impl Expected {
     }
 
     /// The pictures of the program with each known mistake.
-    fn known(&self) -> &[Mistaken] {
-        self.known.get_or_init(|| {
-            let all = known_mistakes(self.chapter).into_iter().filter(|(_, (size, _))| *size == SIZE);
-            all.map(|(what, (_, bytes))| (what, pixels_of(&bytes, &self.curve))).collect()
-        })
+    fn known(&self) -> &[(String, Picture)] {
+        self.known.get_or_init(|| of_size(known_mistakes(self.chapter)))
     }
+
+    /// Those of the program with each small mistake in the lines of the last step.
+    fn altered(&self) -> &[(String, Picture)] {
+        self.altered.get_or_init(|| of_size(altered_pictures(self.chapter)))
+    }
+}
+
+fn of_size(all: Vec<(String, Picture)>) -> Vec<(String, Picture)> {
+    all.into_iter().filter(|(_, (size, _))| *size == SIZE).collect()
 }
 
 /// The light of a picture of bytes.

@@ -7,6 +7,7 @@ mod from_15;
 mod from_22;
 mod from_29;
 mod second;
+mod third;
 
 use pinhole_lab::exercise::Exercise;
 
@@ -23,6 +24,11 @@ pub struct Fresh {
 /// Of all chapters: those that were written second.
 pub fn second() -> Vec<Fresh> {
     second::all()
+}
+
+/// Of all chapters: those that were written third.
+pub fn third() -> Vec<Fresh> {
+    third::all()
 }
 
 /// Of all chapters.
