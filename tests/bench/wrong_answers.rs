@@ -1,7 +1,8 @@
 //! What `check` says of wrong answers that were written before looking at what it knows, and whether it takes right ones
 //! that look unlike the book's.
 //!
-//! `cargo bench --profile dev --bench wrong_answers`; half a minute. With a number, that chapter alone.
+//! `cargo bench --profile dev --bench wrong_answers`; half a minute. With a number, that chapter alone; with
+//! `-- --second` or `-- --third`, those that were written later, each set before anybody looked at what was known by then.
 #![allow(clippy::print_stdout, reason = "a bench prints what it found")]
 #![allow(clippy::disallowed_methods, reason = "readers write with the platform's functions")]
 

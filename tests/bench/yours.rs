@@ -1,6 +1,7 @@
 //! What `yours` says of the reader's program with mistakes, and of right ones that look unlike the book's.
 //!
-//! `cargo bench --bench yours`; a few minutes. `-- --times` measures the program beside pinhole instead, both on one
+//! `cargo bench --bench yours`; a few minutes. `-- --blind`, `--second` and `--third` try sets that were written before
+//! anybody looked at what was known by then; two numbers behind them, from which chapter to which. `-- --times` measures the program beside pinhole instead, both on one
 //! thread with the same number of samples, and `-- --write` keeps that beside chapter 25.
 #![allow(clippy::print_stdout, reason = "a bench prints what it found")]
 

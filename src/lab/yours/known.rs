@@ -13,6 +13,8 @@ use std::time::{Duration, Instant};
 /// How long a program may run, and one with a mistake that is tried.
 const PATIENCE: Duration = Duration::from_secs(60);
 const SHORT: Duration = Duration::from_secs(12);
+/// How long small mistakes are tried, one after the other; a reader waits for it.
+const LONG: Duration = Duration::from_secs(90);
 
 /// The mistakes: after a minus what the right program says, after a plus what a wrong one says, and then what the picture
 /// looks like, as the end of a sentence.
@@ -50,6 +52,9 @@ pub fn altered_pictures(chapter: u32) -> Vec<(String, Picture)> {
     let all = told.into_iter().enumerate();
     // Of what changes nothing, nothing is said.
     in_parallel(all, |(at, told)| {
+        if began.elapsed() > LONG {
+            return None;
+        }
         let picture = compiled.picture_with(at + 1, patience).ok()?;
         (Some(&picture) != right.as_ref()).then_some((told, picture))
     })

@@ -16,10 +16,10 @@ fn first() -> Vec<Fresh> {
             1,
             chapter_01_image::check::exercise,
             &[
-                ("the row is not a whole number", |i, w| {
+                ("y is the index over the width with its", |i, w| {
                     [(i % u64::from(w)) as f64 + 0.5, i as f64 / f64::from(w) + 0.5]
                 }),
-                ("index cut to 32 bits", |i, w| {
+                ("the index was cut to 32 bits, which 65536 ×", |i, w| {
                     let i = i as u32;
                     [f64::from(i % w) + 0.5, f64::from(i / w) + 0.5]
                 }),
@@ -38,15 +38,15 @@ fn first() -> Vec<Fresh> {
             2,
             chapter_02_ray::check::exercise,
             &[
-                ("divided by the sum of the parts", |v| {
+                ("the length is taken for |x| + |y| + |z|; it is", |v| {
                     let sum = v[0].abs() + v[1].abs() + v[2].abs();
                     (sum > 0.0 && sum.is_finite()).then(|| over(v, sum))
                 }),
-                ("short vectors are taken for none", |v| {
+                ("short vectors are taken for 0, and of long ones", |v| {
                     let length = length(v);
                     (length > 1e-9 && length.is_finite()).then(|| over(v, length))
                 }),
-                ("z is left out of the length", |v| {
+                ("one part is left out of the length; it is √(x²", |v| {
                     let length = v[0].hypot(v[1]);
                     (length > 0.0 && length.is_finite()).then(|| over(v, length))
                 }),
@@ -64,7 +64,7 @@ fn first() -> Vec<Fresh> {
             3,
             chapter_03_hit::check::exercise,
             &[
-                ("half of b with the formula for the whole", |o, d, c, r| {
+                ("the formula with b and that with half of b are", |o, d, c, r| {
                     let oc = sub(o, c);
                     let (a, b, c) = (dot(d, d), dot(oc, d), dot(oc, oc) - r * r);
                     let root = (b * b - 4.0 * a * c).sqrt();
@@ -76,7 +76,7 @@ fn first() -> Vec<Fresh> {
                     let root = (b * b - a * c).sqrt();
                     [(-b - root) / a, (-b + root) / a].into_iter().find(|t| *t > 0.0)
                 }),
-                ("from the origin to the centre with the signs of the other", |o, d, c, r| {
+                ("b has the wrong sign, so that what is behind", |o, d, c, r| {
                     let oc = sub(c, o);
                     let (a, b, c) = (dot(d, d), dot(oc, d), dot(oc, oc) - r * r);
                     let root = (b * b - a * c).sqrt();
@@ -105,8 +105,12 @@ fn first() -> Vec<Fresh> {
             4,
             chapter_04_orthographic::check::exercise,
             &[
-                ("divided by half the height", |[x, y], h| ([x / (h / 2.0), y / (h / 2.0), 0.0], [0.0, 0.0, -1.0])),
-                ("the origin is on z = -1", |[x, y], h| ([x * h / 2.0, y * h / 2.0, -1.0], [0.0, 0.0, -1.0])),
+                ("the screen point is divided by the height; a", |[x, y], h| {
+                    ([x / (h / 2.0), y / (h / 2.0), 0.0], [0.0, 0.0, -1.0])
+                }),
+                ("the rectangle stands at z = −1; here it stands", |[x, y], h| {
+                    ([x * h / 2.0, y * h / 2.0, -1.0], [0.0, 0.0, -1.0])
+                }),
                 ("only y is scaled", |[x, y], h| ([x, y * h / 2.0, 0.0], [0.0, 0.0, -1.0])),
             ],
             &[|screen, h| {
@@ -118,7 +122,7 @@ fn first() -> Vec<Fresh> {
             5,
             chapter_05_pinhole::check::exercise,
             &[
-                ("z is scaled too", |[x, y], t| unit([x * t, y * t, -t])),
+                ("the tangent is left out, or multiplies z as", |[x, y], t| unit([x * t, y * t, -t])),
                 ("only y is scaled", |[x, y], t| unit([x, y * t, -1.0])),
             ],
             &[|[x, y], t| {
@@ -131,15 +135,15 @@ fn first() -> Vec<Fresh> {
             6,
             chapter_06_ndc::check::exercise,
             &[
-                ("scaled by one pixel less", |p, w, h| {
+                ("the point is scaled by the size less 1; n", |p, w, h| {
                     let at = |p: f64, n: u32| (0.0..1.0).contains(&p).then(|| (p * f64::from(n - 1)) as u32);
                     Some([at(p[0], w)?, at(p[1], h)?])
                 }),
-                ("1 is inside", |p, w, h| {
+                ("1 counts as inside; the lower and right edges", |p, w, h| {
                     let at = |p: f64, n: u32| (0.0..=1.0).contains(&p).then(|| ((p * f64::from(n)) as u32).min(n - 1));
                     Some([at(p[0], w)?, at(p[1], h)?])
                 }),
-                ("the edge belongs to the left one", |p, w, h| {
+                ("the product is rounded up; a point on an edge", |p, w, h| {
                     let at = |p: f64, n: u32| {
                         (0.0..1.0).contains(&p).then(|| ((p * f64::from(n)).ceil() as u32).saturating_sub(1).min(n - 1))
                     };
@@ -161,14 +165,14 @@ fn first() -> Vec<Fresh> {
             7,
             chapter_07_screen::check::exercise,
             &[
-                ("aspect by whole numbers", |[x, y], w, h| {
+                ("the aspect divides whole numbers, 480 / 270 =", |[x, y], w, h| {
                     let aspect = f64::from((w / h).max(1));
                     [(x / aspect + 1.0) / 2.0, (1.0 - y) / 2.0]
                 }),
-                ("the aspect divides the sum", |[x, y], w, h| {
+                ("1 is added before the aspect is taken off; undo", |[x, y], w, h| {
                     [(x + 1.0) / (2.0 * f64::from(w) / f64::from(h)), (1.0 - y) / 2.0]
                 }),
-                ("y has the aspect too", |[x, y], w, h| {
+                ("the aspect is taken off y, too; on the screen y", |[x, y], w, h| {
                     let aspect = f64::from(w) / f64::from(h);
                     [(x / aspect + 1.0) / 2.0, (1.0 - y / aspect) / 2.0]
                 }),
@@ -184,8 +188,10 @@ fn shapes_and_light() -> Vec<Fresh> {
             8,
             chapter_08_field_of_view::check::exercise,
             &[
-                ("angles as if proportional", |a, axis, w, h| a * f64::from(h) / across(axis, w, h)),
-                ("the diagonal as a sum", |a, axis, w, h| {
+                ("the angle itself is divided by the aspect; it", |a, axis, w, h| {
+                    a * f64::from(h) / across(axis, w, h)
+                }),
+                ("the diagonal is taken for something else: it is", |a, axis, w, h| {
                     let n = if matches!(axis, FovAxis::Diagonal) {
                         f64::from(w) + f64::from(h)
                     } else {
@@ -193,7 +199,7 @@ fn shapes_and_light() -> Vec<Fresh> {
                     };
                     2.0 * ((a.to_radians() / 2.0).tan() * f64::from(h) / n).atan().to_degrees()
                 }),
-                ("the larger is always the width", |a, axis, w, h| {
+                ("the smaller and the larger side are taken to be", |a, axis, w, h| {
                     let n = match axis {
                         FovAxis::Larger => f64::from(w),
                         FovAxis::Smaller => f64::from(h),
@@ -211,7 +217,7 @@ fn shapes_and_light() -> Vec<Fresh> {
             9,
             chapter_09_camera_to_world::check::exercise,
             &[
-                ("the inverse, not transposed", |[x, y, z], n| {
+                ("the inverse is not transposed, or the columns", |[x, y, z], n| {
                     let det = dot(x, cross(y, z));
                     let rows = [cross(y, z), cross(z, x), cross(x, y)];
                     unit(rows.map(|row| dot(row, n) / det))
@@ -232,17 +238,17 @@ fn shapes_and_light() -> Vec<Fresh> {
             10,
             chapter_10_light_and_shadow::check::exercise,
             &[
-                ("spread over the whole sphere: 4 pi", |c, i, p, n, l| {
+                ("the intensity is divided by 4π; it is what the", |c, i, p, n, l| {
                     let to = sub(l, p);
                     let d2 = dot(to, to);
                     if d2 == 0.0 { 0.0 } else { c * i * dot(n, unit(to)).max(0.0) / (4.0 * PI * d2) }
                 }),
-                ("times pi", |c, i, p, n, l| {
+                ("the BRDF is colour / π; it is not multiplied by", |c, i, p, n, l| {
                     let to = sub(l, p);
                     let d2 = dot(to, to);
                     if d2 == 0.0 { 0.0 } else { c * PI * i * dot(n, unit(to)).max(0.0) / d2 }
                 }),
-                ("the cosine twice", |c, i, p, n, l| {
+                ("the cosine is squared; the light spreads over a", |c, i, p, n, l| {
                     let to = sub(l, p);
                     let d2 = dot(to, to);
                     let cosine = dot(n, unit(to)).max(0.0);
@@ -260,11 +266,11 @@ fn shapes_and_light() -> Vec<Fresh> {
             11,
             chapter_11_conventions::check::exercise,
             &[
-                ("z turned by handedness", |[x, y, z], right, up, ahead| {
+                ("z of the answer has the opposite sign where", |[x, y, z], right, up, ahead| {
                     let z = if right == up { -z } else { z };
                     [if right { x } else { -x }, if up { y } else { -y }, if ahead { z } else { -z }]
                 }),
-                ("y and z change places", |[x, y, z], right, up, ahead| {
+                ("y of `direction` and z of `direction` are", |[x, y, z], right, up, ahead| {
                     [if right { x } else { -x }, if up { z } else { -z }, if ahead { -y } else { y }]
                 }),
             ],
@@ -277,7 +283,7 @@ fn shapes_and_light() -> Vec<Fresh> {
             12,
             chapter_12_how_it_is_built::check::exercise,
             &[
-                ("only the last writer of a column", |stages, asked| {
+                ("a column counts as provided for once a stage", |stages, asked| {
                     let mut wanted = vec![asked.to_owned()];
                     let mut kept = Vec::new();
                     for stage in stages.iter().rev() {
@@ -289,7 +295,7 @@ fn shapes_and_light() -> Vec<Fresh> {
                     }
                     kept
                 }),
-                ("stages without need pass on what they read", |stages, asked| {
+                ("what a stage that the scene does not need reads", |stages, asked| {
                     let mut wanted = vec![asked.to_owned()];
                     let mut kept = Vec::new();
                     for stage in stages.iter().rev() {
@@ -302,7 +308,7 @@ fn shapes_and_light() -> Vec<Fresh> {
                     }
                     kept
                 }),
-                ("every column must be wanted", |stages, asked| {
+                ("a stage is kept only if all that it writes is", |stages, asked| {
                     let mut wanted = vec![asked.to_owned()];
                     let mut kept = Vec::new();
                     for stage in stages.iter().rev() {
@@ -336,7 +342,7 @@ fn shapes_and_light() -> Vec<Fresh> {
             13,
             chapter_13_shapes::check::exercise,
             &[
-                ("a ray along two faces is never asked whether it is between them", |o, d, low, high| {
+                ("an axis along which the direction is 0 is left", |o, d, low, high| {
                     let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
                     for at in 0..3 {
                         if d[at] == 0.0 {
@@ -348,11 +354,11 @@ fn shapes_and_light() -> Vec<Fresh> {
                     (enters <= leaves).then_some(())?;
                     [enters, leaves].into_iter().find(|t| *t > 0.0)
                 }),
-                ("from inside it is 0", |o, d, low, high| {
+                ("from inside, the origin counts as the hit; the", |o, d, low, high| {
                     let [enters, leaves] = slabs(o, d, low, high)?;
                     (leaves > 0.0).then(|| enters.max(0.0))
                 }),
-                ("leaves at the last exit", |o, d, low, high| {
+                ("", |o, d, low, high| {
                     let [enters, _] = slabs(o, d, low, high)?;
                     let leaves = (0..3)
                         .filter(|at| d[*at] != 0.0)
@@ -367,13 +373,15 @@ fn shapes_and_light() -> Vec<Fresh> {
             14,
             chapter_14_transforms::check::exercise,
             &[
-                ("the eye turns the shading normal", |g, ns, w, eye, light| {
+                ("the mixed normal is turned to the eye by its", |g, ns, w, eye, light| {
                     let n = mean(ns, w);
                     let n = if dot(n, eye) < 0.0 { times(n, -1.0) } else { n };
                     let g = if dot(g, eye) < 0.0 { times(g, -1.0) } else { g };
                     if dot(g, light) <= 0.0 { 0.0 } else { dot(n, unit(light)).max(0.0) }
                 }),
-                ("the weights are forgotten", |g, ns, _, eye, light| shaded(g, mean(ns, [1.0; 3]), eye, light)),
+                ("the weights are left out; each corner's normal", |g, ns, _, eye, light| {
+                    shaded(g, mean(ns, [1.0; 3]), eye, light)
+                }),
                 (
                     "from behind it is dark",
                     |g, ns, w, eye, light| {
@@ -458,8 +466,8 @@ fn samples() -> Vec<Fresh> {
                     let half = dot(n, unit(add(l, v))).max(0.0);
                     if cosine <= 0.0 { 0.0 } else { (c / PI + s * (e + 2.0) / TAU * half.powf(e)) * i * cosine }
                 }),
-                ("one for two in the factor", |k, i, n, l, v| phong(1.0, k, i, [n, l, v])),
-                ("no cosine for the highlight", |[c, s, e], i, n, l, v| {
+                ("the factor is that of cosⁿ alone, (n + 1) / 2π;", |k, i, n, l, v| phong(1.0, k, i, [n, l, v])),
+                ("the cosine is forgotten in the highlight; it", |[c, s, e], i, n, l, v| {
                     let cosine = dot(n, l);
                     let lobe = dot(sub(times(n, 2.0 * cosine), l), v).max(0.0);
                     if cosine <= 0.0 { 0.0 } else { (c / PI * cosine + s * (e + 2.0) / TAU * lobe.powf(e)) * i }
@@ -475,8 +483,12 @@ fn samples() -> Vec<Fresh> {
             16,
             chapter_16_textures::check::exercise,
             &[
-                ("the mean of both ends", |x, w| (stripe(x - w / 2.0) + stripe(x + w / 2.0)) / 2.0),
-                ("the range begins at x", |x, w| if w == 0.0 { stripe(x) } else { (tri(x + w) - tri(x)) / w }),
+                ("only a few points of the range are looked at;", |x, w| {
+                    (stripe(x - w / 2.0) + stripe(x + w / 2.0)) / 2.0
+                }),
+                ("the range reaches from x to x + width; half of", |x, w| {
+                    if w == 0.0 { stripe(x) } else { (tri(x + w) - tri(x)) / w }
+                }),
                 ("twice as wide", |x, w| if w == 0.0 { stripe(x) } else { (tri(x + w) - tri(x - w)) / (2.0 * w) }),
             ],
             &[|x, w| {
@@ -494,13 +506,13 @@ fn samples() -> Vec<Fresh> {
             17,
             chapter_17_sampling::check::exercise,
             &[
-                ("falls where it should rise", |u, r| {
+                ("left and right are swapped; the place must grow", |u, r| {
                     if u < 0.5 { r * (1.0 - (2.0 * u).sqrt()) } else { -r * (1.0 - (2.0 * (1.0 - u)).sqrt()) }
                 }),
-                ("the second half turned round", |u, r| {
+                ("the right half is not the mirror image of the", |u, r| {
                     if u < 0.5 { r * ((2.0 * u).sqrt() - 1.0) } else { r * (2.0 * u - 1.0).sqrt() }
                 }),
-                ("squares for roots", |u, r| {
+                ("squares draw the samples to the centre too", |u, r| {
                     let v = 2.0 * u - 1.0;
                     r * v * v.abs()
                 }),
@@ -514,7 +526,7 @@ fn samples() -> Vec<Fresh> {
             18,
             chapter_18_error_and_time::check::exercise,
             &[
-                ("each pair once, divided as if twice", |runs, truth| {
+                ("the pairs are miscounted: n runs make n (n − 1)", |runs, truth| {
                     let n = runs.len() as f64;
                     (runs.len() > 1).then_some(())?;
                     let mean = runs.iter().sum::<f64>() / n;
@@ -531,7 +543,7 @@ fn samples() -> Vec<Fresh> {
                     let [variance, bias] = apart(runs, truth)?;
                     Some([variance / runs.len() as f64, bias])
                 }),
-                ("no negative bias", |runs, truth| {
+                ("a bias² below 0 is cut off; then its mean over", |runs, truth| {
                     let [variance, bias] = apart(runs, truth)?;
                     Some([variance, bias.max(0.0)])
                 }),
@@ -554,12 +566,12 @@ fn samples() -> Vec<Fresh> {
             19,
             chapter_19_mirrors::check::exercise,
             &[
-                ("divided by the length once", |d, n| sub(d, times(n, 2.0 * dot(d, n) / length(n)))),
-                ("only from the front", |d, n| {
+                ("what comes out is divided by the normal's", |d, n| sub(d, times(n, 2.0 * dot(d, n) / length(n)))),
+                ("from behind a mirror works too; no sign of d ·", |d, n| {
                     let n = unit(n);
                     if dot(d, n) < 0.0 { sub(d, times(n, 2.0 * dot(d, n))) } else { d }
                 }),
-                ("as if always from the back", |d, n| {
+                ("the absolute value of d · n is taken off; the", |d, n| {
                     let n = unit(n);
                     sub(d, times(n, 2.0 * dot(d, n).abs()))
                 }),
@@ -575,12 +587,12 @@ fn samples() -> Vec<Fresh> {
             20,
             chapter_20_glass::check::exercise,
             &[
-                ("eta is not squared under the root", |d, n, eta| {
+                ("η is not squared under the root", |d, n, eta| {
                     let cosine = -dot(d, n);
                     let squared = 1.0 - (1.0 - cosine * cosine) / eta;
                     (squared >= 0.0).then(|| add(over(d, eta), times(n, cosine / eta - squared.sqrt())))
                 }),
-                ("reflected for none", |d, n, eta| {
+                ("where nothing passes the mirror's direction is", |d, n, eta| {
                     let cosine = -dot(d, n);
                     let squared = 1.0 - (1.0 - cosine * cosine) / (eta * eta);
                     if squared < 0.0 {
@@ -588,7 +600,7 @@ fn samples() -> Vec<Fresh> {
                     }
                     Some(add(over(d, eta), times(n, cosine / eta - squared.sqrt())))
                 }),
-                ("back on the same side", |d, n, eta| {
+                ("what comes out goes back to the near side: the", |d, n, eta| {
                     let cosine = -dot(d, n);
                     let squared = 1.0 - (1.0 - cosine * cosine) / (eta * eta);
                     (squared >= 0.0).then(|| add(over(d, eta), times(n, cosine / eta + squared.sqrt())))
@@ -623,17 +635,17 @@ fn paths() -> Vec<Fresh> {
             21,
             chapter_21_soft_shadows::check::exercise,
             &[
-                ("the cosine of a vector that is not of length 1", |from, at, n, area| {
+                ("the distance counts once, not squared; normal ·", |from, at, n, area| {
                     let to = sub(at, from);
                     let cosine = dot(n, to).abs();
                     if cosine == 0.0 { 0.0 } else { dot(to, to) / (cosine * area) }
                 }),
-                ("times the area", |from, at, n, area| {
+                ("the pdf is multiplied by the area; the larger", |from, at, n, area| {
                     let to = sub(at, from);
                     let cosine = dot(n, unit(to)).abs();
                     if cosine == 0.0 { 0.0 } else { dot(to, to) * area / cosine }
                 }),
-                ("infinite from the edge", |from, at, n, area| {
+                ("seen from its edge the area fills no direction,", |from, at, n, area| {
                     let to = sub(at, from);
                     dot(to, to) / (dot(n, unit(to)).abs() * area)
                 }),
@@ -652,7 +664,7 @@ fn paths() -> Vec<Fresh> {
                     let (sin, cos) = (PI * v).sin_cos();
                     [u.sqrt() * cos, u.sqrt() * sin, (1.0 - u).sqrt()]
                 }),
-                ("the height as one less the distance", |u, v| {
+                ("the height is not that of a unit vector: x² +", |u, v| {
                     let (sin, cos) = (TAU * v).sin_cos();
                     [u.sqrt() * cos, u.sqrt() * sin, 1.0 - u.sqrt()]
                 }),
@@ -671,12 +683,16 @@ fn paths() -> Vec<Fresh> {
             23,
             chapter_23_depth_of_field::check::exercise,
             &[
-                ("the focus along the ray", |[x, y], t, [lx, ly], f| {
+                ("the focus is taken along the ray: what is sharp", |[x, y], t, [lx, ly], f| {
                     let to = times(unit([x * t, y * t, -1.0]), f);
                     unit(sub(to, [lx, ly, 0.0]))
                 }),
-                ("z is not scaled by the focus", |[x, y], t, [lx, ly], f| unit([x * t * f - lx, y * t * f - ly, -1.0])),
-                ("the lens is scaled too", |[x, y], t, [lx, ly], f| unit([(x * f - lx) * t, (y * f - ly) * t, -f])),
+                ("only x and y are multiplied by the focus", |[x, y], t, [lx, ly], f| {
+                    unit([x * t * f - lx, y * t * f - ly, -1.0])
+                }),
+                ("the lens point is multiplied by the tangent; it", |[x, y], t, [lx, ly], f| {
+                    unit([(x * f - lx) * t, (y * f - ly) * t, -f])
+                }),
             ],
             &[|[x, y], t, [lx, ly], f| unit([x * t - lx / f, y * t - ly / f, -1.0])],
         ),
@@ -684,11 +700,11 @@ fn paths() -> Vec<Fresh> {
             24,
             chapter_24_motion_blur::check::exercise,
             &[
-                ("the ray moves with the sphere", |o, d, c, r, v, time| {
+                ("the direction is changed by the velocity; light", |o, d, c, r, v, time| {
                     first_of(o, sub(d, v), add(c, times(v, time)), r)
                 }),
-                ("the time is not used", |o, d, c, r, v, _| first_of(o, d, add(c, v), r)),
-                ("the far side", |o, d, c, r, v, time| {
+                ("the time is left out: the sphere has always", |o, d, c, r, v, _| first_of(o, d, add(c, v), r)),
+                ("that is where the ray leaves the sphere; the", |o, d, c, r, v, time| {
                     let oc = sub(o, add(c, times(v, time)));
                     let (b, c) = (dot(oc, d), dot(oc, oc) - r * r);
                     let t = -b + (b * b - c).sqrt();
@@ -711,15 +727,15 @@ fn paths() -> Vec<Fresh> {
                     let p = ((w[0] + w[1] + w[2]) / 3.0).min(1.0);
                     if u < p { over(w, p) } else { [0.0; 3] }
                 }),
-                ("not at most 1", |w, u| {
+                ("a probability above 1 divides light away; it is", |w, u| {
                     let p = w[0].max(w[1]).max(w[2]);
                     if u < p { over(w, p) } else { [0.0; 3] }
                 }),
-                ("divided by the probability of the end", |w, u| {
+                ("a path that goes on is divided by the", |w, u| {
                     let p = w[0].max(w[1]).max(w[2]).min(1.0);
                     if u < p { over(w, 1.0 - p) } else { [0.0; 3] }
                 }),
-                ("by luminance", |w, u| {
+                ("the probability is the luminance; asked is the", |w, u| {
                     let p = (0.2126 * w[0] + 0.7152 * w[1] + 0.0722 * w[2]).min(1.0);
                     if u < p { over(w, p) } else { [0.0; 3] }
                 }),
@@ -737,7 +753,7 @@ fn paths() -> Vec<Fresh> {
             26,
             chapter_26_choosing_samples::check::exercise,
             &[
-                ("squared after the sum", |own, other| {
+                ("that is the balance heuristic squared; square", |own, other| {
                     let part = own / (own + other);
                     if own == 0.0 { 0.0 } else { part * part }
                 }),
@@ -747,7 +763,7 @@ fn paths() -> Vec<Fresh> {
                         if own == 0.0 { 0.0 } else { own * own / (own * own + other * other) }
                     },
                 ),
-                ("nothing asked of two zeros", |own, other| {
+                ("0 is divided by 0 where neither technique", |own, other| {
                     let ratio = other / own;
                     1.0 / (1.0 + ratio * ratio)
                 }),
@@ -768,19 +784,19 @@ fn paths() -> Vec<Fresh> {
             27,
             chapter_27_caustics::check::exercise,
             &[
-                ("the plane is not twice as high", |p, t, h| {
+                ("the plane at distance 1 is 2 tan_half high, not", |p, t, h| {
                     let a = (t / h) * (t / h);
                     let d2 = dot(p, p);
                     let cosine = -p[2] / d2.sqrt();
                     if cosine <= 0.0 { 0.0 } else { 1.0 / (a * d2 * cosine * cosine * cosine) }
                 }),
-                ("one cosine too many", |p, t, h| {
+                ("cos⁴ is taken; it is cos³: the fourth belongs", |p, t, h| {
                     let a = (2.0 * t / h) * (2.0 * t / h);
                     let d2 = dot(p, p);
                     let cosine = -p[2] / d2.sqrt();
                     if cosine <= 0.0 { 0.0 } else { 1.0 / (a * d2 * cosine * cosine * cosine * cosine) }
                 }),
-                ("behind it is negative", |p, t, h| {
+                ("a point behind the eye counts; it reaches no", |p, t, h| {
                     let a = (2.0 * t / h) * (2.0 * t / h);
                     let d2 = dot(p, p);
                     let cosine = -p[2] / d2.sqrt();
@@ -809,18 +825,18 @@ fn meshes() -> Vec<Fresh> {
             28,
             chapter_28_meshes::check::exercise,
             &[
-                ("the direction at length 1", |o, d, p, axes, s| {
+                ("the direction is of length 1 in object space", |o, d, p, axes, s| {
                     let to = |v: [f64; 3]| [0, 1, 2].map(|at| dot(axes[at], v) / s[at]);
                     [to(sub(o, p)), unit(to(d))]
                 }),
-                ("rows for columns", |o, d, p, axes, s| {
+                ("the vector is taken from object to world space;", |o, d, p, axes, s| {
                     let to = |v: [f64; 3]| {
                         let turned = add(add(times(axes[0], v[0]), times(axes[1], v[1])), times(axes[2], v[2]));
                         [0, 1, 2].map(|at| turned[at] / s[at])
                     };
                     [to(sub(o, p)), to(d)]
                 }),
-                ("scaled before it is turned", |o, d, p, axes, s| {
+                ("the turn is to be undone before the scale,", |o, d, p, axes, s| {
                     let to = |v: [f64; 3]| {
                         let v = [0, 1, 2].map(|at| v[at] / s[at]);
                         axes.map(|axis| dot(axis, v))
@@ -839,13 +855,13 @@ fn meshes() -> Vec<Fresh> {
             29,
             chapter_29_boxes::check::exercise,
             &[
-                ("must leave before the end", |o, inverse, low, high, t_max| {
+                ("a box that reaches beyond t_max counts, too,", |o, inverse, low, high, t_max| {
                     within(o, inverse, low, high).is_some_and(|[a, b]| a <= b && b >= 0.0 && b <= t_max)
                 }),
-                ("flat boxes are missed", |o, inverse, low, high, t_max| {
+                ("flat boxes and edges are lost: where a ray", |o, inverse, low, high, t_max| {
                     within(o, inverse, low, high).is_some_and(|[a, b]| a < b && b >= 0.0 && a <= t_max)
                 }),
-                ("the end is not asked", |o, inverse, low, high, _| {
+                ("a box beyond t_max counts", |o, inverse, low, high, _| {
                     within(o, inverse, low, high).is_some_and(|[a, b]| a <= b && b >= 0.0)
                 }),
             ],
@@ -867,14 +883,14 @@ fn meshes() -> Vec<Fresh> {
             30,
             chapter_30_tree::check::exercise,
             &[
-                ("child 1 alone stays in the second place", |enters, closest| {
+                ("None stands before a child; where only one is", |enters, closest| {
                     let [a, b] = enters.map(|t| t.filter(|t| *t < closest));
                     match (a, b) {
                         (Some(a), Some(b)) if b < a => [Some(1), Some(0)],
                         (a, b) => [a.map(|_| 0), b.map(|_| 1)],
                     }
                 }),
-                ("only the nearer is compared with the hit", |enters, closest| match enters {
+                ("both are visited if the nearer one begins", |enters, closest| match enters {
                     [Some(a), Some(b)] if a.min(b) < closest => {
                         if b < a {
                             [Some(1), Some(0)]
@@ -886,7 +902,7 @@ fn meshes() -> Vec<Fresh> {
                     [None, Some(b)] if b < closest => [Some(1), None],
                     _ => [None, None],
                 }),
-                ("child 1 where both are equal", |enters, closest| {
+                ("child 1 is first where both are equally near;", |enters, closest| {
                     let [a, b] = enters.map(|t| t.filter(|t| *t < closest));
                     match (a, b) {
                         (Some(a), Some(b)) if b <= a => [Some(1), Some(0)],
@@ -910,10 +926,10 @@ fn meshes() -> Vec<Fresh> {
             31,
             chapter_31_wide_tree::check::exercise,
             &[
-                ("one bit too high", |enters, leaves, closest| {
+                ("the bits begin with bit 1: bit 0 is the first", |enters, leaves, closest| {
                     (0..8).map(|i| u32::from(is_entered(enters[i], leaves[i], closest)) << (i + 1)).sum()
                 }),
-                ("must leave before the hit", |enters, leaves, closest| {
+                ("a box that reaches behind the closest hit", |enters, leaves, closest| {
                     (0..8)
                         .map(|i| {
                             let is = enters[i] <= leaves[i] && leaves[i] >= 0.0 && leaves[i] <= closest;
@@ -921,7 +937,7 @@ fn meshes() -> Vec<Fresh> {
                         })
                         .sum()
                 }),
-                ("their number", |enters, leaves, closest| {
+                ("the boxes are counted; asked is a mask, with", |enters, leaves, closest| {
                     (0..8).map(|i| u32::from(is_entered(enters[i], leaves[i], closest))).sum()
                 }),
             ],
@@ -962,7 +978,7 @@ fn raster() -> Vec<Fresh> {
             32,
             chapter_32_projection::check::exercise,
             &[
-                ("half a pixel is taken off", |p, eye, axes, t, [w, h]| {
+                ("half a pixel is subtracted: x and y are counted", |p, eye, axes, t, [w, h]| {
                     let [x, y] = placed(p, eye, axes, t, [w, h]);
                     [x - 0.5, y - 0.5]
                 }),
@@ -972,7 +988,7 @@ fn raster() -> Vec<Fresh> {
                     let [x, y] = [dot(to, axes[0]) / d / t, dot(to, axes[1]) / d / t];
                     [(w + x * h) / 2.0, (1.0 - y) * h / 2.0]
                 }),
-                ("rows for columns", |p, eye, [a, b, c], t, size| {
+                ("the point goes from the camera to the world:", |p, eye, [a, b, c], t, size| {
                     placed(p, eye, [[a[0], b[0], c[0]], [a[1], b[1], c[1]], [a[2], b[2], c[2]]], t, size)
                 }),
             ],
@@ -986,17 +1002,17 @@ fn raster() -> Vec<Fresh> {
             33,
             chapter_33_rasterisation::check::exercise,
             &[
-                ("32 bits overflow", |from, to, at| {
+                ("the products overflow i32: two numbers of 25", |from, to, at| {
                     let cross = (to[0] - from[0])
                         .wrapping_mul(at[1] - from[1])
                         .wrapping_sub((to[1] - from[1]).wrapping_mul(at[0] - from[0]));
                     cross > 0 || (cross == 0 && is_own(from, to))
                 }),
-                ("every level edge is a top edge", |from, to, at| {
+                ("a level edge belongs to the triangle where it", |from, to, at| {
                     let cross = edge(from, to, at);
                     cross > 0 || (cross == 0 && (to[1] < from[1] || to[1] == from[1]))
                 }),
-                ("rounded to f32", |from, to, at| {
+                ("the edge function is rounded: f32 has 24 bits,", |from, to, at| {
                     let [from, to, at] = [from, to, at].map(|p| p.map(|part| part as f32));
                     let cross = (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0]);
                     cross > 0.0 || (cross == 0.0 && (to[1] < from[1] || (to[1] == from[1] && to[0] > from[0])))
@@ -1013,14 +1029,14 @@ fn raster() -> Vec<Fresh> {
             34,
             chapter_34_both::check::exercise,
             &[
-                ("atan for asin", |right, ahead, r, half| {
+                ("the radius over the distance is the sine of the", |right, ahead, r, half| {
                     let d = right.hypot(ahead);
                     if d <= r {
                         return [-half, half];
                     }
                     tangents(right.atan2(ahead), (r / d).atan(), half)
                 }),
-                ("angles for places", |right, ahead, r, half| {
+                ("those are angles, or their sines; on a plane at", |right, ahead, r, half| {
                     let d = right.hypot(ahead);
                     if d <= r {
                         return [-half, half];
@@ -1028,7 +1044,7 @@ fn raster() -> Vec<Fresh> {
                     let (middle, spread) = (right.atan2(ahead), (r / d).asin());
                     [(middle - spread).clamp(-half, half), (middle + spread).clamp(-half, half)]
                 }),
-                ("0 to 0 where nothing remains", |right, ahead, r, half| {
+                ("the answer is (0.0, 0.0) where all parts of the", |right, ahead, r, half| {
                     let [a, b] = interval(right, ahead, r, half);
                     if a == b { [0.0; 2] } else { [a, b] }
                 }),
@@ -1039,9 +1055,13 @@ fn raster() -> Vec<Fresh> {
             35,
             chapter_35_real_time::check::exercise,
             &[
-                ("the power of a negative cosine", |n, m, o| power(dot(n, m), 32) * planar(n, o, true)),
+                ("surfaces that face away count: 32 is even, so a", |n, m, o| {
+                    power(dot(n, m), 32) * planar(n, o, true)
+                }),
                 ("the sine is not squared", |n, m, o| power(dot(n, m).max(0.0), 32) * planar(n, o, false)),
-                ("the mean of the two factors", |n, m, o| (power(dot(n, m).max(0.0), 32) + planar(n, o, true)) / 2.0),
+                ("the mean of the factors is taken; they are to", |n, m, o| {
+                    (power(dot(n, m).max(0.0), 32) + planar(n, o, true)) / 2.0
+                }),
             ],
             &[|n, m, o| {
                 let mut cosine = dot(n, m).clamp(0.0, 1.0);

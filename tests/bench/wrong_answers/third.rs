@@ -16,11 +16,11 @@ fn first() -> Vec<Fresh> {
             1,
             chapter_01_image::check::exercise,
             &[
-                ("the half goes onto the index", |i, w| {
+                ("y is the index over the width with its", |i, w| {
                     let i = i as f64 + 0.5;
                     [i % f64::from(w), i / f64::from(w)]
                 }),
-                ("the row is rounded up", |i, w| {
+                ("the row is rounded; it is the whole part of the", |i, w| {
                     [(i % u64::from(w)) as f64 + 0.5, (i as f64 / f64::from(w)).ceil() + 0.5]
                 }),
             ],
@@ -34,11 +34,11 @@ fn first() -> Vec<Fresh> {
             2,
             chapter_02_ray::check::exercise,
             &[
-                ("0 gets the direction 0", |v| {
+                ("what has no direction is given one", |v| {
                     let length = length(v);
                     Some(if length == 0.0 { v } else { over(v, length) })
                 }),
-                ("never divided by less than 1", |v| {
+                ("only a vector longer than 1 is made shorter; a", |v| {
                     let length = length(v);
                     (length > 0.0 && length.is_finite()).then(|| over(v, length.max(1.0)))
                 }),
@@ -57,7 +57,7 @@ fn first() -> Vec<Fresh> {
             3,
             chapter_03_hit::check::exercise,
             &[
-                ("the centre is left out of c", |o, d, c, r| {
+                ("c is of the origin alone; it is of the origin", |o, d, c, r| {
                     let (a, b, c) = (dot(d, d), dot(sub(o, c), d), dot(o, o) - r * r);
                     roots(a, b, c).into_iter().find(|t| *t > 0.0)
                 }),
@@ -65,7 +65,7 @@ fn first() -> Vec<Fresh> {
                     let oc = sub(o, c);
                     roots(1.0, dot(oc, d), dot(oc, oc) - r * r).into_iter().find(|t| *t > 0.0)
                 }),
-                ("the smallest without its sign", |o, d, c, r| {
+                ("two things went wrong. First, b² − ac (or b² −", |o, d, c, r| {
                     let oc = sub(o, c);
                     let [one, two] = roots(dot(d, d), dot(oc, d), dot(oc, oc) - r * r).map(f64::abs);
                     (!one.is_nan()).then(|| one.min(two))
@@ -77,8 +77,10 @@ fn first() -> Vec<Fresh> {
             4,
             chapter_04_orthographic::check::exercise,
             &[
-                ("the whole height", |[x, y], h| ([x * h, y * h, 0.0], [0.0, 0.0, -1.0])),
-                ("y downward", |[x, y], h| ([x * h / 2.0, -y * h / 2.0, 0.0], [0.0, 0.0, -1.0])),
+                ("the origin is twice as far out: screen y runs", |[x, y], h| ([x * h, y * h, 0.0], [0.0, 0.0, -1.0])),
+                ("y points down; on the screen and in camera", |[x, y], h| {
+                    ([x * h / 2.0, -y * h / 2.0, 0.0], [0.0, 0.0, -1.0])
+                }),
             ],
             &[],
         ),
@@ -86,7 +88,7 @@ fn first() -> Vec<Fresh> {
             5,
             chapter_05_pinhole::check::exercise,
             &[
-                ("the tangent of the tangent", |[x, y], t| unit([x * t.tan(), y * t.tan(), -1.0])),
+                ("a tangent is taken of the tangent, which is one", |[x, y], t| unit([x * t.tan(), y * t.tan(), -1.0])),
                 ("not of length 1", |[x, y], t| [x * t, y * t, -1.0]),
             ],
             &[|[x, y], t| {
@@ -102,7 +104,7 @@ fn first() -> Vec<Fresh> {
                     let at = |p: f64, n: u32| (0.0..1.0).contains(&p).then(|| (p * f64::from(n)).round() as u32);
                     Some([at(p[0], w)?, at(p[1], h)?])
                 }),
-                ("below 0 is 0", |p, w, h| {
+                ("what is below 0 is given pixel 0: the whole", |p, w, h| {
                     let at = |p: f64, n: u32| (p < 1.0).then(|| ((p * f64::from(n)) as u32).min(n - 1));
                     Some([at(p[0], w)?, at(p[1], h)?])
                 }),
@@ -113,8 +115,10 @@ fn first() -> Vec<Fresh> {
             7,
             chapter_07_screen::check::exercise,
             &[
-                ("the middle stays at 0", |[x, y], w, h| [x * f64::from(h) / f64::from(w) / 2.0, -y / 2.0]),
-                ("the aspect upside down", |[x, y], w, h| {
+                ("a part runs from −1/2 to 1/2; a half is to be", |[x, y], w, h| {
+                    [x * f64::from(h) / f64::from(w) / 2.0, -y / 2.0]
+                }),
+                ("x is multiplied by the aspect; to undo that,", |[x, y], w, h| {
                     [(x * f64::from(w) / f64::from(h) + 1.0) / 2.0, (1.0 - y) / 2.0]
                 }),
             ],
@@ -127,13 +131,13 @@ fn first() -> Vec<Fresh> {
             8,
             chapter_08_field_of_view::check::exercise,
             &[
-                ("not doubled", |a, axis, w, h| {
+                ("the answer is half the angle", |a, axis, w, h| {
                     ((a.to_radians() / 2.0).tan() * f64::from(h) / across(axis, w, h)).atan().to_degrees()
                 }),
                 ("multiplied by the aspect", |a, axis, w, h| {
                     2.0 * ((a.to_radians() / 2.0).tan() * across(axis, w, h) / f64::from(h)).atan().to_degrees()
                 }),
-                ("always by the width", |a, axis, w, h| {
+                ("two things went wrong. First, the diagonal is", |a, axis, w, h| {
                     let n = if matches!(axis, FovAxis::Vertical) { f64::from(h) } else { f64::from(w) };
                     2.0 * ((a.to_radians() / 2.0).tan() * f64::from(h) / n).atan().to_degrees()
                 }),
@@ -144,7 +148,7 @@ fn first() -> Vec<Fresh> {
             9,
             chapter_09_camera_to_world::check::exercise,
             &[
-                ("inside out where mirrored", |[x, y, z], n| {
+                ("a mirroring map turns the normal inside out:", |[x, y, z], n| {
                     let rows = [cross(y, z), cross(z, x), cross(x, y)];
                     unit(add(add(times(rows[0], n[0]), times(rows[1], n[1])), times(rows[2], n[2])))
                 }),
@@ -180,7 +184,7 @@ fn light() -> Vec<Fresh> {
             10,
             chapter_10_light_and_shadow::check::exercise,
             &[
-                ("the light's place for its direction", |c, i, p, n, l| {
+                ("the cosine is taken at the origin; the", |c, i, p, n, l| {
                     let to = sub(l, p);
                     let d2 = dot(to, to);
                     if d2 == 0.0 || l == [0.0; 3] { 0.0 } else { c * i * dot(n, unit(l)).max(0.0) / (PI * d2) }
@@ -201,10 +205,12 @@ fn light() -> Vec<Fresh> {
             11,
             chapter_11_conventions::check::exercise,
             &[
-                ("z as if ahead were back", |[x, y, z], right, up, ahead| {
+                ("z is turned where it should not be: pinhole's", |[x, y, z], right, up, ahead| {
                     [if right { x } else { -x }, if up { y } else { -y }, if ahead { z } else { -z }]
                 }),
-                ("all or none", |v, right, up, ahead| if right && up && !ahead { v } else { v.map(|part| -part) }),
+                ("the whole direction is turned about where one", |v, right, up, ahead| {
+                    if right && up && !ahead { v } else { v.map(|part| -part) }
+                }),
             ],
             &[],
         ),
@@ -212,7 +218,7 @@ fn light() -> Vec<Fresh> {
             12,
             chapter_12_how_it_is_built::check::exercise,
             &[
-                ("what it reads for what it writes", |stages, asked| {
+                ("what a stage reads and what it writes are", |stages, asked| {
                     let mut wanted = vec![asked.to_owned()];
                     let mut kept = Vec::new();
                     for stage in stages.iter().rev() {
@@ -223,7 +229,7 @@ fn light() -> Vec<Fresh> {
                     }
                     kept
                 }),
-                ("up to the first that writes it", |stages, asked| {
+                ("", |stages, asked| {
                     let end = stages.iter().position(|stage| stage.writes.iter().any(|own| own == asked));
                     let all = stages.iter().take(end.map_or(0, |end| end + 1)).filter(|stage| stage.needed);
                     all.map(|stage| stage.name.clone()).collect()
@@ -235,8 +241,12 @@ fn light() -> Vec<Fresh> {
             13,
             chapter_13_shapes::check::exercise,
             &[
-                ("z is forgotten", |o, d, low, high| slabs(o, d, low, high, 2)?.into_iter().find(|t| *t > 0.0)),
-                ("where it leaves", |o, d, low, high| Some(slabs(o, d, low, high, 3)?[1]).filter(|t| *t > 0.0)),
+                ("only two of the three slabs", |o, d, low, high| {
+                    slabs(o, d, low, high, 2)?.into_iter().find(|t| *t > 0.0)
+                }),
+                ("the far side is taken where the near one is", |o, d, low, high| {
+                    Some(slabs(o, d, low, high, 3)?[1]).filter(|t| *t > 0.0)
+                }),
             ],
             &[],
         ),
@@ -244,11 +254,11 @@ fn light() -> Vec<Fresh> {
             14,
             chapter_14_transforms::check::exercise,
             &[
-                ("the triangle's own normal", |g, _, _, eye, light| {
+                ("light falls as the surface lies, whatever its", |g, _, _, eye, light| {
                     let g = if dot(g, eye) < 0.0 { times(g, -1.0) } else { g };
                     dot(g, unit(light)).max(0.0)
                 }),
-                ("never asked where the light is", |g, ns, w, eye, light| {
+                ("light comes from below the surface, where the", |g, ns, w, eye, light| {
                     let n = unit(add(add(times(ns[0], w[0]), times(ns[1], w[1])), times(ns[2], w[2])));
                     let n = if dot(n, g) * dot(g, eye) < 0.0 { times(n, -1.0) } else { n };
                     dot(n, unit(light)).max(0.0)
@@ -260,8 +270,8 @@ fn light() -> Vec<Fresh> {
             15,
             chapter_15_reflection::check::exercise,
             &[
-                ("pi for two pi", |k, i, n, l, v| phong(k, i, [n, l, v], PI, 1.0)),
-                ("the mirror direction turned about", |k, i, n, l, v| phong(k, i, [n, l, v], TAU, -1.0)),
+                ("the factor of the highlight is another one; it", |k, i, n, l, v| phong(k, i, [n, l, v], PI, 1.0)),
+                ("the mirrored direction points into the surface:", |k, i, n, l, v| phong(k, i, [n, l, v], TAU, -1.0)),
             ],
             &[],
         ),
@@ -323,10 +333,10 @@ fn samples() -> Vec<Fresh> {
             17,
             chapter_17_sampling::check::exercise,
             &[
-                ("2 is forgotten under the root", |u, r| {
+                ("the 2 under the root is another number: half of", |u, r| {
                     if u < 0.5 { r * (u.sqrt() - 1.0) } else { r * (1.0 - (1.0 - u).sqrt()) }
                 }),
-                ("the radius is not used", |u, _| {
+                ("the radius is left out: this tent always ends", |u, _| {
                     if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 * (1.0 - u)).sqrt() }
                 }),
             ],
@@ -336,7 +346,7 @@ fn samples() -> Vec<Fresh> {
             18,
             chapter_18_error_and_time::check::exercise,
             &[
-                ("the bias itself", |runs, truth| {
+                ("this is the bias, not its square", |runs, truth| {
                     let (mean, variance) = moments(runs)?;
                     Some([variance, mean - truth])
                 }),
@@ -357,8 +367,8 @@ fn samples() -> Vec<Fresh> {
             19,
             chapter_19_mirrors::check::exercise,
             &[
-                ("2 is forgotten", |d, n| sub(d, times(n, dot(d, n) / dot(n, n)))),
-                ("direction and normal change roles", |d, n| sub(n, times(d, 2.0 * dot(d, n)))),
+                ("the 2 is missing: the part along the normal is", |d, n| sub(d, times(n, dot(d, n) / dot(n, n)))),
+                ("`direction` and `normal` are swapped", |d, n| sub(n, times(d, 2.0 * dot(d, n)))),
             ],
             &[|d, n| {
                 let back = times(n, 2.0 * dot(n, d));
@@ -369,11 +379,11 @@ fn samples() -> Vec<Fresh> {
             20,
             chapter_20_glass::check::exercise,
             &[
-                ("the cosine over eta is left out", |d, n, eta| {
+                ("c is left out of", |d, n, eta| {
                     let squared = 1.0 - (1.0 - dot(d, n) * dot(d, n)) / (eta * eta);
                     (squared >= 0.0).then(|| sub(over(d, eta), times(n, squared.sqrt())))
                 }),
-                ("1 less the cosine for its square", |d, n, eta| {
+                ("c is not squared under the root: g² is η² − 1 +", |d, n, eta| {
                     let cosine = -dot(d, n);
                     let squared = 1.0 - (1.0 - cosine) / (eta * eta);
                     (squared >= 0.0).then(|| add(over(d, eta), times(n, cosine / eta - squared.sqrt())))
@@ -385,12 +395,12 @@ fn samples() -> Vec<Fresh> {
             21,
             chapter_21_soft_shadows::check::exercise,
             &[
-                ("one side only", |from, at, n, area| {
+                ("a light that faces away has none; on which side", |from, at, n, area| {
                     let to = sub(from, at);
                     let cosine = dot(n, unit(to));
                     if cosine <= 0.0 { 0.0 } else { dot(to, to) / (cosine * area) }
                 }),
-                ("no distance", |from, at, n, area| {
+                ("the distance is missing: far away the area", |from, at, n, area| {
                     let cosine = dot(n, unit(sub(from, at))).abs();
                     if cosine == 0.0 { 0.0 } else { 1.0 / (cosine * area) }
                 }),
@@ -401,11 +411,11 @@ fn samples() -> Vec<Fresh> {
             22,
             chapter_22_ambient_occlusion::check::exercise,
             &[
-                ("no root", |u, v| {
+                ("u is taken for the radius; the area within a", |u, v| {
                     let (sin, cos) = (TAU * v).sin_cos();
                     [u * cos, u * sin, (1.0 - u * u).sqrt()]
                 }),
-                ("u and v change places", |u, v| {
+                ("u and v are swapped: u is for the radius, and v", |u, v| {
                     let (sin, cos) = (TAU * u).sin_cos();
                     [v.sqrt() * cos, v.sqrt() * sin, (1.0 - v).sqrt()]
                 }),
@@ -422,8 +432,12 @@ fn samples() -> Vec<Fresh> {
             23,
             chapter_23_depth_of_field::check::exercise,
             &[
-                ("the lens is added", |[x, y], t, [lx, ly], f| unit([x * t * f + lx, y * t * f + ly, -f])),
-                ("the focus is not used", |[x, y], t, [lx, ly], _| unit([x * t - lx, y * t - ly, -1.0])),
+                ("the lens point is added; the direction from it", |[x, y], t, [lx, ly], f| {
+                    unit([x * t * f + lx, y * t * f + ly, -f])
+                }),
+                ("the plane in focus is always at distance 1", |[x, y], t, [lx, ly], _| {
+                    unit([x * t - lx, y * t - ly, -1.0])
+                }),
             ],
             &[|[x, y], t, [lx, ly], f| {
                 let to = times([x * t, y * t, -1.0], f);
@@ -447,11 +461,11 @@ fn paths() -> Vec<Fresh> {
             24,
             chapter_24_motion_blur::check::exercise,
             &[
-                ("backward in time", |o, d, c, r, v, time| {
+                ("the sphere moves backwards: its centre is at", |o, d, c, r, v, time| {
                     let oc = sub(o, sub(c, times(v, time)));
                     roots(1.0, dot(oc, d), dot(oc, oc) - r * r).into_iter().find(|t| *t > 0.0)
                 }),
-                ("what is behind counts", |o, d, c, r, v, time| {
+                ("a hit behind the ray's origin counts; t must be", |o, d, c, r, v, time| {
                     let oc = sub(o, add(c, times(v, time)));
                     Some(roots(1.0, dot(oc, d), dot(oc, oc) - r * r)[0]).filter(|t| !t.is_nan())
                 }),
@@ -462,10 +476,12 @@ fn paths() -> Vec<Fresh> {
             25,
             chapter_25_path_tracing::check::exercise,
             &[
-                ("survivors do not count for the others", |w, u| {
+                ("a path that goes on counts as before, so the", |w, u| {
                     if u < w[0].max(w[1]).max(w[2]).min(1.0) { w } else { [0.0; 3] }
                 }),
-                ("each channel by itself", |w, u| w.map(|part| if u < part.min(1.0) { part.max(1.0) } else { 0.0 })),
+                ("each colour plays for itself; a path is one", |w, u| {
+                    w.map(|part| if u < part.min(1.0) { part.max(1.0) } else { 0.0 })
+                }),
             ],
             &[|w, u| {
                 let end = 1.0 - w[0].max(w[1]).max(w[2]).min(1.0);
@@ -476,11 +492,13 @@ fn paths() -> Vec<Fresh> {
             26,
             chapter_26_choosing_samples::check::exercise,
             &[
-                ("the other's weight", |own, other| {
+                ("the two are swapped: the larger pdf has more", |own, other| {
                     let ratio = own / other;
                     if own == 0.0 { 0.0 } else { 1.0 / (1.0 + ratio * ratio) }
                 }),
-                ("not squared", |own, other| if own == 0.0 { 0.0 } else { 1.0 / (1.0 + other / own) }),
+                ("that is the balance heuristic; both pdfs are", |own, other| {
+                    if own == 0.0 { 0.0 } else { 1.0 / (1.0 + other / own) }
+                }),
             ],
             &[],
         ),
@@ -488,12 +506,12 @@ fn paths() -> Vec<Fresh> {
             27,
             chapter_27_caustics::check::exercise,
             &[
-                ("a side for the area", |p, t, h| {
+                ("A is the area of a pixel, its side squared", |p, t, h| {
                     let d2 = dot(p, p);
                     let cosine = -p[2] / d2.sqrt();
                     if cosine <= 0.0 { 0.0 } else { 1.0 / (2.0 * t / h * d2 * cosine * cosine * cosine) }
                 }),
-                ("the depth for the distance", |p, t, h| {
+                ("the depth −z is taken for d, which is the", |p, t, h| {
                     let a = (2.0 * t / h) * (2.0 * t / h);
                     let cosine = -p[2] / length(p);
                     if cosine <= 0.0 { 0.0 } else { 1.0 / (a * p[2] * p[2] * cosine * cosine * cosine) }
@@ -509,11 +527,11 @@ fn paths() -> Vec<Fresh> {
             28,
             chapter_28_meshes::check::exercise,
             &[
-                ("the direction is not scaled", |o, d, p, axes, s| {
+                ("the direction is not divided by the scale; in", |o, d, p, axes, s| {
                     let o = axes.map(|axis| dot(axis, sub(o, p)));
                     [[o[0] / s[0], o[1] / s[1], o[2] / s[2]], axes.map(|axis| dot(axis, d))]
                 }),
-                ("the place is not taken off", |o, d, _, axes, s| {
+                ("the position is left out: the mesh is turned", |o, d, _, axes, s| {
                     [o, d].map(|v| [dot(axes[0], v) / s[0], dot(axes[1], v) / s[1], dot(axes[2], v) / s[2]])
                 }),
             ],
@@ -531,7 +549,7 @@ fn paths() -> Vec<Fresh> {
             29,
             chapter_29_boxes::check::exercise,
             &[
-                ("what is behind counts", |o, inverse, low, high, t_max| {
+                ("a box behind the origin counts: t begins at 0", |o, inverse, low, high, t_max| {
                     spans(o, inverse, low, high).is_some_and(|all| {
                         let [a, b] = all
                             .into_iter()
@@ -550,12 +568,14 @@ fn paths() -> Vec<Fresh> {
             30,
             chapter_30_tree::check::exercise,
             &[
-                ("the farther first", |enters, closest| match enters.map(|t| t.filter(|t| *t < closest)) {
-                    [Some(a), Some(b)] if a < b => [Some(1), Some(0)],
-                    [Some(_), b] => [Some(0), b.map(|_| 1)],
-                    [None, b] => [b.map(|_| 1), None],
+                ("the farther child comes first: a hit there", |enters, closest| {
+                    match enters.map(|t| t.filter(|t| *t < closest)) {
+                        [Some(a), Some(b)] if a < b => [Some(1), Some(0)],
+                        [Some(_), b] => [Some(0), b.map(|_| 1)],
+                        [None, b] => [b.map(|_| 1), None],
+                    }
                 }),
-                ("the closest hit is not asked", |enters, _| match enters {
+                ("a child that begins behind the closest hit is", |enters, _| match enters {
                     [Some(a), Some(b)] if b < a => [Some(1), Some(0)],
                     [Some(_), b] => [Some(0), b.map(|_| 1)],
                     [None, b] => [b.map(|_| 1), None],
@@ -572,10 +592,10 @@ fn paths() -> Vec<Fresh> {
             31,
             chapter_31_wide_tree::check::exercise,
             &[
-                ("what is behind the ray counts", |enters, leaves, closest| {
+                ("a box behind the ray is one that it has left", |enters, leaves, closest| {
                     (0..8).map(|i| u32::from(enters[i] <= leaves[i] && enters[i] <= closest) << i).sum()
                 }),
-                ("the bits from the other end", |enters, leaves, closest| {
+                ("the bits are in the opposite order: bit 0 is", |enters, leaves, closest| {
                     (0..8)
                         .map(|i| {
                             let is = enters[i] <= leaves[i] && leaves[i] >= 0.0 && enters[i] <= closest;
@@ -618,8 +638,8 @@ fn raster() -> Vec<Fresh> {
             32,
             chapter_32_projection::check::exercise,
             &[
-                ("the tangent is not used", |p, eye, axes, _, size| placed(p, eye, axes, 1.0, size)),
-                ("x by the width", |p, eye, axes, t, [w, h]| {
+                ("the field of view is left out", |p, eye, axes, _, size| placed(p, eye, axes, 1.0, size)),
+                ("the aspect is left out: x is in half heights", |p, eye, axes, t, [w, h]| {
                     let to = sub(p, eye);
                     let depth = -dot(to, axes[2]);
                     let [x, y] = [dot(to, axes[0]) / depth / t, dot(to, axes[1]) / depth / t];
@@ -638,8 +658,8 @@ fn raster() -> Vec<Fresh> {
             33,
             chapter_33_rasterisation::check::exercise,
             &[
-                ("every edge has its samples", |from, to, at| edge(from, to, at) >= 0),
-                ("x decides what a left edge is", |from, to, at| {
+                ("a sample on an edge is always inside: it", |from, to, at| edge(from, to, at) >= 0),
+                ("x and y are swapped in the rule: a left edge", |from, to, at| {
                     let on = edge(from, to, at);
                     on > 0 || (on == 0 && (to[0] > from[0] || (to[0] == from[0] && to[1] < from[1])))
                 }),
@@ -653,13 +673,13 @@ fn raster() -> Vec<Fresh> {
             34,
             chapter_34_both::check::exercise,
             &[
-                ("the ends at the depth of the centre", |right, ahead, r, half| {
+                ("both ends are taken at the depth of the centre:", |right, ahead, r, half| {
                     if right.hypot(ahead) <= r || ahead <= 0.0 {
                         return [-half, half];
                     }
                     [(right - r) / ahead, (right + r) / ahead].map(|x| x.clamp(-half, half))
                 }),
-                ("not cut off", |right, ahead, r, half| {
+                ("an end beyond the image's edge is left there;", |right, ahead, r, half| {
                     let d = right.hypot(ahead);
                     if d <= r {
                         return [-half, half];
@@ -674,11 +694,11 @@ fn raster() -> Vec<Fresh> {
             35,
             chapter_35_real_time::check::exercise,
             &[
-                ("the offset is not brought to length 1", |n, m, o| {
+                ("the distance from the plane is not divided by", |n, m, o| {
                     let sine = dot(n, o);
                     power(dot(n, m).max(0.0)) * 0.01 / (0.01 + sine * sine)
                 }),
-                ("the cosine for the sine", |n, m, o| {
+                ("that is the cosine, the part along the plane;", |n, m, o| {
                     let rise = if dot(o, o) == 0.0 { 0.0 } else { dot(n, unit(o)) };
                     power(dot(n, m).max(0.0)) * 0.01 / (0.01 + 1.0 - rise * rise)
                 }),
