@@ -10,9 +10,6 @@ const GENERAL: f64 = 0.97;
 /// How many of those one of the chapter's own must explain; one that explains fewer agrees here and there with anything.
 const MIN_EXPLAINED: f64 = 0.08;
 
-/// How much more two mistakes must explain than one.
-const MORE: f64 = 0.05;
-
 /// What is said of the mistakes that explain the first wrong answer and those about it best; of those that explain it
 /// alike, the fewest, and the chapter's own before the general ones.
 pub fn looks_like<I: 'static, A: Shown + 'static>(
@@ -40,7 +37,7 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
         if best.is_some() {
             break;
         }
-        for (told, of_two, makes) in question.mistakes.explanations() {
+        for (told, makes) in question.mistakes.explanations() {
             let agrees = |at: usize, made: &A| {
                 agrees(question, &given[at], made, &right[at]) || (gives_up && is_given_up(&given[at], made))
             };
@@ -54,7 +51,7 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
             let of_all = fraction(given.len(), &changes, &agrees);
             if of_all >= MIN_EXPLAINED
                 && fraction(near, &changes, &agrees) >= 0.9
-                && best.as_ref().is_none_or(|(max, _)| of_all > *max + if of_two { MORE } else { 0.0 })
+                && best.as_ref().is_none_or(|(max, _)| of_all > *max)
             {
                 of_end = fraction(end, &changes, &agrees);
                 best = Some((of_all, told.to_owned()));

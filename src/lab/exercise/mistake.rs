@@ -77,7 +77,6 @@ impl<I, V> Part<I, V> {
 /// What explains a wrong answer: one mistake, or two at once.
 struct Explanation<I, A> {
     told: String,
-    of_two: bool,
     makes: Box<dyn Fn(&I) -> A>,
 }
 
@@ -101,11 +100,11 @@ impl<I: 'static, A: 'static> Mistakes<I, A> {
         }
         // The whole comes after the last part.
         single.extend(whole.mistakes.declared.into_iter().map(|(told, whole)| (N, told, Answer { whole, ..right })));
-        let explains = |told: String, of_two: bool, answer: Answer<I, V, A, N>| {
+        let explains = |told: String, answer: Answer<I, V, A, N>| {
             let makes = Box::new(move |input: &I| (answer.whole)(&answer.parts.map(|part| part(input))));
-            Explanation { told, of_two, makes }
+            Explanation { told, makes }
         };
-        self.multiplied.extend(single.iter().map(|&(_, told, answer)| explains(told.into(), false, answer)));
+        self.multiplied.extend(single.iter().map(|&(_, told, answer)| explains(told.into(), answer)));
         let mut alike = single.clone();
         let mut done = 0;
         while done < alike.len() {
@@ -114,23 +113,20 @@ impl<I: 'static, A: 'static> Mistakes<I, A> {
             alike.extend(later.map(|&(at, _, other)| (at, told, answer.and(at, other))));
             done += 1;
         }
-        self.multiplied
-            .extend(alike[single.len()..].iter().map(|&(_, told, answer)| explains(told.into(), false, answer)));
+        self.multiplied.extend(alike[single.len()..].iter().map(|&(_, told, answer)| explains(told.into(), answer)));
         for &(last, first, answer) in &alike {
             for &(at, second, other) in single.iter().filter(|&&(at, told, _)| at > last && told != first) {
                 let told = format!("two things went wrong. First, {first}. Second, {second}");
-                self.multiplied.push(explains(told, true, answer.and(at, other)));
+                self.multiplied.push(explains(told, answer.and(at, other)));
             }
         }
         self
     }
 
-    /// What is said, whether that is of two mistakes, and the answers of all that may explain one, the fewest mistakes
-    /// first.
-    pub(super) fn explanations(&self) -> impl Iterator<Item = (&str, bool, &dyn Fn(&I) -> A)> {
-        let declared = self.declared.iter().map(|(told, makes)| (*told, false, makes as &dyn Fn(&I) -> A));
-        let multiplied = self.multiplied.iter();
-        declared.chain(multiplied.map(|Explanation { told, of_two, makes }| (told.as_str(), *of_two, &**makes)))
+    /// What is said and the answers of all that may explain one, the fewest mistakes first.
+    pub(super) fn explanations(&self) -> impl Iterator<Item = (&str, &dyn Fn(&I) -> A)> {
+        let declared = self.declared.iter().map(|(told, makes)| (*told, makes as &dyn Fn(&I) -> A));
+        declared.chain(self.multiplied.iter().map(|Explanation { told, makes }| (told.as_str(), &**makes)))
     }
 }
 

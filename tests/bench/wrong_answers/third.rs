@@ -7,7 +7,7 @@ use pinhole_cli::checks::*;
 use std::f64::consts::{PI, TAU};
 
 pub fn all() -> Vec<Fresh> {
-    [first(), light(), samples(), paths(), raster()].into_iter().flatten().collect()
+    [first(), light(), samples(), paths(), raster(), odd()].into_iter().flatten().collect()
 }
 
 fn first() -> Vec<Fresh> {
@@ -722,4 +722,216 @@ fn edge(from: [i32; 2], to: [i32; 2], at: [i32; 2]) -> i64 {
 
 fn power(cosine: f64) -> f64 {
     (0..5).fold(cosine, |power, _| power * power)
+}
+
+/// Stranger ones, written when what was said of the others had been seen.
+fn odd() -> Vec<Fresh> {
+    vec![
+        fresh(
+            1,
+            chapter_01_image::check::exercise,
+            &[("the image is taken to be square", |i, w| {
+                let side = u64::from(w).min(65536);
+                [(i % side) as f64 + 0.5, (i / side % side) as f64 + 0.5]
+            })],
+            &[],
+        ),
+        fresh(
+            5,
+            chapter_05_pinhole::check::exercise,
+            &[
+                ("y is not scaled", |[x, y], t| unit([x * t, y, -1.0])),
+                ("negative x is lost", |[x, y], t| unit([x.max(0.0) * t, y * t, -1.0])),
+            ],
+            &[],
+        ),
+        fresh(
+            8,
+            chapter_08_field_of_view::check::exercise,
+            &[("tall images are taken for wide ones", |a, axis, w, h| {
+                let (w, h) = (w.max(h), w.min(h));
+                2.0 * ((a.to_radians() / 2.0).tan() * f64::from(h) / across(axis, w, h)).atan().to_degrees()
+            })],
+            &[],
+        ),
+        fresh(
+            10,
+            chapter_10_light_and_shadow::check::exercise,
+            &[
+                ("no light that is nearer than 1", |c, i, p, n, l| {
+                    let to = sub(l, p);
+                    let d2 = dot(to, to).max(1.0);
+                    if to == [0.0; 3] { 0.0 } else { c * i * dot(n, unit(to)).max(0.0) / (PI * d2) }
+                }),
+                ("the height of the light is left out", |c, i, p, n, l| {
+                    let to = sub([l[0], p[1], l[2]], p);
+                    let d2 = dot(to, to);
+                    if d2 == 0.0 { 0.0 } else { c * i * dot(n, unit(to)).max(0.0) / (PI * d2) }
+                }),
+            ],
+            &[],
+        ),
+        fresh(
+            15,
+            chapter_15_reflection::check::exercise,
+            &[
+                ("the exponent is a whole number", |[c, s, e], i, n, l, v| {
+                    phong([c, s, e.floor()], i, [n, l, v], TAU, 1.0)
+                }),
+                ("matte or highlight, the larger", |[c, s, e], i, n, l, v| {
+                    phong([c, 0.0, e], i, [n, l, v], TAU, 1.0).max(phong([0.0, s, e], i, [n, l, v], TAU, 1.0))
+                }),
+            ],
+            &[],
+        ),
+        fresh(
+            16,
+            chapter_16_textures::check::exercise,
+            &[("never less than one stripe wide", |x, w| {
+                let w = w.max(1.0);
+                (tri(x + w / 2.0) - tri(x - w / 2.0)) / w
+            })],
+            &[],
+        ),
+        fresh(
+            17,
+            chapter_17_sampling::check::exercise,
+            &[
+                ("the right half alone", |u, r| r * (1.0 - (1.0 - u).sqrt())),
+                ("uniform where the number is above a half", |u, r| {
+                    if u < 0.5 { r * ((2.0 * u).sqrt() - 1.0) } else { r * (2.0 * u - 1.0) }
+                }),
+            ],
+            &[],
+        ),
+        fresh(
+            18,
+            chapter_18_error_and_time::check::exercise,
+            &[("one run tells a variance of 0", |runs, truth| match runs {
+                [one] => Some([0.0, (one - truth) * (one - truth)]),
+                _ => {
+                    let (mean, variance) = moments(runs)?;
+                    Some([variance, (mean - truth) * (mean - truth) - variance / runs.len() as f64])
+                }
+            })],
+            &[],
+        ),
+        fresh(
+            19,
+            chapter_19_mirrors::check::exercise,
+            &[("x of the normal is not looked at", |d, n| {
+                let n = [0.0, n[1], n[2]];
+                sub(d, times(n, 2.0 * dot(d, n) / dot(n, n)))
+            })],
+            &[],
+        ),
+        fresh(
+            21,
+            chapter_21_soft_shadows::check::exercise,
+            &[
+                ("never more than 1", |from, at, n, area| {
+                    let to = sub(from, at);
+                    let cosine = dot(n, unit(to)).abs();
+                    if cosine == 0.0 { 0.0 } else { (dot(to, to) / (cosine * area)).min(1.0) }
+                }),
+                ("behind it is negative", |from, at, n, area| {
+                    let to = sub(from, at);
+                    let cosine = dot(n, unit(to));
+                    if cosine == 0.0 { 0.0 } else { dot(to, to) / (cosine * area) }
+                }),
+            ],
+            &[],
+        ),
+        fresh(
+            22,
+            chapter_22_ambient_occlusion::check::exercise,
+            &[("the turn runs the other way", |u, v| {
+                let (sin, cos) = (TAU * v).sin_cos();
+                [u.sqrt() * cos, -u.sqrt() * sin, (1.0 - u).sqrt()]
+            })],
+            &[],
+        ),
+        fresh(
+            23,
+            chapter_23_depth_of_field::check::exercise,
+            &[("y of the lens is forgotten", |[x, y], t, [lx, _], f| unit([x * t * f - lx, y * t * f, -f]))],
+            &[],
+        ),
+        fresh(
+            24,
+            chapter_24_motion_blur::check::exercise,
+            &[
+                ("only a sphere that comes nearer moves", |o, d, c, r, v, time| {
+                    let v = if dot(v, d) < 0.0 { v } else { [0.0; 3] };
+                    let oc = sub(o, add(c, times(v, time)));
+                    roots(1.0, dot(oc, d), dot(oc, oc) - r * r).into_iter().find(|t| *t > 0.0)
+                }),
+                ("at the middle of the time", |o, d, c, r, v, time| {
+                    let oc = sub(o, add(c, times(v, time / 2.0)));
+                    roots(1.0, dot(oc, d), dot(oc, oc) - r * r).into_iter().find(|t| *t > 0.0)
+                }),
+            ],
+            &[],
+        ),
+        fresh(
+            25,
+            chapter_25_path_tracing::check::exercise,
+            &[
+                ("never below a twentieth", |w, u| {
+                    let p = w[0].max(w[1]).max(w[2]).clamp(0.05, 1.0);
+                    if u < p { over(w, p) } else { [0.0; 3] }
+                }),
+                ("red decides", |w, u| {
+                    let p = w[0].min(1.0);
+                    if u < p { over(w, p) } else { [0.0; 3] }
+                }),
+            ],
+            &[],
+        ),
+        fresh(
+            27,
+            chapter_27_caustics::check::exercise,
+            &[("the pixel is as wide as the image", |p, t, _| {
+                let cosine = -p[2] / length(p);
+                if cosine <= 0.0 { 0.0 } else { 1.0 / (4.0 * t * t * dot(p, p) * cosine * cosine * cosine) }
+            })],
+            &[],
+        ),
+        fresh(
+            28,
+            chapter_28_meshes::check::exercise,
+            &[("scaled by x alone", |o, d, p, axes, s| [sub(o, p), d].map(|v| axes.map(|axis| dot(axis, v) / s[0])))],
+            &[],
+        ),
+        fresh(
+            30,
+            chapter_30_tree::check::exercise,
+            &[("a box entered from inside is missed", |enters, closest| {
+                match enters.map(|t| t.filter(|t| *t < closest && *t > 0.0)) {
+                    [Some(a), Some(b)] if b < a => [Some(1), Some(0)],
+                    [Some(_), b] => [Some(0), b.map(|_| 1)],
+                    [None, b] => [b.map(|_| 1), None],
+                }
+            })],
+            &[],
+        ),
+        fresh(
+            32,
+            chapter_32_projection::check::exercise,
+            &[("the eye is at the origin", |p, _, axes, t, size| placed(p, [0.0; 3], axes, t, size))],
+            &[],
+        ),
+        fresh(
+            35,
+            chapter_35_real_time::check::exercise,
+            &[("an offset of 0 has no weight", |n, m, o| {
+                if dot(o, o) == 0.0 {
+                    return 0.0;
+                }
+                let rise = dot(n, unit(o));
+                power(dot(n, m).max(0.0)) * 0.01 / (0.01 + rise * rise)
+            })],
+            &[],
+        ),
+    ]
 }
