@@ -190,10 +190,18 @@ fn alterations(line: &str) -> Vec<String> {
             all.push(code[..=end].to_owned() + ".sqrt()" + &code[end + 1..]);
         }
         let parts = split(inner, ',');
-        for other in 1..parts.len() {
+        for (one, other) in (1..parts.len()).flat_map(|other| (0..other).map(move |one| (one, other))) {
             let mut parts: Vec<&str> = parts.iter().map(|part| part.trim()).collect();
-            parts.swap(other - 1, other);
+            parts.swap(one, other);
             all.push(code[..=at].to_owned() + &parts.join(", ") + &code[end..]);
+        }
+        for name in
+            parts.iter().map(|part| part.trim()).filter(|part| part.chars().all(|c| c == '_' || c.is_alphabetic()))
+        {
+            all.extend(word_indices(&code[at..end], name).first().map(|word| {
+                let behind = at + word + name.len();
+                format!("{}.unit(){}", &code[..behind], &code[behind..])
+            }));
         }
         if is_method && parts.len() == 1 && ["cross", "sub", "min", "max"].contains(&&code[name..at]) {
             let receiver = term_before(code, name);

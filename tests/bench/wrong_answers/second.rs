@@ -382,12 +382,9 @@ fn shapes_and_light() -> Vec<Fresh> {
                 ("the weights are left out; each corner's normal", |g, ns, _, eye, light| {
                     shaded(g, mean(ns, [1.0; 3]), eye, light)
                 }),
-                (
-                    "from behind it is dark",
-                    |g, ns, w, eye, light| {
-                        if dot(g, eye) < 0.0 { 0.0 } else { shaded(g, mean(ns, w), eye, light) }
-                    },
-                ),
+                ("the answer is 0.0 where `geometric` and `to_eye`", |g, ns, w, eye, light| {
+                    if dot(g, eye) < 0.0 { 0.0 } else { shaded(g, mean(ns, w), eye, light) }
+                }),
             ],
             &[|g, ns, w, eye, light| {
                 let sum = add(add(times(ns[2], w[2]), times(ns[1], w[1])), times(ns[0], w[0]));
@@ -757,12 +754,9 @@ fn paths() -> Vec<Fresh> {
                     let part = own / (own + other);
                     if own == 0.0 { 0.0 } else { part * part }
                 }),
-                (
-                    "squares that overflow",
-                    |own, other| {
-                        if own == 0.0 { 0.0 } else { own * own / (own * own + other * other) }
-                    },
-                ),
+                ("squares overflow to infinity", |own, other| {
+                    if own == 0.0 { 0.0 } else { own * own / (own * own + other * other) }
+                }),
                 ("0 is divided by 0 where neither technique", |own, other| {
                     let ratio = other / own;
                     1.0 / (1.0 + ratio * ratio)

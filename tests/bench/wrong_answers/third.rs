@@ -279,16 +279,12 @@ fn light() -> Vec<Fresh> {
             16,
             chapter_16_textures::check::exercise,
             &[
-                (
-                    "not divided by the width",
-                    |x, w| {
-                        if w == 0.0 { stripe(x) } else { tri(x + w / 2.0) - tri(x - w / 2.0) }
-                    },
-                ),
-                (
-                    "begins with -1",
-                    |x, w| if w == 0.0 { -stripe(x) } else { (tri(x - w / 2.0) - tri(x + w / 2.0)) / w },
-                ),
+                ("this is the area; divided by the width", |x, w| {
+                    if w == 0.0 { stripe(x) } else { tri(x + w / 2.0) - tri(x - w / 2.0) }
+                }),
+                ("odd stripes count as 1 and even ones", |x, w| {
+                    if w == 0.0 { -stripe(x) } else { (tri(x - w / 2.0) - tri(x + w / 2.0)) / w }
+                }),
             ],
             &[],
         ),
