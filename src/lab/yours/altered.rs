@@ -28,20 +28,21 @@ struct Function {
     signature: String,
 }
 
-/// The program after a chapter with all small mistakes in the lines that its step brought, and what is said of each; the
+/// The program after a chapter with all small mistakes in the functions that its step changed, and what is said of each; the
 /// mistake of a number from 1 is made where [`WHICH`] has that number. None where there is no compiler.
 pub fn altered(chapter: u32, edit: impl Fn(String) -> String) -> Option<(Compiled, Vec<String>)> {
     let program = edit(program_after(chapter).ok()?);
     let before = steps().iter().map(|step| step.number).filter(|&number| number < chapter).max();
     let before = before.and_then(|number| program_after(number).ok()).map(&edit).unwrap_or_default();
-    let old: Vec<&str> = before.lines().collect();
     let lines: Vec<&str> = program.lines().collect();
     let functions = functions(&lines);
     let mut all: Vec<(usize, Altered)> = Vec::new();
     for (which, function) in functions.iter().enumerate() {
-        // Line by line, what was there before as a whole was compared before.
-        let body = function.lines.start + 1..function.lines.end - 1;
-        for at in body.filter(|&at| !old.contains(&lines[at])) {
+        // What was there before was compared before.
+        if before.contains(&lines[function.lines.clone()].join("\n")) {
+            continue;
+        }
+        for at in function.lines.start + 1..function.lines.end - 1 {
             let wrong = alterations(lines[at]).into_iter();
             all.extend(wrong.map(|wrong| (which, Altered { at, right: lines[at].into(), wrong })));
         }
@@ -55,8 +56,8 @@ pub fn altered(chapter: u32, edit: impl Fn(String) -> String) -> Option<(Compile
                     let [wrong, right] = [&altered.wrong, &altered.right].map(|line| code(line));
                     let name = &functions[*which].name;
                     match wrong.is_empty() {
-                        true => format!("as if in `{name}` the line `{right}` were missing."),
-                        false => format!("as if in `{name}` the line `{right}` were `{wrong}`."),
+                        true => format!("in `{name}` the line `{right}` were missing"),
+                        false => format!("in `{name}` the line `{right}` were `{wrong}`"),
                     }
                 };
                 return Some((compiled, all.iter().map(told).collect()));
@@ -223,6 +224,9 @@ fn alterations(line: &str) -> Vec<String> {
             word_indices(code, one).into_iter().map(|at| code[..at].to_owned() + other + &code[at + one.len()..]),
         );
     }
+    for (one, other) in names_of_a_kind(code).into_iter().filter(|(one, other)| one < other) {
+        all.push(exchanged(code, one, other));
+    }
     if let Some(rest) = code.trim_start().strip_prefix("if ")
         && let Some(condition) = rest.strip_suffix(" {")
         && !condition.starts_with("let ")
@@ -334,6 +338,18 @@ fn names_of_a_kind(code: &str) -> Vec<(&str, &str)> {
     }
     let pairs = words.iter().flat_map(|one| words.iter().map(move |other| (*one, *other)));
     pairs.filter(|(one, other)| one != other).collect()
+}
+
+/// With each of two words in place of the other.
+fn exchanged(code: &str, one: &str, other: &str) -> String {
+    let mut places: Vec<(usize, &str, &str)> = word_indices(code, one).into_iter().map(|at| (at, one, other)).collect();
+    places.extend(word_indices(code, other).into_iter().map(|at| (at, other, one)));
+    places.sort_unstable();
+    let mut made = code.to_owned();
+    for (at, from, to) in places.into_iter().rev() {
+        made.replace_range(at..at + from.len(), to);
+    }
+    made
 }
 
 /// Where a word stands by itself.

@@ -22,6 +22,8 @@ const EXPLAINED: f64 = 0.15;
 /// The part of a block that noise makes white in one picture only, at most; there, light beyond white was lost, and nobody
 /// knows how much.
 const SPECKLED: f64 = 0.5;
+/// How many small mistakes that make the same picture are told, at most.
+const MANY: usize = 3;
 /// Light that counts as none, where parts of it are told.
 const DARK: f64 = 1e-3;
 
@@ -150,7 +152,10 @@ impl Expected {
             let known = self.closest(&readers, apart.len(), self.known(), of_bytes);
             looks_like = [looks_like, known].into_iter().flatten().min_by_key(|found| found.0);
             if looks_like.as_ref().is_none_or(|(left, _)| *left > 0) {
-                let altered = self.closest(&readers, apart.len(), self.altered(), of_bytes);
+                let altered = self.all_closest(&readers, apart.len(), self.altered(), of_bytes);
+                // Whoever is told of many is told nothing.
+                let altered = altered.filter(|(_, all)| all.len() <= MANY);
+                let altered = altered.map(|(left, all)| (left, format!("as if {}.", all.join("; or as if "))));
                 looks_like = [looks_like, altered].into_iter().flatten().min_by_key(|found| found.0);
             }
         }
@@ -174,17 +179,31 @@ impl Expected {
         mistakes: &[(String, P)],
         pixels: impl Fn(&P) -> Pixels,
     ) -> Option<(usize, String)> {
+        let (left, all) = self.all_closest(readers, apart, mistakes, pixels)?;
+        Some((left, (*all.first()?).to_owned()))
+    }
+
+    /// The same, of all that leave as few.
+    fn all_closest<'a, P>(
+        &self,
+        readers: &Pixels,
+        apart: usize,
+        mistakes: &'a [(String, P)],
+        pixels: impl Fn(&P) -> Pixels,
+    ) -> Option<(usize, Vec<&'a str>)> {
         let differing = |one: &Pixels, other: &Pixels| {
             blocks(one, other, &self.curve).iter().filter(|block| block.differs()).count()
         };
         let left = |(what, wrong): &(String, P)| {
             let wrong = pixels(wrong);
             let alone = differing(&wrong, &self.right);
-            (2 * alone >= apart && alone <= 3 * apart).then(|| (differing(readers, &wrong), what.clone()))
+            (2 * alone >= apart && alone <= 3 * apart).then(|| (differing(readers, &wrong), what.as_str()))
         };
+        let all: Vec<(usize, &str)> = mistakes.iter().filter_map(left).collect();
+        let least = all.iter().map(|found| found.0).min()?;
         // Noise alone may set one block apart.
-        let all = mistakes.iter().filter_map(left);
-        all.min_by_key(|found| found.0).filter(|found| found.0 <= (apart / 10).max(usize::from(apart > 4)))
+        let is_few = least <= (apart / 10).max(usize::from(apart > 4));
+        is_few.then(|| (least, all.into_iter().filter(|found| found.0 == least).map(|found| found.1).collect()))
     }
 
     /// The picture written in other ways than it should be, and those of other scenes.
