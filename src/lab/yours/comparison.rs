@@ -194,12 +194,14 @@ impl Expected {
         let differing = |one: &Pixels, other: &Pixels| {
             blocks(one, other, &self.curve).iter().filter(|block| block.differs()).count()
         };
-        let left = |(what, wrong): &(String, P)| {
+        let mut all: Vec<(usize, &str)> = Vec::new();
+        for (what, wrong) in mistakes {
             let wrong = pixels(wrong);
             let alone = differing(&wrong, &self.right);
-            (2 * alone >= apart && alone <= 3 * apart).then(|| (differing(readers, &wrong), what.as_str()))
-        };
-        let all: Vec<(usize, &str)> = mistakes.iter().filter_map(left).collect();
+            if 2 * alone >= apart && alone <= 3 * apart {
+                all.push((differing(readers, &wrong), what));
+            }
+        }
         let least = all.iter().map(|found| found.0).min()?;
         // Noise alone may set one block apart.
         let is_few = least <= (apart / 10).max(usize::from(apart > 4));
