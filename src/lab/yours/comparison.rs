@@ -146,6 +146,9 @@ impl Expected {
             return Ok(shift(&readers, right, 0.0).map_or(same, |by| Comparison::Shifted { by }));
         };
         let mut looks_like = self.closest(&readers, apart.len(), self.rewritten_or_changed()?, Clone::clone);
+        let brighter = [self.brighter(&readers)];
+        let brighter = self.closest(&readers, apart.len(), &brighter, Clone::clone);
+        looks_like = [looks_like, brighter].into_iter().flatten().min_by_key(|found| found.0);
         if looks_like.as_ref().is_none_or(|(left, _)| *left > 0) {
             waits();
             let of_bytes = |(_, bytes): &Picture| pixels_of(bytes, &self.curve);
@@ -206,6 +209,19 @@ impl Expected {
         // Noise alone may set one block apart.
         let is_few = least <= (apart / 10).max(usize::from(apart > 4));
         is_few.then(|| (least, all.into_iter().filter(|found| found.0 == least).map(|found| found.1).collect()))
+    }
+
+    /// The right picture as bright as the reader's, where neither is white.
+    fn brighter(&self, readers: &Pixels) -> Mistaken {
+        let pairs = || readers.iter().flatten().zip(self.right.iter().flatten());
+        let (own, right) = pairs()
+            .filter(|(own, right)| **own < 1.0 && **right < 1.0)
+            .fold((0.0, 0.0), |sum, (own, right)| (sum.0 + own, sum.1 + right));
+        let factor = own / right;
+        let told = format!(
+            "everything is {factor:.3} times as bright, the sky, too: what is the sum divided by, and of how many?"
+        );
+        (told, self.right.iter().map(|pixel| pixel.map(|light| (factor * light).min(1.0))).collect())
     }
 
     /// The picture written in other ways than it should be, and those of other scenes.
