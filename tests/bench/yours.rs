@@ -1,6 +1,6 @@
 //! What `yours` says of the reader's program with mistakes, and of right ones that look unlike the book's.
 //!
-//! `cargo bench --bench yours`; a few minutes. `-- --blind`, `--second` and `--third` try sets that were written before
+//! `cargo bench --bench yours`; a few minutes. `-- --blind`, `--second`, `--third` and `--fourth` try sets that were written before
 //! anybody looked at what was known by then; two numbers behind them, from which chapter to which. `-- --times` measures the program beside pinhole instead, both on one
 //! thread with the same number of samples, and `-- --write` keeps that beside chapter 25.
 #![allow(clippy::print_stdout, reason = "a bench prints what it found")]
@@ -14,6 +14,9 @@ mod second;
 
 #[path = "yours/third.rs"]
 mod third;
+
+#[path = "yours/fourth.rs"]
+mod fourth;
 
 use bevy_ecs::prelude::World;
 use pinhole::extract::linear_from_srgb;
@@ -48,6 +51,7 @@ fn main() {
     let (mistakes, right) = match () {
         () if asks("--second") => (&second::MISTAKES[..], &second::RIGHT[..]),
         () if asks("--third") => (&third::MISTAKES[..], &third::RIGHT[..]),
+        () if asks("--fourth") => (&fourth::MISTAKES[..], &[][..]),
         () if asks("--blind") => (&BLIND[..], &[][..]),
         () => (&MISTAKES[..], &RIGHT[..]),
     };

@@ -73,6 +73,8 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
     let asked: Vec<Vec<f64>> = inputs.iter().map(|probe| numbers_of(&probe.input)).collect();
     let named = NamedNumbers::new(&words, asked[first].len());
     let is_asked = |made: &I| named.is_like(&numbers_of(made), &asked);
+    // What explains the first wrong answer may explain all where something is so.
+    let mut here: Vec<(String, Vec<bool>)> = Vec::new();
     for (kind, Misread { numbers, told, made }) in misread(&inputs[first].input).into_iter().enumerate() {
         if !is_asked(&made) || !agrees(question, &given[first], &(question.right)(&made), &right[first]) {
             continue;
@@ -92,9 +94,13 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
         if 2 * spoken < is_wrong.iter().filter(|is_wrong| **is_wrong).count() {
             continue;
         }
+        let told = numbers.iter().fold(told.to_owned(), |told, at| told.replacen("{}", &named.of(*at), 1));
         if of_all >= GENERAL {
-            let told = numbers.iter().fold(told.to_owned(), |told, at| told.replacen("{}", &named.of(*at), 1));
             better(&mut best, of_all, told);
+        } else {
+            let agrees =
+                |at: usize| made[at].as_ref().is_some_and(|made| agrees(question, &given[at], made, &right[at]));
+            here.push((told, (0..end).map(agrees).collect()));
         }
     }
     let known: Vec<Known> = (0..given.len())
@@ -123,7 +129,7 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
         }
     }
     if best.as_ref().is_none_or(|(score, _)| *score < GENERAL)
-        && let Some(told) = somewhere(&known[..end], &given[..end], &is_wrong[..end], &named)
+        && let Some(told) = somewhere(&known[..end], &given[..end], &is_wrong[..end], &named, &here)
     {
         return Some(told);
     }
@@ -141,7 +147,13 @@ fn better(best: &mut Option<(f64, String)>, of_all: f64, told: String) {
 const ENOUGH: usize = 3;
 
 /// What is said of answers that are wrong only where some condition holds, and all in the same manner there.
-fn somewhere<A: Shown>(known: &[Known], given: &[A], is_wrong: &[bool], named: &NamedNumbers) -> Option<String> {
+fn somewhere<A: Shown>(
+    known: &[Known],
+    given: &[A],
+    is_wrong: &[bool],
+    named: &NamedNumbers,
+    misread: &[(String, Vec<bool>)],
+) -> Option<String> {
     let all = |is: bool| (0..known.len()).filter(move |&at| is_wrong[at] == is);
     if all(true).count() < ENOUGH || all(false).count() < ENOUGH {
         return None;
@@ -165,9 +177,11 @@ fn somewhere<A: Shown>(known: &[Known], given: &[A], is_wrong: &[bool], named: &
         let relation = || related.iter().find(|(_, makes)| place.iter().all(|&at| alike(makes(&known[at]), at)));
         let is_none =
             || told != NO_ANSWER && all(true).all(|at| known[at].right.is_empty() && !known[at].given.is_empty());
+        let read = || misread.iter().find(|(_, agrees)| place.iter().all(|&at| agrees[at]));
         let what = match relation() {
             _ if is_one => format!("the answer is {}", shown[place[0]]),
             Some((relation, _)) => relation.clone(),
+            None if read().is_some() => read()?.0.clone(),
             None if is_none() => "an answer is given, and None is right,".into(),
             None => return None,
         };
