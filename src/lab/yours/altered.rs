@@ -135,7 +135,7 @@ fn functions(lines: &[&str]) -> Vec<Function> {
         let Some(rest) = line.trim_start().strip_prefix("fn ") else { continue };
         let (Some(open), Some(head)) = (rest.find('('), rest.strip_suffix(" {")) else { continue };
         let closes = |other: &&str| other.starts_with('}') || (other.trim() == "}" && other.len() == indent + 1);
-        let Some(length) = lines[start + 1..].iter().position(|other| closes(&other)) else { continue };
+        let Some(length) = lines[start + 1..].iter().position(closes) else { continue };
         if indent > 4 || all.last().is_some_and(|last: &Function| last.lines.contains(&start)) {
             continue;
         }

@@ -726,7 +726,7 @@ fn odd() -> Vec<Fresh> {
         fresh(
             1,
             chapter_01_image::check::exercise,
-            &[("the image is taken to be square", |i, w| {
+            &[(/* the image is taken to be square */ "", |i, w| {
                 let side = u64::from(w).min(65536);
                 [(i % side) as f64 + 0.5, (i / side % side) as f64 + 0.5]
             })],
@@ -736,15 +736,15 @@ fn odd() -> Vec<Fresh> {
             5,
             chapter_05_pinhole::check::exercise,
             &[
-                ("y is not scaled", |[x, y], t| unit([x * t, y, -1.0])),
-                ("negative x is lost", |[x, y], t| unit([x.max(0.0) * t, y * t, -1.0])),
+                ("only x is scaled by the tangent; y is in half", |[x, y], t| unit([x * t, y, -1.0])),
+                ("x of `screen` is never below 0", |[x, y], t| unit([x.max(0.0) * t, y * t, -1.0])),
             ],
             &[],
         ),
         fresh(
             8,
             chapter_08_field_of_view::check::exercise,
-            &[("tall images are taken for wide ones", |a, axis, w, h| {
+            &[(/* tall images are taken for wide ones */ "", |a, axis, w, h| {
                 let (w, h) = (w.max(h), w.min(h));
                 2.0 * ((a.to_radians() / 2.0).tan() * f64::from(h) / across(axis, w, h)).atan().to_degrees()
             })],
@@ -754,12 +754,12 @@ fn odd() -> Vec<Fresh> {
             10,
             chapter_10_light_and_shadow::check::exercise,
             &[
-                ("no light that is nearer than 1", |c, i, p, n, l| {
+                (/* no light that is nearer than 1 */ "", |c, i, p, n, l| {
                     let to = sub(l, p);
                     let d2 = dot(to, to).max(1.0);
                     if to == [0.0; 3] { 0.0 } else { c * i * dot(n, unit(to)).max(0.0) / (PI * d2) }
                 }),
-                ("the height of the light is left out", |c, i, p, n, l| {
+                (/* the height of the light is left out */ "", |c, i, p, n, l| {
                     let to = sub([l[0], p[1], l[2]], p);
                     let d2 = dot(to, to);
                     if d2 == 0.0 { 0.0 } else { c * i * dot(n, unit(to)).max(0.0) / (PI * d2) }
@@ -771,10 +771,10 @@ fn odd() -> Vec<Fresh> {
             15,
             chapter_15_reflection::check::exercise,
             &[
-                ("the exponent is a whole number", |[c, s, e], i, n, l, v| {
+                ("`exponent` is cut to a whole number", |[c, s, e], i, n, l, v| {
                     phong([c, s, e.floor()], i, [n, l, v], TAU, 1.0)
                 }),
-                ("matte or highlight, the larger", |[c, s, e], i, n, l, v| {
+                (/* matte or highlight, the larger */ "", |[c, s, e], i, n, l, v| {
                     phong([c, 0.0, e], i, [n, l, v], TAU, 1.0).max(phong([0.0, s, e], i, [n, l, v], TAU, 1.0))
                 }),
             ],
@@ -783,7 +783,7 @@ fn odd() -> Vec<Fresh> {
         fresh(
             16,
             chapter_16_textures::check::exercise,
-            &[("never less than one stripe wide", |x, w| {
+            &[("`width` is never below 1", |x, w| {
                 let w = w.max(1.0);
                 (tri(x + w / 2.0) - tri(x - w / 2.0)) / w
             })],
@@ -793,17 +793,20 @@ fn odd() -> Vec<Fresh> {
             17,
             chapter_17_sampling::check::exercise,
             &[
-                ("the right half alone", |u, r| r * (1.0 - (1.0 - u).sqrt())),
-                ("uniform where the number is above a half", |u, r| {
-                    if u < 0.5 { r * ((2.0 * u).sqrt() - 1.0) } else { r * (2.0 * u - 1.0) }
-                }),
+                ("all samples land on one side; the lower half of", |u, r| r * (1.0 - (1.0 - u).sqrt())),
+                (
+                    /* uniform where the number is above a half */ "",
+                    |u, r| {
+                        if u < 0.5 { r * ((2.0 * u).sqrt() - 1.0) } else { r * (2.0 * u - 1.0) }
+                    },
+                ),
             ],
             &[],
         ),
         fresh(
             18,
             chapter_18_error_and_time::check::exercise,
-            &[("one run tells a variance of 0", |runs, truth| match runs {
+            &[(/* one run tells a variance of 0 */ "", |runs, truth| match runs {
                 [one] => Some([0.0, (one - truth) * (one - truth)]),
                 _ => {
                     let (mean, variance) = moments(runs)?;
@@ -815,7 +818,7 @@ fn odd() -> Vec<Fresh> {
         fresh(
             19,
             chapter_19_mirrors::check::exercise,
-            &[("x of the normal is not looked at", |d, n| {
+            &[("x of `normal` is left out", |d, n| {
                 let n = [0.0, n[1], n[2]];
                 sub(d, times(n, 2.0 * dot(d, n) / dot(n, n)))
             })],
@@ -825,12 +828,12 @@ fn odd() -> Vec<Fresh> {
             21,
             chapter_21_soft_shadows::check::exercise,
             &[
-                ("never more than 1", |from, at, n, area| {
+                ("the answer is cut off at 1", |from, at, n, area| {
                     let to = sub(from, at);
                     let cosine = dot(n, unit(to)).abs();
                     if cosine == 0.0 { 0.0 } else { (dot(to, to) / (cosine * area)).min(1.0) }
                 }),
-                ("behind it is negative", |from, at, n, area| {
+                ("a light that faces away has a negative pdf; on", |from, at, n, area| {
                     let to = sub(from, at);
                     let cosine = dot(n, unit(to));
                     if cosine == 0.0 { 0.0 } else { dot(to, to) / (cosine * area) }
@@ -841,7 +844,7 @@ fn odd() -> Vec<Fresh> {
         fresh(
             22,
             chapter_22_ambient_occlusion::check::exercise,
-            &[("the turn runs the other way", |u, v| {
+            &[("the turn goes from +x towards −y; it goes", |u, v| {
                 let (sin, cos) = (TAU * v).sin_cos();
                 [u.sqrt() * cos, -u.sqrt() * sin, (1.0 - u).sqrt()]
             })],
@@ -850,19 +853,22 @@ fn odd() -> Vec<Fresh> {
         fresh(
             23,
             chapter_23_depth_of_field::check::exercise,
-            &[("y of the lens is forgotten", |[x, y], t, [lx, _], f| unit([x * t * f - lx, y * t * f, -f]))],
+            &[(
+                /* y of the lens is forgotten */ "",
+                |[x, y], t, [lx, _], f| unit([x * t * f - lx, y * t * f, -f]),
+            )],
             &[],
         ),
         fresh(
             24,
             chapter_24_motion_blur::check::exercise,
             &[
-                ("only a sphere that comes nearer moves", |o, d, c, r, v, time| {
+                (/* only a sphere that comes nearer moves */ "", |o, d, c, r, v, time| {
                     let v = if dot(v, d) < 0.0 { v } else { [0.0; 3] };
                     let oc = sub(o, add(c, times(v, time)));
                     roots(1.0, dot(oc, d), dot(oc, oc) - r * r).into_iter().find(|t| *t > 0.0)
                 }),
-                ("at the middle of the time", |o, d, c, r, v, time| {
+                ("the time is halved; the sphere moves by", |o, d, c, r, v, time| {
                     let oc = sub(o, add(c, times(v, time / 2.0)));
                     roots(1.0, dot(oc, d), dot(oc, oc) - r * r).into_iter().find(|t| *t > 0.0)
                 }),
@@ -873,11 +879,11 @@ fn odd() -> Vec<Fresh> {
             25,
             chapter_25_path_tracing::check::exercise,
             &[
-                ("never below a twentieth", |w, u| {
+                ("the probability is kept above a smallest one;", |w, u| {
                     let p = w[0].max(w[1]).max(w[2]).clamp(0.05, 1.0);
                     if u < p { over(w, p) } else { [0.0; 3] }
                 }),
-                ("red decides", |w, u| {
+                ("the probability is that of red alone; asked is", |w, u| {
                     let p = w[0].min(1.0);
                     if u < p { over(w, p) } else { [0.0; 3] }
                 }),
@@ -887,7 +893,7 @@ fn odd() -> Vec<Fresh> {
         fresh(
             27,
             chapter_27_caustics::check::exercise,
-            &[("the pixel is as wide as the image", |p, t, _| {
+            &[("there are height² pixels on the plane, as it is", |p, t, _| {
                 let cosine = -p[2] / length(p);
                 if cosine <= 0.0 { 0.0 } else { 1.0 / (4.0 * t * t * dot(p, p) * cosine * cosine * cosine) }
             })],
@@ -896,13 +902,15 @@ fn odd() -> Vec<Fresh> {
         fresh(
             28,
             chapter_28_meshes::check::exercise,
-            &[("scaled by x alone", |o, d, p, axes, s| [sub(o, p), d].map(|v| axes.map(|axis| dot(axis, v) / s[0])))],
+            &[("one factor is taken for all three axes; each", |o, d, p, axes, s| {
+                [sub(o, p), d].map(|v| axes.map(|axis| dot(axis, v) / s[0]))
+            })],
             &[],
         ),
         fresh(
             30,
             chapter_30_tree::check::exercise,
-            &[("a box entered from inside is missed", |enters, closest| {
+            &[("a box in which the ray begins, at t = 0, is", |enters, closest| {
                 match enters.map(|t| t.filter(|t| *t < closest && *t > 0.0)) {
                     [Some(a), Some(b)] if b < a => [Some(1), Some(0)],
                     [Some(_), b] => [Some(0), b.map(|_| 1)],
@@ -914,13 +922,15 @@ fn odd() -> Vec<Fresh> {
         fresh(
             32,
             chapter_32_projection::check::exercise,
-            &[("the eye is at the origin", |p, _, axes, t, size| placed(p, [0.0; 3], axes, t, size))],
+            &[("the eye is not subtracted: the point is seen as", |p, _, axes, t, size| {
+                placed(p, [0.0; 3], axes, t, size)
+            })],
             &[],
         ),
         fresh(
             35,
             chapter_35_real_time::check::exercise,
-            &[("an offset of 0 has no weight", |n, m, o| {
+            &[("the same point lies in the plane: s is 0, and", |n, m, o| {
                 if dot(o, o) == 0.0 {
                     return 0.0;
                 }
