@@ -7,6 +7,9 @@ use super::shown::Shown;
 /// How many of the answers of which it says something a general explanation must explain.
 const GENERAL: f64 = 0.97;
 
+/// How many of the ordinary ones one of the chapter's own explains that no general explanation takes the place of.
+const KEPT: f64 = 0.6;
+
 /// How many of those one of the chapter's own must explain; one that explains fewer agrees here and there with anything.
 const MIN_EXPLAINED: f64 = 0.08;
 
@@ -58,8 +61,9 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
             }
         }
     }
-    // From here on, what a mistake explains of the ordinary inputs counts.
-    let mut best = best.map(|(_, told)| (of_end, told));
+    let is_kept = of_end >= KEPT;
+    // What explains the ordinary inputs, where nothing explains them all.
+    let mut ordinary_best: Option<(f64, String)> = None;
     let Some((misread, numbers)) = question.mistakes.argument else { return best.map(|(_, told)| told) };
     if best.as_ref().is_some_and(|(score, _)| *score >= GENERAL) {
         return best.map(|(_, told)| told);
@@ -85,18 +89,22 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
             .map(|made| is_asked(&made).then(|| (question.right)(&made)))
             .collect();
         let spoken = (0..given.len()).filter(|&at| is_wrong[at] && made[at].is_some()).count();
-        let of_all = fraction(
-            end,
-            &|at| made[at].as_ref().is_some_and(|made| !question.same(made, &right[at])),
-            // What is not asked says nothing.
-            &|at| made[at].as_ref().is_none_or(|made| agrees(question, &given[at], made, &right[at])),
-        );
+        let explains = |end: usize| {
+            fraction(
+                end,
+                &|at| made[at].as_ref().is_some_and(|made| !question.same(made, &right[at])),
+                // What is not asked says nothing.
+                &|at| made[at].as_ref().is_none_or(|made| agrees(question, &given[at], made, &right[at])),
+            )
+        };
         if 2 * spoken < is_wrong.iter().filter(|is_wrong| **is_wrong).count() {
             continue;
         }
         let told = numbers.iter().fold(told.to_owned(), |told, at| told.replacen("{}", &named.of(*at), 1));
-        if of_all >= GENERAL {
-            better(&mut best, of_all, told);
+        if explains(given.len()) >= GENERAL {
+            better(&mut best, explains(given.len()), told);
+        } else if explains(end) >= GENERAL {
+            better(&mut ordinary_best, explains(end), told);
         } else {
             let agrees =
                 |at: usize| made[at].as_ref().is_some_and(|made| agrees(question, &given[at], made, &right[at]));
@@ -110,9 +118,12 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
     for (told, makes) in related {
         let made: Vec<Option<Vec<f64>>> = known.iter().map(makes).collect();
         let alike = |at: usize, numbers: &[f64]| made[at].as_deref().is_some_and(|made| is_near(made, numbers, 1e-9));
-        let of_all = fraction(end, &|at| !alike(at, &known[at].right), &|at| alike(at, &known[at].given));
-        if of_all >= GENERAL {
-            better(&mut best, of_all, told);
+        let explains =
+            |end: usize| fraction(end, &|at| !alike(at, &known[at].right), &|at| alike(at, &known[at].given));
+        if explains(given.len()) >= GENERAL {
+            better(&mut best, explains(given.len()), told);
+        } else if explains(end) >= GENERAL {
+            better(&mut ordinary_best, explains(end), told);
         }
     }
     let wrong = || known.iter().zip(&is_wrong).filter(|(_, is_wrong)| **is_wrong).map(|(known, _)| known);
@@ -128,10 +139,12 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
             best = Some((1.0, told.into()));
         }
     }
-    if best.as_ref().is_none_or(|(score, _)| *score < GENERAL)
-        && let Some(told) = somewhere(&known[..end], &given[..end], &is_wrong[..end], &named, &here)
-    {
-        return Some(told);
+    if !is_kept && best.as_ref().is_none_or(|(score, _)| *score < GENERAL) {
+        let ordinary = ordinary_best.map(|(_, told)| told);
+        let somewhere = || somewhere(&known[..end], &given[..end], &is_wrong[..end], &named, &here);
+        if let Some(told) = ordinary.or_else(somewhere) {
+            return Some(told);
+        }
     }
     best.map(|(_, told)| told)
 }

@@ -79,7 +79,7 @@ fn ray() -> Fresh {
                 let l = v[0].hypot(v[1]);
                 if l > 0.0 { Some(over(v, l)) } else { None }
             }),
-            ("has the opposite sign", |v| if length(v) > 0.0 { Some(over(v, -length(v))) } else { None }),
+            ("the direction is turned about", |v| if length(v) > 0.0 { Some(over(v, -length(v))) } else { None }),
             ("the signs are lost", |v| {
                 let l = length(v);
                 if l > 0.0 { Some(v.map(|part| part.abs() / l)) } else { None }

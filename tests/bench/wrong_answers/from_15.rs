@@ -445,7 +445,7 @@ fn glass() -> Fresh {
                 Some(over(add(d, times(n, c - g2.sqrt())), eta))
             }),
             ("the part along the normal is left out", |d, n, eta| by(d, n, eta, |_, _| over(d, eta))),
-            ("itself is given back", |d, n, eta| by(d, n, eta, |_, _| d)),
+            ("the direction goes straight on", |d, n, eta| by(d, n, eta, |_, _| d)),
             ("the minus is missing", |d, n, eta| by(d, n, eta, |c, g2| over(sub(d, times(n, c - g2.sqrt())), eta))),
             ("c is not squared under the root", |d, n, eta| {
                 let c = -dot(d, n);

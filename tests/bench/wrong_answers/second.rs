@@ -382,9 +382,12 @@ fn shapes_and_light() -> Vec<Fresh> {
                 ("the weights are left out; each corner's normal", |g, ns, _, eye, light| {
                     shaded(g, mean(ns, [1.0; 3]), eye, light)
                 }),
-                ("the answer is 0.0 where `geometric` and `to_eye`", |g, ns, w, eye, light| {
-                    if dot(g, eye) < 0.0 { 0.0 } else { shaded(g, mean(ns, w), eye, light) }
-                }),
+                (
+                    "nothing is lit",
+                    |g, ns, w, eye, light| {
+                        if dot(g, eye) < 0.0 { 0.0 } else { shaded(g, mean(ns, w), eye, light) }
+                    },
+                ),
             ],
             &[|g, ns, w, eye, light| {
                 let sum = add(add(times(ns[2], w[2]), times(ns[1], w[1])), times(ns[0], w[0]));
