@@ -69,6 +69,7 @@ fn question() -> Question<Vector, Option<Vector>> {
             .when(|&v @ [_, y, z]| unit(v).map(|_| divided(v, length([0.0, y, z]))))
             .say("what has no direction is given one: 0, NaN and infinite parts must give None")
             .when(|&v| Some(unit(v).unwrap_or_else(|| plain(v))))
+            .when(|&v| Some(unit(v).unwrap_or_else(|| if v == [0.0; 3] { v } else { plain(v) })))
             .when(|&v| unit(v).or_else(|| (v != [0.0; 3]).then(|| plain(v))))
             .when(|&v| unit(v).or_else(|| (v != [0.0; 3]).then_some([f64::NAN; 3])))
             .say("an infinite part leaves no direction: the answer there is None")
@@ -100,6 +101,10 @@ fn question() -> Question<Vector, Option<Vector>> {
                  largest part first",
             )
             .when(|&v| (length(v) > 0.0 && length(v).is_finite()).then(|| plain(v)))
+            .say(
+                "short vectors are taken for 0, and of long ones the squares overflow; however short or long one is, \
+                 it has a direction: divide by the largest part first",
+            )
             .when(|&v| (length(v) > 1e-12 && length(v).is_finite()).then(|| plain(v)))
             .say(
                 "the length itself overflows, or is rounded coarsely, at the ends of f64: divide by the largest \

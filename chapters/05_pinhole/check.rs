@@ -86,7 +86,7 @@ fn mistakes() -> Mistakes<Input, [f64; 3]> {
         .say("x and y are swapped")
         .when(|i| i.0[0]);
     let tangent = Part::<Input, f64>::new(|i| i.1)
-        .say("the tangent is left out")
+        .say("the tangent is left out, or multiplies z as well, and then it changes no direction")
         .when(|_| 1.0)
         .say(
             "the tangent is the plane's distance, or divides x and y: the wider the angle, the wider the rays \

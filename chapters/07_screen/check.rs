@@ -50,6 +50,7 @@ fn mistakes() -> Mistakes<Input, [f64; 2]> {
         .when(|i| (i.0[0] + 1.0) / 2.0 * aspect(i))
         .say("the aspect divides whole numbers, 480 / 270 = 1: make them f64 first")
         .when(|&([x, _], w, h)| (x / f64::from(w / h) + 1.0) / 2.0)
+        .when(|&([x, _], w, h)| (x / f64::from((w / h).max(1)) + 1.0) / 2.0)
         .say("x is turned over; it points right in both")
         .when(|i| 1.0 - (along(i) + 1.0) / 2.0)
         .say("1 is taken off x, but −aspect on the screen is 0 in NDC: it is to be added")

@@ -236,7 +236,7 @@ fn span(input: &Input) -> Span {
 
 /// With a slab so wide that everything is in it.
 fn without(&(o, d, mut min, mut max): &Input, axis: usize) -> Input {
-    (min[axis], max[axis]) = (-1e30, 1e30);
+    (min[axis], max[axis]) = (f64::NEG_INFINITY, f64::INFINITY);
     (o, d, min, max)
 }
 

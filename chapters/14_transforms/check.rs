@@ -115,6 +115,8 @@ fn mistakes() -> Mistakes<Input, f64> {
         .say("the smaller of the two cosines is taken; the surface's own only tells whether any light falls at all")
         .when(|&[side, normal, light]| side.dot(light).min(normal.dot(light)).max(0.0));
     Mistakes::<Input, f64>::new()
+.say("seen from the side that `geometric` does not point to, nothing is lit; the side on which the eye is is lit")
+.when(|i| if DVec3::from(i.0).dot(i.3.into()) < 0.0 { 0.0 } else { right(i) })
 .say("that is the cosine to the half vector; the light's own direction is asked for")
 .when(|&(geometric, normals, weights, eye, light)| {
     let half = DVec3::from(eye).normalize() + DVec3::from(light).normalize();

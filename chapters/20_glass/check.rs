@@ -42,6 +42,8 @@ fn question() -> Question<Input, Option<Vector>> {
             .when(|i| refract(i.1.into(), i.0.into(), i.2).map(Into::into))
             .say("only d is divided by η, and (c − g) n is not; the whole sum is")
             .when(|i| Some((DVec3::from(i.0) / i.2 + (cosine(i) - root(squared(i))?) * DVec3::from(i.1)).into()))
+            .say("c is left out of (c − g) n: it takes off what d has along the normal, and g puts back what is right there")
+            .when(|i| bent(i, -root(squared(i))?))
             .say("only (c − g) n is divided by η, and d is not; the whole sum is")
             .when(|i| Some((DVec3::from(i.0) + (cosine(i) - root(squared(i))?) / i.2 * DVec3::from(i.1)).into()))
             .say("1 less the sine is taken for the cosine; it is √(1 − sin²)")
@@ -102,6 +104,8 @@ fn question() -> Question<Input, Option<Vector>> {
             .when(|i| parts(i, 1.0 / i.2, root(squared(i)).map(|_| (1.0 - cosine(i).powi(2)).max(0.0).sqrt())? / i.2))
             .say("η is not squared under the root: g² is η² − 1 + c²")
             .when(|i| bent(i, cosine(i) - root(i.2 - 1.0 + cosine(i) * cosine(i))?))
+            .say("η is not squared under the root: the cosine on the far side is √(1 − sin² / η²)")
+            .when(|i| parts(i, 1.0 / i.2, root(1.0 - (1.0 - cosine(i) * cosine(i)) / i.2)?))
             .say("the signs under the root are wrong: g² is η² − 1 + c²")
             .when(|i| bent(i, cosine(i) - root(1.0 - i.2 * i.2 + cosine(i) * cosine(i))?))
             .say(

@@ -1,19 +1,30 @@
 //! What `yours` says of the reader's program with mistakes, and of right ones that look unlike the book's.
 //!
-//! `cargo bench --bench yours`; a few minutes. `-- --times` measures the program beside pinhole instead, both on one
+//! `cargo bench --bench yours`; a few minutes. `-- --blind`, `--second`, `--third` and `--fourth` try sets that were written before
+//! anybody looked at what was known by then; two numbers behind them, from which chapter to which. `-- --times` measures the program beside pinhole instead, both on one
 //! thread with the same number of samples, and `-- --write` keeps that beside chapter 25.
 #![allow(clippy::print_stdout, reason = "a bench prints what it found")]
 
 #[path = "../yours/programs.rs"]
+#[allow(dead_code, reason = "the test takes all of a chapter at once")]
 mod programs;
+
+#[path = "yours/second.rs"]
+mod second;
+
+#[path = "yours/third.rs"]
+mod third;
+
+#[path = "yours/fourth.rs"]
+mod fourth;
 
 use bevy_ecs::prelude::World;
 use pinhole::extract::linear_from_srgb;
 use pinhole::film::srgb_from_linear;
 use pinhole::scene::Sampling;
 use pinhole_lab::report::provenance::Provenance;
-use pinhole_lab::yours::{Compiled, Picture, picture_of, program_after, scene_after, steps};
-use programs::{BLIND, Edit, MISTAKES, NOT_NAMED, RIGHT, found, said};
+use pinhole_lab::yours::{Compiled, Expected, Picture, picture_of, program_after, scene_after, steps};
+use programs::{BLIND, Edit, MISTAKES, NOT_NAMED, RIGHT, picture_of_edited, said};
 use std::time::Instant;
 
 /// Pictures of each, of which the fastest counts.
@@ -37,24 +48,48 @@ fn main() {
     // `-- --blind 21 30` tries those of chapters 21 to 30 that were written by someone else.
     let numbers: Vec<u32> = words.iter().filter_map(|word| word.parse().ok()).collect();
     let chapters = numbers.first().copied().unwrap_or(0)..=numbers.get(1).copied().unwrap_or(99);
-    let tried: Vec<Edit> = if asks("--blind") { &BLIND[..] } else { &MISTAKES }
-        .iter()
-        .copied()
-        .filter(|edit| chapters.contains(&edit.0))
-        .collect();
-    let (mut told, mut named) = (0, 0);
-    for ((chapter, old, new), found) in found(&tried) {
-        let said = said(&found);
-        told += usize::from(said.is_some());
-        named += usize::from(said.is_some_and(|said| said != NOT_NAMED));
-        println!("{chapter:>2}  {:<50}  {:<40}  {}", old.trim(), new.trim(), said.unwrap_or("not told"));
+    let (mistakes, right) = match () {
+        () if asks("--second") => (&second::MISTAKES[..], &second::RIGHT[..]),
+        () if asks("--third") => (&third::MISTAKES[..], &third::RIGHT[..]),
+        () if asks("--fourth") => (&fourth::MISTAKES[..], &[][..]),
+        () if asks("--blind") => (&BLIND[..], &[][..]),
+        () => (&MISTAKES[..], &RIGHT[..]),
+    };
+    let of = |edits: &[Edit]| edits.iter().copied().filter(|edit| chapters.contains(&edit.0)).collect::<Vec<_>>();
+    let (tried, right) = (of(mistakes), of(right));
+    let (mut told, mut named, mut refused, mut without) = (0, 0, 0, 0);
+    for chapter in steps().into_iter().map(|step| step.number).filter(|chapter| chapters.contains(chapter)) {
+        let of_chapter = |edits: &[Edit]| edits.iter().copied().filter(|edit| edit.0 == chapter).collect::<Vec<_>>();
+        let expected = Expected::after(chapter).expect("renders");
+        let wrong = of_chapter(&tried).into_iter().map(|edit| (edit, true));
+        for (edit @ (_, old, new), is_wrong) in wrong.chain(of_chapter(&right).into_iter().map(|edit| (edit, false))) {
+            let line = format!("{chapter:>2}  {:<50}  {:<40}", old.trim(), new.trim());
+            let picture = match picture_of_edited(edit) {
+                Ok(picture) => picture,
+                Err(why) => {
+                    without += 1;
+                    println!("{line}  no picture: {why}");
+                    continue;
+                }
+            };
+            let found = expected.compare(&picture, &mut || ()).expect("of its size");
+            match (said(&found), is_wrong) {
+                (None, false) => {}
+                (Some(_), false) => {
+                    refused += 1;
+                    println!("{line}  IS RIGHT: {found:?}");
+                }
+                (said, true) => {
+                    told += usize::from(said.is_some());
+                    named += usize::from(said.is_some_and(|said| said != NOT_NAMED));
+                    println!("{line}  {}", said.unwrap_or("not told"));
+                }
+            }
+        }
     }
     println!("mistakes: {} tried, {told} told, {named} named", tried.len());
-    if asks("--blind") {
-        return;
-    }
-    let refused: Vec<_> = found(&RIGHT).into_iter().filter(|(_, found)| said(found).is_some()).collect();
-    println!("right programs: {} tried, {} called wrong {refused:?}", RIGHT.len(), refused.len());
+    println!("right programs: {} tried, {refused} called wrong", right.len());
+    println!("without a picture: {without}");
 }
 
 /// Seconds and errors of the reader's program and of pinhole, for each step from the first with samples.

@@ -242,10 +242,12 @@ pub fn said(found: &Comparison) -> Option<&str> {
 pub const NOT_NAMED: &str = "told, not named";
 
 /// What a chapter's program, edited, makes.
-pub fn picture_of_edited((chapter, old, new): Edit) -> Picture {
+///
+/// Errors: a program that does not compile, or makes no picture.
+pub fn picture_of_edited((chapter, old, new): Edit) -> Result<Picture, String> {
     let program = program_after(chapter).expect("applies");
     assert_eq!(program.matches(old).count().min(1), 1, "{chapter} has no {old}");
-    picture_of_program(&program.replace(old, new)).expect("a picture")
+    picture_of_program(&program.replace(old, new))
 }
 
 /// Edits with what is found of their pictures, chapter by chapter.
@@ -254,8 +256,9 @@ pub fn found(edits: &[Edit]) -> Vec<(Edit, Comparison)> {
     edits.sort_by_key(|edit| edit.0);
     let of_chapter = |edits: &[Edit]| {
         let expected = Expected::after(edits[0].0).expect("renders");
-        let found =
-            |edit: &Edit| (*edit, expected.compare(&picture_of_edited(*edit), &mut || ()).expect("of its size"));
+        let found = |edit: &Edit| {
+            (*edit, expected.compare(&picture_of_edited(*edit).expect("a picture"), &mut || ()).expect("of its size"))
+        };
         edits.iter().map(found).collect::<Vec<_>>()
     };
     edits.chunk_by(|one, other| one.0 == other.0).flat_map(of_chapter).collect()

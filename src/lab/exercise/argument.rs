@@ -56,6 +56,8 @@ impl Argument for f64 {
             ("{} is turned into degrees", x.to_degrees()),
             ("the tangent of {} is taken", libm::tan(x)),
             ("{} is cut off at 1", x.min(1.0)),
+            ("{} is never below 0", x.max(0.0)),
+            ("{} is never below 1", x.max(1.0)),
             ("{} is cut to a whole number", x.trunc()),
         ];
         misread(&all, 1)

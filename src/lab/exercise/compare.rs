@@ -2,6 +2,7 @@ use super::answers::{Answer, answers};
 use super::looks_like::looks_like;
 use super::question::Question;
 use super::shown::Shown;
+use super::unused::unused;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -75,7 +76,7 @@ pub struct Mismatch {
 pub fn compare<I, A>(
     function: &'static str,
     question: Question<I, A>,
-    yours: impl Fn(&I) -> A + Send + 'static,
+    yours: impl Fn(&I) -> A + Clone + Send + 'static,
     patience: Duration,
 ) -> Report
 where
@@ -90,7 +91,7 @@ where
     };
     let mut given = Vec::with_capacity(inputs.len());
     let mut ended = None;
-    for answer in answers(function, &inputs, yours, patience) {
+    for answer in answers(function, &inputs, yours.clone(), patience) {
         match answer {
             Answer::Given(answer) => given.push(answer),
             Answer::Panicked(words) => ended = Some(Outcome::Panicked(asked(given.len()), words)),
@@ -101,6 +102,10 @@ where
     let wrong: Vec<usize> = (0..given.len()).filter(|&at| !question.same(&given[at], &right[at])).collect();
     let apart = |at: usize| (question.apart)(&given[at], &right[at]);
     let is_extreme = |at: &usize| question.probes[*at].is_extreme;
+    let ask = |inputs: Vec<I>| {
+        let given = answers(function, &inputs.into(), yours.clone(), patience).into_iter();
+        given.map_while(|answer| if let Answer::Given(answer) = answer { Some(answer) } else { None }).collect()
+    };
     let mismatch = |first: usize| Mismatch {
         asked: asked(first),
         yours: given[first].shown(),
@@ -109,7 +114,7 @@ where
         apart: apart(first),
         wrong: wrong.len(),
         always_the_same: always_the_same(&given) && !always_the_same(&right),
-        looks_like: looks_like(&question, &given, &right, first),
+        looks_like: looks_like(&question, &given, &right, first).or_else(|| unused(&question, &given, &ask)),
     };
     let outcome = match (wrong.iter().find(|at| !is_extreme(at)), wrong.first(), ended) {
         (Some(&first), _, _) => Outcome::Wrong(mismatch(first)),

@@ -1,10 +1,14 @@
 use super::argument::Misread;
+use super::condition::{NO_ANSWER, conditions};
 use super::question::Question;
 use super::relation::{Known, NamedNumbers, relations};
 use super::shown::Shown;
 
 /// How many of the answers of which it says something a general explanation must explain.
 const GENERAL: f64 = 0.97;
+
+/// How many of the ordinary ones one of the chapter's own explains that no general explanation takes the place of.
+const KEPT: f64 = 0.6;
 
 /// How many of those one of the chapter's own must explain; one that explains fewer agrees here and there with anything.
 const MIN_EXPLAINED: f64 = 0.08;
@@ -20,6 +24,9 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
     let inputs = &question.probes[..given.len()];
     let near = first + inputs[first..].iter().take_while(|probe| probe.about == inputs[first].about).count();
     let is_wrong: Vec<bool> = (0..given.len()).map(|at| !question.same(&given[at], &right[at])).collect();
+    // Of a formula that is right but for a mistake, extreme inputs ask too much.
+    let ordinary = inputs.iter().take_while(|probe| !probe.is_extreme).count();
+    let end = if first < ordinary { ordinary } else { given.len() };
     // Where the mistake changes nothing and the answer is right, the two say nothing about each other.
     let fraction = |end: usize, changes: &dyn Fn(usize) -> bool, agrees: &dyn Fn(usize) -> bool| {
         let spoken: Vec<usize> = (0..end).filter(|&at| is_wrong[at] || changes(at)).collect();
@@ -27,24 +34,38 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
         agreed as f64 / spoken.len().max(1) as f64
     };
     let mut best: Option<(f64, String)> = None;
-    for (told, makes) in question.mistakes.explanations() {
-        // One input rules out most of them.
-        if !agrees(question, &given[first], &makes(&inputs[first].input), &right[first]) {
-            continue;
+    let mut of_end = 0.0;
+    // What comes out as no number, the reader may have given up.
+    for gives_up in [false, true] {
+        if best.is_some() {
+            break;
         }
-        let made: Vec<A> = inputs.iter().map(|probe| makes(&probe.input)).collect();
-        let changes = |at: usize| !question.same(&made[at], &right[at]);
-        let agrees = |at: usize| agrees(question, &given[at], &made[at], &right[at]);
-        let of_all = fraction(given.len(), &changes, &agrees);
-        if of_all >= MIN_EXPLAINED
-            && fraction(near, &changes, &agrees) >= 0.9
-            && best.as_ref().is_none_or(|(max, _)| of_all > *max)
-        {
-            best = Some((of_all, told.to_owned()));
+        for (told, makes) in question.mistakes.explanations() {
+            let agrees = |at: usize, made: &A| {
+                agrees(question, &given[at], made, &right[at]) || (gives_up && is_given_up(&given[at], made))
+            };
+            // One input rules out most of them.
+            if !agrees(first, &makes(&inputs[first].input)) {
+                continue;
+            }
+            let made: Vec<A> = inputs.iter().map(|probe| makes(&probe.input)).collect();
+            let changes = |at: usize| !question.same(&made[at], &right[at]);
+            let agrees = |at: usize| agrees(at, &made[at]);
+            let of_all = fraction(given.len(), &changes, &agrees);
+            if of_all >= MIN_EXPLAINED
+                && fraction(near, &changes, &agrees) >= 0.9
+                && best.as_ref().is_none_or(|(max, _)| of_all > *max)
+            {
+                of_end = fraction(end, &changes, &agrees);
+                best = Some((of_all, told.to_owned()));
+            }
         }
     }
+    let is_kept = of_end >= KEPT;
+    // What explains the ordinary inputs, where nothing explains them all.
+    let mut ordinary_best: Option<(f64, String)> = None;
     let Some((misread, numbers)) = question.mistakes.argument else { return best.map(|(_, told)| told) };
-    if best.as_ref().is_some_and(|(of_all, _)| *of_all >= GENERAL) {
+    if best.as_ref().is_some_and(|(score, _)| *score >= GENERAL) {
         return best.map(|(_, told)| told);
     }
     let words = (question.tell)(&inputs[first].input);
@@ -56,6 +77,8 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
     let asked: Vec<Vec<f64>> = inputs.iter().map(|probe| numbers_of(&probe.input)).collect();
     let named = NamedNumbers::new(&words, asked[first].len());
     let is_asked = |made: &I| named.is_like(&numbers_of(made), &asked);
+    // What explains the first wrong answer may explain all where something is so.
+    let mut here: Vec<(String, Vec<bool>)> = Vec::new();
     for (kind, Misread { numbers, told, made }) in misread(&inputs[first].input).into_iter().enumerate() {
         if !is_asked(&made) || !agrees(question, &given[first], &(question.right)(&made), &right[first]) {
             continue;
@@ -66,18 +89,26 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
             .map(|made| is_asked(&made).then(|| (question.right)(&made)))
             .collect();
         let spoken = (0..given.len()).filter(|&at| is_wrong[at] && made[at].is_some()).count();
-        let of_all = fraction(
-            given.len(),
-            &|at| made[at].as_ref().is_some_and(|made| !question.same(made, &right[at])),
-            // What is not asked says nothing.
-            &|at| made[at].as_ref().is_none_or(|made| agrees(question, &given[at], made, &right[at])),
-        );
+        let explains = |end: usize| {
+            fraction(
+                end,
+                &|at| made[at].as_ref().is_some_and(|made| !question.same(made, &right[at])),
+                // What is not asked says nothing.
+                &|at| made[at].as_ref().is_none_or(|made| agrees(question, &given[at], made, &right[at])),
+            )
+        };
         if 2 * spoken < is_wrong.iter().filter(|is_wrong| **is_wrong).count() {
             continue;
         }
-        if of_all >= GENERAL && best.as_ref().is_none_or(|(max, _)| of_all > *max) {
-            best =
-                Some((of_all, numbers.iter().fold(told.to_owned(), |told, at| told.replacen("{}", &named.of(*at), 1))));
+        let told = numbers.iter().fold(told.to_owned(), |told, at| told.replacen("{}", &named.of(*at), 1));
+        if explains(given.len()) >= GENERAL {
+            better(&mut best, explains(given.len()), told);
+        } else if explains(end) >= GENERAL {
+            better(&mut ordinary_best, explains(end), told);
+        } else {
+            let agrees =
+                |at: usize| made[at].as_ref().is_some_and(|made| agrees(question, &given[at], made, &right[at]));
+            here.push((told, (0..end).map(agrees).collect()));
         }
     }
     let known: Vec<Known> = (0..given.len())
@@ -87,9 +118,12 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
     for (told, makes) in related {
         let made: Vec<Option<Vec<f64>>> = known.iter().map(makes).collect();
         let alike = |at: usize, numbers: &[f64]| made[at].as_deref().is_some_and(|made| is_near(made, numbers, 1e-9));
-        let of_all = fraction(given.len(), &|at| !alike(at, &known[at].right), &|at| alike(at, &known[at].given));
-        if of_all >= GENERAL && best.as_ref().is_none_or(|(max, _)| of_all > *max) {
-            best = Some((of_all, told));
+        let explains =
+            |end: usize| fraction(end, &|at| !alike(at, &known[at].right), &|at| alike(at, &known[at].given));
+        if explains(given.len()) >= GENERAL {
+            better(&mut best, explains(given.len()), told);
+        } else if explains(end) >= GENERAL {
+            better(&mut ordinary_best, explains(end), told);
         }
     }
     let wrong = || known.iter().zip(&is_wrong).filter(|(_, is_wrong)| **is_wrong).map(|(known, _)| known);
@@ -105,7 +139,67 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
             best = Some((1.0, told.into()));
         }
     }
+    if !is_kept && best.as_ref().is_none_or(|(score, _)| *score < GENERAL) {
+        let ordinary = ordinary_best.map(|(_, told)| told);
+        let somewhere = || somewhere(&known[..end], &given[..end], &is_wrong[..end], &named, &here);
+        if let Some(told) = ordinary.or_else(somewhere) {
+            return Some(told);
+        }
+    }
     best.map(|(_, told)| told)
+}
+
+/// Takes what explains more.
+fn better(best: &mut Option<(f64, String)>, of_all: f64, told: String) {
+    if best.as_ref().is_none_or(|(max, _)| of_all > *max) {
+        *best = Some((of_all, told));
+    }
+}
+
+/// How many answers must be wrong, and how many right, before it says something where the wrong ones are.
+const ENOUGH: usize = 3;
+
+/// What is said of answers that are wrong only where some condition holds, and all in the same manner there.
+fn somewhere<A: Shown>(
+    known: &[Known],
+    given: &[A],
+    is_wrong: &[bool],
+    named: &NamedNumbers,
+    misread: &[(String, Vec<bool>)],
+) -> Option<String> {
+    let all = |is: bool| (0..known.len()).filter(move |&at| is_wrong[at] == is);
+    if all(true).count() < ENOUGH || all(false).count() < ENOUGH {
+        return None;
+    }
+    let count = known.iter().map(|known| known.right.len()).max().unwrap_or(0);
+    let mut places: Vec<(String, Vec<usize>)> = conditions(known, named, count)
+        .into_iter()
+        .filter(|(_, holds)| all(true).all(|at| holds(&known[at])))
+        .map(|(told, holds)| (told, (0..known.len()).filter(|&at| holds(&known[at])).collect::<Vec<_>>()))
+        .filter(|(_, place)| place.len() + ENOUGH <= known.len() && place.len() <= 4 * all(true).count())
+        .collect();
+    places.sort_by_key(|(_, place)| place.len());
+    let shown: Vec<String> = given.iter().map(Shown::shown).collect();
+    let first = all(true).next()?;
+    let related = if known[first].right.is_empty() { Vec::new() } else { relations(&known[first], named) };
+    places.into_iter().find_map(|(told, place)| {
+        let is_one = place.iter().all(|&at| shown[at] == shown[place[0]]);
+        let alike = |made: Option<Vec<f64>>, at: usize| {
+            made.is_some_and(|made| !made.is_empty() && is_near(&made, &known[at].given, 1e-9))
+        };
+        let relation = || related.iter().find(|(_, makes)| place.iter().all(|&at| alike(makes(&known[at]), at)));
+        let is_none =
+            || told != NO_ANSWER && all(true).all(|at| known[at].right.is_empty() && !known[at].given.is_empty());
+        let read = || misread.iter().find(|(_, agrees)| place.iter().all(|&at| agrees[at]));
+        let what = match relation() {
+            _ if is_one => format!("the answer is {}", shown[place[0]]),
+            Some((relation, _)) => relation.clone(),
+            None if read().is_some() => read()?.0.clone(),
+            None if is_none() => "an answer is given, and None is right,".into(),
+            None => return None,
+        };
+        Some(format!("{what} where {told}"))
+    })
 }
 
 /// Whether a mistake makes an answer; of another rounding, where that is far nearer to it than the right one is.
@@ -113,6 +207,11 @@ fn agrees<I, A: Shown>(question: &Question<I, A>, given: &A, made: &A, right: &A
     let apart = (question.apart)(given, made);
     let of_another_rounding = apart <= 1e-9 && 1e3 * apart <= (question.apart)(given, right);
     apart <= question.allowed || of_another_rounding || given.shown() == made.shown()
+}
+
+/// Whether a mistake makes no number, and the reader answers none.
+fn is_given_up<A: Shown>(given: &A, made: &A) -> bool {
+    given.shown() == "None" && made.numbers().iter().any(|number| !number.is_finite())
 }
 
 /// Whether two answers are the same but for rounding.

@@ -11,6 +11,7 @@ pub mod apart;
 mod argument;
 mod ask;
 mod compare;
+mod condition;
 mod letters;
 mod looks_like;
 mod mine;
@@ -25,6 +26,7 @@ mod report;
 mod seen;
 mod shown;
 mod turn;
+mod unused;
 
 pub use argument::{Argument, Misread};
 pub use ask::{Ask, RowPlace, RowPlaces};

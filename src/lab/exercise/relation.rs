@@ -157,7 +157,7 @@ fn times(factor: f64) -> String {
 }
 
 /// Which part of an answer or an argument of this many parts.
-fn part_of(at: usize, count: usize) -> String {
+pub fn part_of(at: usize, count: usize) -> String {
     if count <= 3 { ["x", "y", "z"][at].into() } else { format!("part {}", at + 1) }
 }
 
@@ -199,6 +199,11 @@ impl NamedNumbers {
         let is_vector_like =
             |(_, at): &(String, [usize; 2])| !is_zero(*at, numbers) || asked.iter().any(|asked| is_zero(*at, asked));
         numbers.iter().enumerate().all(within) && self.0.iter().all(is_vector_like)
+    }
+
+    /// The first number of each argument, and how many it has.
+    pub fn places(&self) -> Vec<[usize; 2]> {
+        self.0.iter().map(|named| named.1).collect()
     }
 
     /// What these numbers are called.

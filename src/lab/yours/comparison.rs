@@ -1,6 +1,6 @@
 //! Whether a picture of bytes shows what another one of light shows, block by block.
 
-use super::known::{Picture, known_mistakes};
+use super::known::{Picture, altered_pictures, known_mistakes};
 use super::scene::{SIZE, film_after, picture_of, sample_at_most, scene_after, variants};
 use pinhole::Error;
 use pinhole::extract::linear_from_srgb;
@@ -22,6 +22,8 @@ const EXPLAINED: f64 = 0.15;
 /// The part of a block that noise makes white in one picture only, at most; there, light beyond white was lost, and nobody
 /// knows how much.
 const SPECKLED: f64 = 0.5;
+/// How many small mistakes that make the same picture are told, at most.
+const MANY: usize = 3;
 /// Light that counts as none, where parts of it are told.
 const DARK: f64 = 1e-3;
 
@@ -107,7 +109,8 @@ pub struct Expected {
     curve: Curve,
     right: Pixels,
     rewritten_or_changed: OnceCell<Vec<Mistaken>>,
-    known: OnceCell<Vec<Mistaken>>,
+    known: OnceCell<Vec<(String, Picture)>>,
+    altered: OnceCell<Vec<(String, Picture)>>,
 }
 
 /// What a picture looks like, and the picture.
@@ -119,8 +122,8 @@ impl Expected {
     /// Errors: those of a render.
     pub fn after(chapter: u32) -> Result<Self, Error> {
         let right = light_of(&film_after(chapter, u32::MAX)?);
-        let (rewritten_or_changed, known) = <(OnceCell<_>, OnceCell<_>)>::default();
-        Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known })
+        let (rewritten_or_changed, known, altered) = <(OnceCell<_>, OnceCell<_>, OnceCell<_>)>::default();
+        Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known, altered })
     }
 
     /// Compares the picture that a reader's program wrote; `waits` is called before known mistakes are made in the program,
@@ -142,11 +145,22 @@ impl Expected {
             let same = Comparison::Same { resolved: resolved[resolved.len() / 2] };
             return Ok(shift(&readers, right, 0.0).map_or(same, |by| Comparison::Shifted { by }));
         };
-        let mut looks_like = self.closest(&readers, apart.len(), self.rewritten_or_changed()?);
+        let mut looks_like = self.closest(&readers, apart.len(), self.rewritten_or_changed()?, Clone::clone);
+        let brighter = [self.brighter(&readers)];
+        let brighter = self.closest(&readers, apart.len(), &brighter, Clone::clone);
+        looks_like = [looks_like, brighter].into_iter().flatten().min_by_key(|found| found.0);
         if looks_like.as_ref().is_none_or(|(left, _)| *left > 0) {
             waits();
-            let known = self.closest(&readers, apart.len(), self.known());
+            let of_bytes = |(_, bytes): &Picture| pixels_of(bytes, &self.curve);
+            let known = self.closest(&readers, apart.len(), self.known(), of_bytes);
             looks_like = [looks_like, known].into_iter().flatten().min_by_key(|found| found.0);
+            if looks_like.as_ref().is_none_or(|(left, _)| *left > 0) {
+                let altered = self.all_closest(&readers, apart.len(), self.altered(), of_bytes);
+                // Whoever is told of many is told nothing.
+                let altered = altered.filter(|(_, all)| all.len() <= MANY);
+                let altered = altered.map(|(left, all)| (left, format!("as if {}.", all.join("; or as if "))));
+                looks_like = [looks_like, altered].into_iter().flatten().min_by_key(|found| found.0);
+            }
         }
         if looks_like.is_none()
             && let Some(by) = shift(&readers, right, EXPLAINED)
@@ -161,17 +175,53 @@ impl Expected {
 
     /// What the picture looks like that leaves the fewest blocks apart, if those are few; it must itself be apart from the
     /// right one about as far as the reader's is. With it, in how many blocks they still differ.
-    fn closest(&self, readers: &Pixels, apart: usize, mistakes: &[Mistaken]) -> Option<(usize, String)> {
+    fn closest<P>(
+        &self,
+        readers: &Pixels,
+        apart: usize,
+        mistakes: &[(String, P)],
+        pixels: impl Fn(&P) -> Pixels,
+    ) -> Option<(usize, String)> {
+        let (left, all) = self.all_closest(readers, apart, mistakes, pixels)?;
+        Some((left, (*all.first()?).to_owned()))
+    }
+
+    /// The same, of all that leave as few.
+    fn all_closest<'a, P>(
+        &self,
+        readers: &Pixels,
+        apart: usize,
+        mistakes: &'a [(String, P)],
+        pixels: impl Fn(&P) -> Pixels,
+    ) -> Option<(usize, Vec<&'a str>)> {
         let differing = |one: &Pixels, other: &Pixels| {
             blocks(one, other, &self.curve).iter().filter(|block| block.differs()).count()
         };
-        let shown = mistakes.iter().filter(|(_, wrong)| {
-            let alone = differing(wrong, &self.right);
-            2 * alone >= apart && alone <= 3 * apart
-        });
-        let all = shown.map(|(what, wrong)| (differing(readers, wrong), what.clone()));
+        let mut all: Vec<(usize, &str)> = Vec::new();
+        for (what, wrong) in mistakes {
+            let wrong = pixels(wrong);
+            let alone = differing(&wrong, &self.right);
+            if 2 * alone >= apart && alone <= 3 * apart {
+                all.push((differing(readers, &wrong), what));
+            }
+        }
+        let least = all.iter().map(|found| found.0).min()?;
         // Noise alone may set one block apart.
-        all.min_by_key(|found| found.0).filter(|found| found.0 <= (apart / 10).max(usize::from(apart > 4)))
+        let is_few = least <= (apart / 10).max(usize::from(apart > 4));
+        is_few.then(|| (least, all.into_iter().filter(|found| found.0 == least).map(|found| found.1).collect()))
+    }
+
+    /// The right picture as bright as the reader's, where neither is white.
+    fn brighter(&self, readers: &Pixels) -> Mistaken {
+        let pairs = || readers.iter().flatten().zip(self.right.iter().flatten());
+        let (own, right) = pairs()
+            .filter(|(own, right)| **own < 1.0 && **right < 1.0)
+            .fold((0.0, 0.0), |sum, (own, right)| (sum.0 + own, sum.1 + right));
+        let factor = own / right;
+        let told = format!(
+            "everything is {factor:.3} times as bright, the sky, too: what is the sum divided by, and of how many?"
+        );
+        (told, self.right.iter().map(|pixel| pixel.map(|light| (factor * light).min(1.0))).collect())
     }
 
     /// The picture written in other ways than it should be, and those of other scenes.
@@ -194,12 +244,18 @@ impl Expected {
     }
 
     /// The pictures of the program with each known mistake.
-    fn known(&self) -> &[Mistaken] {
-        self.known.get_or_init(|| {
-            let all = known_mistakes(self.chapter).into_iter().filter(|(_, (size, _))| *size == SIZE);
-            all.map(|(what, (_, bytes))| (what, pixels_of(&bytes, &self.curve))).collect()
-        })
+    fn known(&self) -> &[(String, Picture)] {
+        self.known.get_or_init(|| of_size(known_mistakes(self.chapter)))
     }
+
+    /// Those of the program with each small mistake in the lines of the last step.
+    fn altered(&self) -> &[(String, Picture)] {
+        self.altered.get_or_init(|| of_size(altered_pictures(self.chapter)))
+    }
+}
+
+fn of_size(all: Vec<(String, Picture)>) -> Vec<(String, Picture)> {
+    all.into_iter().filter(|(_, (size, _))| *size == SIZE).collect()
 }
 
 /// The light of a picture of bytes.

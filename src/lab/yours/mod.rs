@@ -3,6 +3,7 @@
 //! Reads: the steps that stand in the chapters' folders, and a picture that a reader's program wrote. Writes: the
 //! program after each step, pinhole's picture of the same scene, and whether the two are the same within noise.
 
+mod altered;
 mod comparison;
 mod known;
 mod program;

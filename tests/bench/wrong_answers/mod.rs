@@ -6,6 +6,8 @@ mod from_08;
 mod from_15;
 mod from_22;
 mod from_29;
+mod second;
+mod third;
 
 use pinhole_lab::exercise::Exercise;
 
@@ -17,6 +19,16 @@ pub struct Fresh {
     pub wrong: Vec<(Exercise, &'static str)>,
     /// Right ones.
     pub right: Vec<Exercise>,
+}
+
+/// Of all chapters: those that were written second.
+pub fn second() -> Vec<Fresh> {
+    second::all()
+}
+
+/// Of all chapters: those that were written third.
+pub fn third() -> Vec<Fresh> {
+    third::all()
 }
 
 /// Of all chapters.
