@@ -2,7 +2,7 @@
 //! that look unlike the book's.
 //!
 //! `cargo bench --profile dev --bench wrong_answers`; half a minute. With a number, that chapter alone; with
-//! `-- --second` or `-- --third`, those that were written later, each set before anybody looked at what was known by then.
+//! `-- --third`, those that were written last, before anybody looked at what was known by then.
 #![allow(clippy::print_stdout, reason = "a bench prints what it found")]
 #![allow(clippy::disallowed_methods, reason = "readers write with the platform's functions")]
 
@@ -21,11 +21,10 @@ fn main() {
     let only = std::env::args().find_map(|word| word.parse::<usize>().ok());
     let asks = |word: &str| std::env::args().any(|own| own == word);
     let (answers, earlier) = match () {
-        () if asks("--second") => (wrong_answers::second(), vec![wrong_answers::all()]),
-        () if asks("--third") => (wrong_answers::third(), vec![wrong_answers::all(), wrong_answers::second()]),
+        () if asks("--third") => (wrong_answers::third(), wrong_answers::all()),
         () => (wrong_answers::all(), Vec::new()),
     };
-    // What was answered before: in the tests, and in earlier sets.
+    // What was answered before: in the tests, and in the earlier set.
     let mut known: HashSet<Signature> = answers::ALL
         .iter()
         .flat_map(|(stem, answers)| {
@@ -33,7 +32,7 @@ fn main() {
             answers().wrong.map(|(answer, _)| signature(chapter, &answer))
         })
         .collect();
-    for Fresh { chapter, wrong, .. } in earlier.into_iter().flatten() {
+    for Fresh { chapter, wrong, .. } in earlier {
         known.extend(wrong.iter().map(|(answer, _)| signature(chapter, answer)));
     }
     let (mut new, mut new_named) = (0, 0);

@@ -1,16 +1,14 @@
 //! What `yours` says of the reader's program with mistakes, and of right ones that look unlike the book's.
 //!
-//! `cargo bench --bench yours`; a few minutes. `-- --blind`, `--second`, `--third` and `--fourth` try sets that were written before
-//! anybody looked at what was known by then; two numbers behind them, from which chapter to which. `-- --times` measures the program beside pinhole instead, both on one
-//! thread with the same number of samples, and `-- --write` keeps that beside chapter 25.
+//! `cargo bench --bench yours`; a few minutes. `-- --blind`, `--third` and `--fourth` try sets that were written
+//! before anybody looked at what was known by then; two numbers behind them, from which chapter to which.
+//! `-- --times` measures the program beside pinhole instead, both on one thread with the same number of samples, and
+//! `-- --write` keeps that beside chapter 25.
 #![allow(clippy::print_stdout, reason = "a bench prints what it found")]
 
 #[path = "../yours/programs.rs"]
 #[allow(dead_code, reason = "the test takes all of a chapter at once")]
 mod programs;
-
-#[path = "yours/second.rs"]
-mod second;
 
 #[path = "yours/third.rs"]
 mod third;
@@ -49,7 +47,6 @@ fn main() {
     let numbers: Vec<u32> = words.iter().filter_map(|word| word.parse().ok()).collect();
     let chapters = numbers.first().copied().unwrap_or(0)..=numbers.get(1).copied().unwrap_or(99);
     let (mistakes, right) = match () {
-        () if asks("--second") => (&second::MISTAKES[..], &second::RIGHT[..]),
         () if asks("--third") => (&third::MISTAKES[..], &third::RIGHT[..]),
         () if asks("--fourth") => (&fourth::MISTAKES[..], &[][..]),
         () if asks("--blind") => (&BLIND[..], &[][..]),
