@@ -11,12 +11,11 @@ const LATE: [&str; 2] = ["24_motion_blur", "08_field_of_view"];
 const LISTS: [&str; 2] = ["chapters/Cargo.toml", "book/src/SUMMARY.md"];
 
 /// Files outside that name one of these chapters without being a list of chapters: each takes a scene that suits it.
-const NAMED: [(&str, &str); 10] = [
+const NAMED: [(&str, &str); 9] = [
     ("book/builder/live_page.rs", "the five figures that a test moves in a browser"),
     ("src/lab/review/mutation/table.rs", "a mutation is tried in whichever chapter runs the stage that it spoils"),
     ("tests/bench/wrong_answers/from_08.rs", "wrong answers, chapter by chapter"),
     ("tests/bench/wrong_answers/from_22.rs", "wrong answers, chapter by chapter"),
-    ("tests/bench/wrong_answers/second.rs", "wrong answers, chapter by chapter"),
     ("tests/bench/wrong_answers/third.rs", "wrong answers, chapter by chapter"),
     ("tests/book_numbers/spaces.rs", "the numbers that page 08 prints, computed from its scene"),
     ("tests/exercises/folders.rs", "this file"),
