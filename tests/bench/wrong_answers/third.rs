@@ -720,7 +720,7 @@ fn power(cosine: f64) -> f64 {
     (0..5).fold(cosine, |power, _| power * power)
 }
 
-/// Stranger ones, written when what was said of the others had been seen.
+/// Odder ones, written when what was said of the others had been seen.
 fn odd() -> Vec<Fresh> {
     vec![
         fresh(

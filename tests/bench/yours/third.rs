@@ -10,8 +10,8 @@ pub const MISTAKES: [Edit; 52] = [
     (1, "radiance(V(0.0, 0.0, 0.0), V(right, up, -1.0))", "radiance(V(right, up, 0.0), V(0.0, 0.0, -1.0))"),
     (5, "(ANGLE / 2.0).to_radians().tan()", "(ANGLE / 2.0).tan()"),
     (5, "LIGHT.sub(point)", "point.sub(LIGHT)"),
-    (5, "V(half * right, half * up, -1.0)", "V(half * right, half * up, -half)"),
     (5, "sphere.colour.times(irradiance / PI)", "sphere.colour.times(irradiance / PI / PI)"),
+    (5, "V(half * right, half * up, -1.0)", "V(half * right, half * up, -half)"),
     (9, "EYE.sub(TARGET).unit()", "TARGET.sub(EYE).unit()"),
     (9, "add(upward.times(up)).sub(back)", "add(upward.times(up)).add(V(0.0, 0.0, -1.0))"),
     (
