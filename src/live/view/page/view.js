@@ -30,14 +30,19 @@ const complain = (error) => {
   fit();
 };
 
+/** How many choices were made, and how many of them the program has not answered yet. */
+let [choices, unanswered] = [0, 0];
+
 /** Sends an order that changes what can be chosen, shows a refusal, and reads the sheet again either way. */
 const choose = async (what) => {
+  [choices, unanswered] = [choices + 1, unanswered + 1];
   try {
     await order(what);
     complain(null);
   } catch (error) {
     complain(error);
   }
+  unanswered -= 1;
   await readSheet();
 };
 
@@ -139,8 +144,11 @@ const readSheet = () => {
 };
 
 const showSheet = async () => {
-  const before = sheet;
-  sheet = await (await fetch("sheet")).json();
+  const [before, made, waits] = [sheet, choices, unanswered > 0];
+  const told = await (await fetch("sheet")).json();
+  // It may say what was before a choice, and a box that shows so is clicked in vain; a reading follows each choice.
+  if (waits || unanswered || made !== choices) return;
+  sheet = told;
   document.title = `${sheet.scene} · pinhole`;
   part("scene").textContent = sheet.scene;
   part("modes").replaceChildren(...sheet.modes.map(([key, name]) => {
