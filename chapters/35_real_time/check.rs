@@ -1,12 +1,9 @@
 //! Chapter 35: how much a neighbouring pixel counts for the filter.
 
-use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::Overrides;
 use pinhole::extract::camera_entity;
-use pinhole::film::{FilmTile, GUIDES, Guides, denoise, film_stage};
-use pinhole::plan::Column;
-use pinhole::rays::{PixelSamples, RasterPoints};
+use pinhole::film::{GUIDES, Guides, denoise};
 use pinhole::render::{Execution, render};
 use pinhole::scene::{Layers, Sampling};
 use pinhole_lab::exercise::apart::absolute;
@@ -231,17 +228,7 @@ fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
     if setting.number == 1 {
         return painted(ask);
     }
-    let width = setting.resolution().width as usize;
-    let picture = smoothed(&ask, setting).unwrap_or_default();
-    StandIn::instead(film_stage, move |mut tiles: Query<(&RasterPoints, Option<&PixelSamples>, &mut FilmTile)>| {
-        for (raster, samples, mut film) in &mut tiles {
-            for row in 0..raster.rows() {
-                let pixel = samples.map_or(row, |samples| samples.pixel[row] as usize);
-                let [x, y] = film.tile.pixel_of(pixel).map(|at| at as usize);
-                film.add(pixel, picture.get(y * width + x).copied().unwrap_or_default());
-            }
-        }
-    })
+    StandIn::film(smoothed(&ask, setting), setting.resolution().width)
 }
 
 /// The chapter's own film, smoothed in plain code; none where the function cannot answer, or nothing is rendered.

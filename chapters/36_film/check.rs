@@ -3,9 +3,6 @@
 use bevy_ecs::prelude::*;
 use pinhole::Overrides;
 use pinhole::extract::camera_entity;
-use pinhole::film::{FilmTile, film_stage};
-use pinhole::plan::Column;
-use pinhole::rays::{PixelSamples, RasterPoints};
 use pinhole::render::{Execution, render};
 use pinhole::scene::{Name, Placement, Sampling, smooth};
 use pinhole_lab::exercise::apart::absolute;
@@ -181,17 +178,7 @@ fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
     if setting.number == 1 {
         return painted(ask);
     }
-    let width = setting.resolution().width as usize;
-    let picture = picture(&ask, setting).unwrap_or_default();
-    StandIn::instead(film_stage, move |mut tiles: Query<(&RasterPoints, Option<&PixelSamples>, &mut FilmTile)>| {
-        for (raster, samples, mut film) in &mut tiles {
-            for row in 0..raster.rows() {
-                let pixel = samples.map_or(row, |samples| samples.pixel[row] as usize);
-                let [x, y] = film.tile.pixel_of(pixel).map(|at| at as usize);
-                film.add(pixel, picture.get(y * width + x).copied().unwrap_or_default());
-            }
-        }
-    })
+    StandIn::film(picture(&ask, setting), setting.resolution().width)
 }
 
 /// The pixels of the chapter's scene with its pearls moved; none where the function cannot answer, or nothing is rendered.

@@ -28,6 +28,19 @@ fn pictures(folder: &Path) -> Vec<Vec<u8>> {
     (0..=8).map(|frame| fs::read(folder.join(format!("f_{frame:04}.png"))).expect("a frame")).collect()
 }
 
+/// Kills the program a few times, each time somewhat later; returns how often it was still at work.
+pub(super) fn killed(folder: &Path, words: &[&str]) -> u32 {
+    let mut stops = 0;
+    for pause in [60, 120, 200, 300] {
+        let mut child =
+            pinhole(folder).args(words).stderr(Stdio::null()).stdout(Stdio::null()).spawn().expect("it starts");
+        thread::sleep(Duration::from_millis(pause));
+        let _ = Command::new("kill").args(["-KILL", &child.id().to_string()]).status();
+        stops += u32::from(!child.wait().expect("it ends").success());
+    }
+    stops
+}
+
 // Without moments, which have their own tests: the camera's field of view changes.
 const ALL: [&str; 8] = ["render", "a.ron", "--frames", "0..8", "-o", "f.png", "--moments", "1"];
 
@@ -66,14 +79,7 @@ fn a_film_has_the_same_bits_in_one_go_in_parts_and_after_stops() {
     assert!(missing.status.code() == Some(75) && text(&missing.stderr).contains("3 of 9 frames are missing: 0, 3, 6"));
     // The last part is stopped again and again.
     let last = [&ALL[..], &["--part", "1/3", "--resume", "--write-every", "1ms", "-j", "1"]].concat();
-    let mut stops = 0;
-    for pause in [60, 120, 200, 300] {
-        let mut child =
-            pinhole(folder.path()).args(&last).stderr(Stdio::null()).stdout(Stdio::null()).spawn().expect("it starts");
-        thread::sleep(Duration::from_millis(pause));
-        let _ = Command::new("kill").args(["-KILL", &child.id().to_string()]).status();
-        stops += u32::from(!child.wait().expect("it ends").success());
-    }
+    let stops = killed(folder.path(), &last);
     let done = run(folder.path(), &last);
     assert!(done.status.success(), "{}", text(&done.stderr));
     assert!(pictures(folder.path()) == expected);

@@ -1,15 +1,13 @@
 //! Frames that are the mean of moments: what turns, fades or is animated while the shutter is open, against closed forms.
 
-use super::{pinhole, run, text};
+use super::frames::killed;
+use super::{run, text};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::{ModelScene, SceneFile};
 use pinhole::{Overrides, stages};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::thread;
-use std::time::Duration;
 
 /// The film of a scene at so many moments of a frame, stopped and continued after every so many steps.
 fn means(
@@ -371,14 +369,7 @@ fn a_film_of_moments_has_the_same_bits_in_one_go_in_parts_and_after_kills() {
     let done = run(folder.path(), &[&ALL[..], &["--part", "2/2"]].concat());
     assert!(done.status.success(), "{}", text(&done.stderr));
     let own = [&ALL[..], &["--part", "1/2", "--resume", "--write-every", "1ms", "-j", "1"]].concat();
-    let mut stops = 0;
-    for pause in [60, 120, 200, 300] {
-        let mut child =
-            pinhole(folder.path()).args(&own).stderr(Stdio::null()).stdout(Stdio::null()).spawn().expect("it starts");
-        thread::sleep(Duration::from_millis(pause));
-        let _ = Command::new("kill").args(["-KILL", &child.id().to_string()]).status();
-        stops += u32::from(!child.wait().expect("it ends").success());
-    }
+    let stops = killed(folder.path(), &own);
     let done = run(folder.path(), &own);
     assert!(done.status.success(), "{}", text(&done.stderr));
     assert!(pictures(folder.path()) == expected);

@@ -4,7 +4,9 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::ScheduleConfigs;
 use bevy_ecs::system::ScheduleSystem;
 use pinhole::extract::camera_entity;
-use pinhole::plan::{Census, Stage, plan};
+use pinhole::film::{FilmTile, film_stage};
+use pinhole::plan::{Census, Column, Stage, plan};
+use pinhole::rays::{PixelSamples, RasterPoints};
 use pinhole::scene::{Resolution, Sampling};
 use pinhole::{Chapter, Error, Overrides, Result, Size};
 use std::sync::Arc;
@@ -73,6 +75,21 @@ impl StandIn {
     /// Only the stages of these names are offered, beside what every chapter has.
     pub fn keeping(stages: Vec<String>) -> Self {
         Self { stage: None, place: Place::Keep(stages) }
+    }
+
+    /// These pixels in place of the film, line by line of an image of this width; black where there are none.
+    pub fn film(pixels: Option<Vec<[f32; 3]>>, width: u32) -> Self {
+        let pixels = pixels.unwrap_or_default();
+        let system = move |mut tiles: Query<(&RasterPoints, Option<&PixelSamples>, &mut FilmTile)>| {
+            for (raster, samples, mut film) in &mut tiles {
+                for row in 0..raster.rows() {
+                    let pixel = samples.map_or(row, |samples| samples.pixel[row] as usize);
+                    let [x, y] = film.tile.pixel_of(pixel);
+                    film.add(pixel, pixels.get((y * width + x) as usize).copied().unwrap_or_default());
+                }
+            }
+        };
+        Self::instead(film_stage, system)
     }
 
     /// No render, but a picture of this size that shows what the function answers, pixel by pixel.
