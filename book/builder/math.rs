@@ -146,7 +146,8 @@ fn breakable(mathml: &str, display: bool) -> Option<String> {
             }
         };
         // What joins two terms keeps its spaces at the beginning of a piece.
-        let is_first = piece.is_empty() && is_operator && pieces.len() > 1;
+        let joins = is_operator && !is_wide_space && RELATIONS_AND_SIGNS.contains(&says);
+        let is_first = piece.is_empty() && joins && pieces.len() > 1;
         let element = if is_first { element.replacen("<mo", "<mo form=\"infix\"", 1) } else { element.to_owned() };
         pieces.last_mut()?.push_str(&element);
         match says {
@@ -261,6 +262,9 @@ mod tests {
         assert_eq!(pieces("$$\\frac{a + b}{c}$$").len(), 1, "there is no place");
         let text = expand("$$a = b$$").expect("a formula");
         assert!(text.contains("<math displaystyle=\"true\"><mo form=\"infix\">"), "{text}");
+        // A bar or a sign that begins a formula of its own keeps no space from what it stands before.
+        let text = expand("$$a \\qquad \\lVert b \\rVert \\qquad -c$$").expect("a formula");
+        assert!(!text.contains("infix") && text.matches("<math").count() == 3, "{text}");
     }
 
     #[test]

@@ -106,6 +106,11 @@ impl Keys {
         self
     }
 
+    /// The frames of a value's keys, by its path; none for a value without keys.
+    pub fn frames(&self, path: &str) -> Vec<f64> {
+        self.values.0.get(path).into_iter().flatten().map(|(frame, _)| *frame).collect()
+    }
+
     /// Each path with the text of its value at a frame.
     pub fn at(&self, frame: f64) -> impl Iterator<Item = (&str, String)> {
         self.values.0.iter().map(move |(path, keys)| (path.as_str(), value_at(keys, self.curve, frame)))

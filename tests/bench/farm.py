@@ -19,6 +19,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -275,7 +276,7 @@ def main():
     parser.add_argument("--scenes", help="the numbers of the scenes, from 1, such as 1,3,4")
     parser.add_argument("--times", type=int, default=1, help="how many times as many samples")
     parser.add_argument("--scale", type=int, default=1, help="how many times as wide and as high the pictures are")
-    parser.add_argument("folder", nargs="?", default="/tmp/pinhole-farm")
+    parser.add_argument("folder", nargs="?", default=pathlib.Path(tempfile.gettempdir()) / "pinhole-farm")
     asked = parser.parse_args()
     if asked.scenes:
         SCENES[:] = [SCENES[int(number) - 1] for number in asked.scenes.split(",")]

@@ -9,7 +9,7 @@ use glam::DVec3;
 use pinhole::film::{Curve, Film, png_bytes};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
-use pinhole::scene::{Name, Placement, SceneFile, scene_text, smooth};
+use pinhole::scene::{Keys, Name, Placement, SceneFile, scene_text, smooth};
 use pinhole::{Chapter, Error, Result, stages};
 use std::path::Path;
 
@@ -18,8 +18,6 @@ const SIZE: [u32; 2] = [276, 184];
 const SQUARE: [u32; 2] = [200, 200];
 /// The frames in a unit of time.
 const RATE: f64 = 24.0;
-/// The frames of the ball's keys.
-const KEYS: [f64; 7] = [-8.0, 0.0, 6.0, 12.0, 32.0, 48.0, 56.0];
 /// Where the camera stands that looks at the wheel alone.
 const AT_THE_WHEEL: [&str; 4] = [
     "camera.keys=(values: {})",
@@ -68,18 +66,25 @@ fn exhibit(film: &Film, line: String) -> Result<Exhibit> {
     Ok(Exhibit { picture, lines: vec![line] })
 }
 
+/// A component of a film's ball.
+fn of_ball<C: Component + Clone>(film: &SceneFile) -> Result<C> {
+    let mut scene = film.world();
+    let mut query = scene.query::<(&Name, &C)>();
+    let found = query.iter(&scene).find(|(name, _)| name.as_str() == "ball").map(|(_, own)| own.clone());
+    found.ok_or_else(|| Error::Usage("the film has no ball that moves".into()))
+}
+
 /// Where a film's ball is at a frame.
 fn ball(film: &SceneFile, frame: f64) -> Result<DVec3> {
-    let mut scene = film.at(frame, RATE).map_err(Error::Usage)?.world();
-    let mut query = scene.query::<(&Name, &Placement)>();
-    let ball = query.iter(&scene).find(|(name, _)| name.as_str() == "ball").map(|(_, placement)| placement.position);
-    ball.ok_or_else(|| Error::Usage("the film has no ball".into()))
+    Ok(of_ball::<Placement>(&film.at(frame, RATE).map_err(Error::Usage)?)?.position)
 }
 
 /// The same on the curve for keys that are one apart, whatever their distances.
 fn ball_of_even_keys(film: &SceneFile, frame: f64) -> Result<DVec3> {
-    let next = KEYS.iter().position(|key| *key > frame).unwrap_or(5).clamp(2, 5);
-    let four = [0, 1, 2, 3].map(|key| KEYS[next + key - 2]);
+    let keys = of_ball::<Keys>(film)?.frames("placement.position");
+    let last = keys.len().saturating_sub(2);
+    let next = keys.iter().position(|key| *key > frame).unwrap_or(last).clamp(2, last.max(2));
+    let Some(four) = keys.get(next - 2..next + 2) else { return ball(film, frame) };
     let places = four.iter().map(|key| ball(film, *key)).collect::<Result<Vec<_>>>()?;
     let u = (frame - four[1]) / (four[2] - four[1]);
     let along = |axis: usize| smooth([0.0, 1.0, 2.0, 3.0], [0, 1, 2, 3].map(|key: usize| places[key][axis]), 1.0 + u);

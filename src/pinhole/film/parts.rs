@@ -17,7 +17,7 @@ use super::{
 use crate::follow::LIGHT_PATHS;
 use crate::scene::{Filter, open_file, printable_path};
 use crate::{Error, Result};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs::File;
 use std::hash::{BuildHasher, RandomState};
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
@@ -636,8 +636,9 @@ fn usual(film: &Film, key: u64, paths: &[PathBuf]) -> Option<(u32, u64)> {
 /// The parts of the division that most of the files are of; of several, the first.
 fn parts_of_most(files: &[Indexed]) -> impl Iterator<Item = Part> {
     let division = |file: &Indexed| Part { number: 1, ..file.heading.part };
-    let alike = |one: Part| files.iter().filter(|file| division(file) == one).count();
-    let most = files.iter().rev().map(division).max_by_key(|one| alike(*one));
+    let mut alike: HashMap<Part, usize> = HashMap::new();
+    files.iter().for_each(|file| *alike.entry(division(file)).or_default() += 1);
+    let most = files.iter().rev().map(division).max_by_key(|one| alike[one]);
     most.into_iter().flat_map(|first| (1..=first.of).map(move |number| Part { number, ..first }))
 }
 

@@ -44,7 +44,7 @@ fn is_of_the_picture(path: &str) -> bool {
 impl Keys {
     /// Whether they move their entity, by the value of this path.
     fn moves(&self, path: &str) -> bool {
-        self.curve != KeyCurve::Step && MOVES.contains(&path) && self.at(0.0).any(|(own, _)| own == path)
+        self.curve != KeyCurve::Step && MOVES.contains(&path) && !self.frames(path).is_empty()
     }
 }
 
