@@ -82,6 +82,7 @@ mod sphere;
 mod torus;
 mod triangle;
 mod triangle_edges;
+mod triangle_filter;
 mod uv;
 
 pub use cone::PlacedCone;

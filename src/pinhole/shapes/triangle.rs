@@ -8,9 +8,8 @@ use super::ray_block::{
 };
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::normal_world_from_object;
-use super::triangle_edges::{
-    Edges, ROUNDING, Shear, edge_values, edges, longest_axis, triangle_intersection, triangle_rows,
-};
+use super::triangle_edges::{Edges, ROUNDING, Shear, edge_values, edges, longest_axis, triangle_intersection};
+use super::triangle_filter::triangle_rows;
 use super::uv::{UvSlope, planar_slope};
 use crate::bvh::by_axis;
 use crate::scene::{SceneError, Triangle, finite_point, number, triple};

@@ -4,7 +4,6 @@ use super::ray_block::{ClosestHit, Intersection, LANES, RayBlock, RaySlices, UNI
 use super::triangle::{TriangleRow, exact_triangle_t};
 use crate::bvh::by_axis;
 use glam::DVec3;
-use multiversion::multiversion;
 use pinhole_models::TriangleMesh;
 
 // ANCHOR: shear
@@ -134,26 +133,24 @@ pub fn triangle_t(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> f6
 /// The number of rays that are sorted together.
 const CHUNK: usize = 1024;
 
-/// Tests one triangle at a time against blocks of rays; where none of a block intersects its bounding sphere, the block
-/// is skipped.
+/// Tests one triangle at a time against blocks of the listed rays; where none of a block intersects its bounding sphere,
+/// the block is skipped.
 ///
 /// Rays are sorted by the axis of their largest component, so that each block needs one kind of shear.
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-pub(super) fn triangle_rows(
+#[inline(always)]
+pub(super) fn rows_by_axis(
     triangles: &[TriangleRow],
     numbers: &[u32],
     rays: RaySlices<'_>,
+    rows: &[u32],
     t: &mut [f64],
     shape: &mut [u32],
 ) {
-    let mut start = 0;
-    while start < t.len() {
-        let end = t.len().min(start + CHUNK);
-        let ByAxis { order, ends: [first, second, third] } = ByAxis::of(rays, start, end);
+    for rows in rows.chunks(CHUNK) {
+        let ByAxis { order, ends: [first, second, third] } = ByAxis::of(rays, rows);
         rows_along::<0>(rays, &order[..first], (triangles, numbers), t, shape);
         rows_along::<1>(rays, &order[first..second], (triangles, numbers), t, shape);
         rows_along::<2>(rays, &order[second..third], (triangles, numbers), t, shape);
-        start = end;
     }
 }
 
@@ -165,19 +162,20 @@ struct ByAxis {
 
 impl ByAxis {
     #[inline(always)]
-    fn of(rays: RaySlices<'_>, start: usize, end: usize) -> Self {
+    fn of(rays: RaySlices<'_>, rows: &[u32]) -> Self {
         let mut axes = [0_u8; CHUNK];
         let mut counts = [0_usize; 3];
         let [dx, dy, dz] = rays.direction;
-        for (row, axis) in (start..end).zip(&mut axes) {
+        for (&row, axis) in rows.iter().zip(&mut axes) {
+            let row = row as usize;
             let longest = longest_axis(DVec3::new(f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row])));
             *axis = longest as u8;
             counts[longest] += 1;
         }
         let mut order = [0; CHUNK];
         let mut next = [0, counts[0], counts[0] + counts[1]];
-        for (row, &axis) in (start..end).zip(&axes) {
-            order[next[usize::from(axis)]] = row as u32;
+        for (&row, &axis) in rows.iter().zip(&axes) {
+            order[next[usize::from(axis)]] = row;
             next[usize::from(axis)] += 1;
         }
         Self { order, ends: next }
