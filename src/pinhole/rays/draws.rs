@@ -44,10 +44,6 @@ impl DrawsViewItem<'_, '_> {
 }
 
 impl Draws<'_> {
-    fn keys<'r>(&'r self, rows: &'r [u32]) -> impl Iterator<Item = PixelKey> + 'r {
-        rows.iter().map(|&row| self.key(row as usize))
-    }
-
     /// The key of the pixel that a row's path belongs to.
     #[inline(always)]
     pub fn key(&self, row: usize) -> PixelKey {
@@ -63,20 +59,56 @@ impl Draws<'_> {
 
 /// Draws a uniform point in [0, 1)² for each of these rows.
 pub fn draws_of_two(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut Vec<[f64; 2]>) {
-    fn fill<D: Draw>(draw: D, keys: impl Iterator<Item = PixelKey>, into: &mut Vec<[f64; 2]>) {
-        into.extend(keys.map(|key| draw.two(key).map(unit)));
-    }
-    into.clear();
-    with_sampler!(of.sampling.sampler, D => fill(D::of(of.sample(), purpose), of.keys(rows), into));
+    into.resize(rows.len(), [0.0; 2]);
+    with_sampler!(of.sampling.sampler, D => {
+        let draw = D::of(of.sample(), purpose);
+        of.of_blocks(rows, into, |pixels, points| points_of_pixels(draw, of.sampling.seed, pixels, points));
+    });
 }
 
 /// Draws a uniform number in [0, 1) for each of these rows.
 pub fn draws_of_one(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut Vec<f64>) {
-    fn fill<D: Draw>(draw: D, keys: impl Iterator<Item = PixelKey>, into: &mut Vec<f64>) {
-        into.extend(keys.map(|key| unit(draw.one(key))));
+    into.resize(rows.len(), 0.0);
+    with_sampler!(of.sampling.sampler, D => {
+        let draw = D::of(of.sample(), purpose);
+        of.of_blocks(rows, into, |pixels, numbers| {
+            let mut fractions = [0; AT_ONCE];
+            fractions_of_pixels(draw, of.sampling.seed, pixels, &mut fractions[..numbers.len()]);
+            numbers.iter_mut().zip(fractions).for_each(|(number, fraction)| *number = unit(fraction));
+        });
+    });
+}
+
+/// How many rows draw their numbers at once.
+const AT_ONCE: usize = 64;
+
+impl Draws<'_> {
+    /// Calls a function with the pixels of each block of rows, x and y, and what is drawn for them.
+    #[inline(always)]
+    fn of_blocks<T>(&self, rows: &[u32], into: &mut [T], fill: impl Fn(&[[u32; AT_ONCE]; 2], &mut [T])) {
+        let mut pixels = [[0; AT_ONCE]; 2];
+        for (rows, into) in rows.chunks(AT_ONCE).zip(into.chunks_mut(AT_ONCE)) {
+            for (lane, &row) in rows.iter().enumerate() {
+                let [x, y] = pixel_of_row(self.tile, self.samples, self.paths, row as usize);
+                (pixels[0][lane], pixels[1][lane]) = (x, y);
+            }
+            fill(&pixels, into);
+        }
     }
-    into.clear();
-    with_sampler!(of.sampling.sampler, D => fill(D::of(of.sample(), purpose), of.keys(rows), into));
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn points_of_pixels<D: Draw>(draw: D, seed: u64, [xs, ys]: &[[u32; AT_ONCE]; 2], into: &mut [[f64; 2]]) {
+    for (point, (&x, &y)) in into.iter_mut().zip(xs.iter().zip(ys)) {
+        *point = draw.two(PixelKey::new(seed, [x, y])).map(unit);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn fractions_of_pixels<D: Draw>(draw: D, seed: u64, [xs, ys]: &[[u32; AT_ONCE]; 2], into: &mut [u32]) {
+    for (fraction, (&x, &y)) in into.iter_mut().zip(xs.iter().zip(ys)) {
+        *fraction = draw.one(PixelKey::new(seed, [x, y]));
+    }
 }
 
 // Random numbers for each row of a tile; the sampler is dispatched once per tile.

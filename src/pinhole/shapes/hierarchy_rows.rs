@@ -1,4 +1,4 @@
-use super::ray_block::{ClosestHit, ClosestHits, RaySlices};
+use super::ray_block::{ClosestHit, ClosestHits, RaySlices, nearness};
 use super::shape::Shape;
 use crate::bvh::{BoundingBox, Bvh, LeafTest, Stack, TestCounts, Traversal, traverse, traverse_counted};
 use glam::DVec3;
@@ -20,6 +20,8 @@ struct ShapeLeaves<'a, S> {
     numbers: &'a [u32],
     bvh: &'a Bvh,
     ray: [DVec3; 2],
+    /// 1 / R·R.
+    inverse: f64,
     closest: ClosestHit,
     /// For shapes that have a hierarchy of their own.
     inner: &'a mut Stack,
@@ -30,10 +32,19 @@ impl<S: Shape> LeafTest for ShapeLeaves<'_, S> {
     fn test(&mut self, leaf: usize) -> f64 {
         for &place in self.bvh.primitives(leaf) {
             let (shape, number) = (&self.shapes[place as usize], self.numbers[place as usize]);
+            if shape.culling_sphere().is_some_and(|sphere| misses(self.ray, self.inverse, sphere)) {
+                continue;
+            }
             self.closest = shape.keep_closest_of_ray(self.ray, number, self.closest, self.inner);
         }
         self.closest.t
     }
+}
+
+/// Whether a ray's line certainly misses a sphere, which takes no division and no root.
+#[inline(always)]
+fn misses([origin, direction]: [DVec3; 2], inverse: f64, (centre, radius): (DVec3, f64)) -> bool {
+    nearness(centre - origin, direction, inverse, radius) < 0.0
 }
 
 /// Intersects one ray at a time with the shapes whose boxes it hits, and keeps the closest hits.
@@ -52,7 +63,8 @@ pub fn keep_closest_of<S: Shape>(
         if closest.is_enough() {
             continue;
         }
-        let mut leaves = ShapeLeaves { shapes, numbers, bvh, ray, closest, inner };
+        let inverse = 1.0 / ray[1].dot(ray[1]);
+        let mut leaves = ShapeLeaves { shapes, numbers, bvh, ray, inverse, closest, inner };
         // Constants, so that each of the two loops asks for nothing that only the other needs.
         match closest.any {
             true => traverse(true, bvh, ray, closest.t, stack, &mut leaves),

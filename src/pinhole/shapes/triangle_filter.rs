@@ -1,4 +1,4 @@
-//! Which of a few triangles a ray hits first, in f32 with error bounds: f64 then has one triangle to test, not all.
+//! Which of a few triangles a ray may hit first, in f32 with error bounds: f64 then has one or two to test, not all.
 //!
 //! It decides nothing: where a bound leaves two answers, all triangles are tested in f64, so that the result is to the
 //! last bit that of testing all of them.
@@ -62,25 +62,35 @@ impl TriangleInF32 {
     }
 }
 
-/// No triangle is hit.
+/// No triangle.
 const NONE: u32 = u32::MAX;
-/// The bounds leave more than one answer.
-const IN_DOUBT: u32 = u32::MAX - 1;
+/// How many triangles f64 tests a ray against besides the one that it certainly hits: that which it starts on and, at a
+/// corner, its neighbours, and that of a lamp at its end.
+const SUSPECTS: usize = 3;
+
+/// The places of the triangles that a block of rays may hit first.
+struct Candidates {
+    /// That which each ray certainly hits before all others that it certainly hits.
+    found: [u32; LANES],
+    /// Those of which the bounds leave open whether they are hit before it, the latest first.
+    suspects: [[u32; LANES]; SUSPECTS],
+    /// How many such there are, of which no more than [`SUSPECTS`] are kept.
+    count: [u32; LANES],
+}
 
 /// A block of rays in f32, component by component.
 type Rays = [[[f32; LANES]; 3]; 2];
 
-/// The place of the triangle that each ray hits first, before a t that is given.
+/// The triangles that each ray may hit first, before a t that is given.
 ///
 /// A miss is certain where two sides differ in sign by more than their errors, or where all of the interval about t is
 /// behind the ray or beyond the nearest hit; a hit, where all sides agree in sign by more than their errors.
-/// Whatever is neither puts the ray in doubt, if it may be nearer than what is certain. A bound that is not a number
-/// answers no comparison, and so leaves doubt.
+/// Whatever is neither is suspected. A bound that is not a number answers no comparison, and so leaves a suspect.
 #[inline(always)]
-fn first_hits(triangles: &[TriangleInF32], [o, d]: &Rays, until: &[f32; LANES]) -> [u32; LANES] {
+fn first_hits(triangles: &[TriangleInF32], [o, d]: &Rays, until: &[f32; LANES]) -> Candidates {
     let mut c = [[0.0_f32; LANES]; 3];
     let (mut size, mut length, mut product) = ([0.0_f32; LANES], [0.0_f32; LANES], [0.0_f32; LANES]);
-    let (mut low, mut high, mut doubt) = ([0.0_f32; LANES], [0.0_f32; LANES], [f32::INFINITY; LANES]);
+    let (mut low, mut high) = ([0.0_f32; LANES], [0.0_f32; LANES]);
     for lane in 0..LANES {
         c[0][lane] = o[1][lane] * d[2][lane] - o[2][lane] * d[1][lane];
         c[1][lane] = o[2][lane] * d[0][lane] - o[0][lane] * d[2][lane];
@@ -90,7 +100,8 @@ fn first_hits(triangles: &[TriangleInF32], [o, d]: &Rays, until: &[f32; LANES]) 
         product[lane] = size[lane] * length[lane];
         (low[lane], high[lane]) = (until[lane] * (1.0 - OF_T), until[lane] * (1.0 + OF_T));
     }
-    let mut found = [NONE; LANES];
+    let (mut found, mut count) = ([NONE; LANES], [0_u32; LANES]);
+    let mut suspects = [[NONE; LANES]; SUSPECTS];
     for (place, triangle) in (0_u32..).zip(triangles) {
         let (mut min, mut max, mut sum) = ([0.0_f32; LANES], [0.0_f32; LANES], [0.0_f32; LANES]);
         let (mut error, mut any) = ([0.0_f32; LANES], 0_u32);
@@ -127,17 +138,18 @@ fn first_hits(triangles: &[TriangleInF32], [o, d]: &Rays, until: &[f32; LANES]) 
             let is_sure = is_steep & (t_low > 0.0) & ((min > error) | (max < -error));
             let counts = !(misses | is_elsewhere);
             let is_closer = counts & is_sure & (t_high < low[lane]);
-            let from = if is_sure { t_low } else { 0.0 };
-            doubt[lane] = if counts & !is_closer { smaller(from, doubt[lane]) } else { doubt[lane] };
+            let is_suspect = counts & !is_closer;
+            for later in (1..SUSPECTS).rev() {
+                suspects[later][lane] = if is_suspect { suspects[later - 1][lane] } else { suspects[later][lane] };
+            }
+            suspects[0][lane] = if is_suspect { place } else { suspects[0][lane] };
+            count[lane] += u32::from(is_suspect);
             low[lane] = if is_closer { t_low } else { low[lane] };
             high[lane] = if is_closer { t_high } else { high[lane] };
             found[lane] = if is_closer { place } else { found[lane] };
         }
     }
-    for lane in 0..LANES {
-        found[lane] = if doubt[lane] > high[lane] { found[lane] } else { IN_DOUBT };
-    }
-    found
+    Candidates { found, suspects, count }
 }
 
 #[inline(always)]
@@ -187,8 +199,8 @@ impl Pairs {
 
 /// Keeps the closest hits of all rays with a few triangles.
 ///
-/// The first loop finds the triangle that each ray hits first, in f32; the second tests only that in f64; what is left in
-/// doubt is tested against all.
+/// The first loop finds in f32 which triangles each ray may hit first; the second tests those in f64. A ray of which too
+/// many are suspected is tested against all.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 pub(super) fn triangle_rows(
     triangles: &[TriangleRow],
@@ -198,7 +210,7 @@ pub(super) fn triangle_rows(
     shape: &mut [u32],
 ) {
     let in_f32: Vec<TriangleInF32> = triangles.iter().map(|triangle| TriangleInF32::new(triangle.corners)).collect();
-    let (mut pairs, mut doubtful) = (Vec::with_capacity(t.len()), Vec::new());
+    let (mut pairs, mut doubtful) = (Vec::with_capacity(2 * t.len()), Vec::new());
     for start in (0..t.len()).step_by(LANES) {
         let count = LANES.min(t.len() - start);
         let mut block: Rays = [[[0.0; LANES]; 3], [[1.0; LANES]; 3]];
@@ -210,13 +222,15 @@ pub(super) fn triangle_rows(
         for (until, t) in until.iter_mut().zip(&t[start..start + count]) {
             *until = *t as f32;
         }
-        let found = first_hits(&in_f32, &block, &until);
-        for (row, place) in (start as u32..).zip(found).take(count) {
-            match place {
-                NONE => {}
-                IN_DOUBT => doubtful.push(row),
-                place => pairs.push((row, place)),
+        let candidates = first_hits(&in_f32, &block, &until);
+        for (row, lane) in (start as u32..).zip(0..count) {
+            if candidates.count[lane] as usize > SUSPECTS {
+                doubtful.push(row);
+                continue;
             }
+            let suspects = candidates.suspects.iter().map(|places| places[lane]);
+            let places = suspects.chain([candidates.found[lane]]).filter(|place| *place != NONE);
+            pairs.extend(places.map(|place| (row, place)));
         }
     }
     for of_block in pairs.chunks(LANES) {
@@ -329,12 +343,12 @@ mod tests {
                     let part = |own: usize, axis: usize| std::array::from_fn(|lane| columns[own][axis][start + lane]);
                     let block = [0, 1].map(|own| [0, 1, 2].map(|axis| part(own, axis)));
                     let found = first_hits(&in_f32, &block, &[f32::INFINITY; LANES]);
-                    in_doubt += found.into_iter().filter(|own| *own == IN_DOUBT).count();
+                    in_doubt += found.count.iter().filter(|count| **count as usize > SUSPECTS).count();
                 }
             }
         }
         eprintln!(
-            "first hits: {rows_tried} rays, all bits as from f64; {in_doubt} in doubt, of rays mostly aimed at edges"
+            "first hits: {rows_tried} rays, all bits as from f64; {in_doubt} tested against all, of rays mostly aimed at edges"
         );
     }
 }
