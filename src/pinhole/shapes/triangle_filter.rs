@@ -210,7 +210,7 @@ pub(super) fn triangle_rows(
     shape: &mut [u32],
 ) {
     let in_f32: Vec<TriangleInF32> = triangles.iter().map(|triangle| TriangleInF32::new(triangle.corners)).collect();
-    let (mut pairs, mut doubtful) = (Vec::with_capacity(2 * t.len()), Vec::new());
+    let (mut pairs, mut against_all) = (Vec::with_capacity(2 * t.len()), Vec::new());
     for start in (0..t.len()).step_by(LANES) {
         let count = LANES.min(t.len() - start);
         let mut block: Rays = [[[0.0; LANES]; 3], [[1.0; LANES]; 3]];
@@ -225,7 +225,7 @@ pub(super) fn triangle_rows(
         let candidates = first_hits(&in_f32, &block, &until);
         for (row, lane) in (start as u32..).zip(0..count) {
             if candidates.count[lane] as usize > SUSPECTS {
-                doubtful.push(row);
+                against_all.push(row);
                 continue;
             }
             let suspects = candidates.suspects.iter().map(|places| places[lane]);
@@ -268,7 +268,7 @@ pub(super) fn triangle_rows(
             }
         }
     }
-    rows_by_axis(triangles, numbers, rays, &doubtful, t, shape);
+    rows_by_axis(triangles, numbers, rays, &against_all, t, shape);
 }
 
 #[cfg(test)]
