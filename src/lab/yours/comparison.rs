@@ -1,11 +1,12 @@
 //! Whether a picture of bytes shows what another one of light shows, block by block.
 
-use super::known::{Picture, altered_pictures, known_mistakes};
+use super::known::{Mistaken, Picture};
 use super::scene::{SIZE, film_after, picture_of, sample_at_most, scene_after, variants};
 use pinhole::Error;
 use pinhole::extract::linear_from_srgb;
 use pinhole::film::{Film, srgb_from_linear};
 use std::cell::OnceCell;
+use std::time::{Duration, Instant};
 
 /// The sides of a block, in pixels.
 const BLOCK: [usize; 2] = [16, 10];
@@ -24,6 +25,12 @@ const EXPLAINED: f64 = 0.15;
 const SPECKLED: f64 = 0.5;
 /// How many small mistakes that make the same picture are told, at most.
 const MANY: usize = 3;
+/// The part of the pixels that differ that a mistake must make as they are.
+const SAME: f64 = 0.97;
+/// Of how many mistakes that come nearest the whole picture is made.
+const NEAR: usize = 12;
+/// How long one may take.
+const LATE: Duration = Duration::from_secs(30);
 /// Light that counts as none, where parts of it are told.
 const DARK: f64 = 1e-3;
 
@@ -108,13 +115,57 @@ pub struct Expected {
     chapter: u32,
     curve: Curve,
     right: Pixels,
-    rewritten_or_changed: OnceCell<Vec<Mistaken>>,
-    known: OnceCell<Vec<(String, Picture)>>,
-    altered: OnceCell<Vec<(String, Picture)>>,
+    rewritten_or_changed: OnceCell<Vec<LooksLike>>,
+    mistaken: OnceCell<Option<Tried>>,
 }
 
+/// What is said of mistakes that make a picture, and in how many other lines there are such.
+type Made = Option<(String, usize)>;
+
 /// What a picture looks like, and the picture.
-type Mistaken = (String, Pixels);
+type LooksLike = (String, Pixels);
+
+/// The mistakes that were put into the program: they, how few of the pixels were rendered, the right program's picture of
+/// those, and that of each mistake.
+struct Tried {
+    mistaken: Mistaken,
+    every: usize,
+    right: Picture,
+    pictures: Vec<(usize, Picture)>,
+}
+
+impl Tried {
+    fn after(chapter: u32) -> Option<Self> {
+        let mistaken = Mistaken::after(chapter)?;
+        // One pixel of so many in both directions; its random numbers are its own, so that it is as in the whole picture.
+        let every = match chapter {
+            ..17 | 33.. => 1,
+            28..30 => 24,
+            30.. => 12,
+            _ => 8,
+        };
+        let began = Instant::now();
+        let right = mistaken.right(every)?;
+        // Some mistakes make it slow, and with some it never ends.
+        let patience = 8 * began.elapsed() + Duration::from_millis(200);
+        let all: Vec<usize> = (0..mistaken.told.len()).collect();
+        let pictures = mistaken.pictures(&all, every, patience);
+        Some(Self { mistaken, every, right, pictures })
+    }
+}
+
+/// Of the pixels in which one of two pictures is not as the right one, the part in which they are the same; and how many
+/// those are.
+fn agreement(one: &Picture, other: &Picture, right: &Picture, every: usize) -> (f64, usize) {
+    let is_apart = |one: [u8; 3], other: [u8; 3]| (0..3).any(|part| one[part].abs_diff(other[part]) > 1);
+    let places = (every / 2..SIZE[1]).step_by(every);
+    let places = places.flat_map(|y| (every / 2..SIZE[0]).step_by(every).map(move |x| y * SIZE[0] + x));
+    let [one, other, right] = [one, other, right].map(|picture| &picture.1);
+    let spoken: Vec<usize> =
+        places.filter(|&at| is_apart(one[at], right[at]) || is_apart(other[at], right[at])).collect();
+    let same = spoken.iter().filter(|&&at| !is_apart(one[at], other[at])).count();
+    (same as f64 / spoken.len().max(1) as f64, spoken.len())
+}
 
 impl Expected {
     /// The picture after a chapter.
@@ -122,15 +173,16 @@ impl Expected {
     /// Errors: those of a render.
     pub fn after(chapter: u32) -> Result<Self, Error> {
         let right = light_of(&film_after(chapter, u32::MAX)?);
-        let (rewritten_or_changed, known, altered) = <(OnceCell<_>, OnceCell<_>, OnceCell<_>)>::default();
-        Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known, altered })
+        let (rewritten_or_changed, mistaken) = <(OnceCell<_>, OnceCell<_>)>::default();
+        Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, mistaken })
     }
 
     /// Compares the picture that a reader's program wrote; `waits` is called before known mistakes are made in the program,
     /// which takes a while.
     ///
     /// Errors: a picture of another size; those of a render.
-    pub fn compare(&self, ([width, height], bytes): &Picture, waits: &mut dyn FnMut()) -> Result<Comparison, Error> {
+    pub fn compare(&self, picture: &Picture, waits: &mut dyn FnMut()) -> Result<Comparison, Error> {
+        let ([width, height], bytes) = picture;
         if [*width, *height] != SIZE {
             let told =
                 format!("the picture has {width} × {height} pixels, and pinhole's has {} × {}", SIZE[0], SIZE[1]);
@@ -149,19 +201,13 @@ impl Expected {
         let brighter = [self.brighter(&readers)];
         let brighter = self.closest(&readers, apart.len(), &brighter, Clone::clone);
         looks_like = [looks_like, brighter].into_iter().flatten().min_by_key(|found| found.0);
-        if looks_like.as_ref().is_none_or(|(left, _)| *left > 0) {
-            waits();
-            let of_bytes = |(_, bytes): &Picture| pixels_of(bytes, &self.curve);
-            let known = self.closest(&readers, apart.len(), self.known(), of_bytes);
-            looks_like = [looks_like, known].into_iter().flatten().min_by_key(|found| found.0);
-            if looks_like.as_ref().is_none_or(|(left, _)| *left > 0) {
-                let altered = self.all_closest(&readers, apart.len(), self.altered(), of_bytes);
-                // Whoever is told of many is told nothing.
-                let altered = altered.filter(|(_, all)| all.len() <= MANY);
-                let altered = altered.map(|(left, all)| (left, format!("as if {}.", all.join("; or as if "))));
-                looks_like = [looks_like, altered].into_iter().flatten().min_by_key(|found| found.0);
-            }
-        }
+        waits();
+        let (made, near) = self.mistaken(picture, &readers, apart.len()).unwrap_or_default();
+        looks_like = match made {
+            // What everything looks like says more than one of many lines.
+            Some((told, others)) if others == 0 || looks_like.is_none() => Some((0, told)),
+            _ => [looks_like, near].into_iter().flatten().min_by_key(|found| found.0),
+        };
         if looks_like.is_none()
             && let Some(by) = shift(&readers, right, EXPLAINED)
         {
@@ -184,6 +230,75 @@ impl Expected {
     ) -> Option<(usize, String)> {
         let (left, all) = self.all_closest(readers, apart, mistakes, pixels)?;
         Some((left, (*all.first()?).to_owned()))
+    }
+
+    /// What is said of the mistakes in the program that make this very picture, and in how many lines more there are such;
+    /// or of one that comes near it, and in how many blocks that differs.
+    fn mistaken(&self, picture: &Picture, readers: &Pixels, apart: usize) -> Option<(Made, Option<(usize, String)>)> {
+        let Tried { mistaken, every, right, pictures } =
+            self.mistaken.get_or_init(|| Tried::after(self.chapter)).as_ref()?;
+        let agreeing = |pictures: &[(usize, Picture)], right: &Picture, every: usize, least: f64, near: f64| {
+            let of = |(mistake, wrong): &(usize, Picture)| (agreement(picture, wrong, right, every).0, *mistake);
+            let mut all: Vec<(f64, usize)> = pictures.iter().filter(|(_, own)| own.0 == SIZE).map(of).collect();
+            all.sort_by(|one, other| other.0.total_cmp(&one.0));
+            let best = all.first().map_or(1.0, |best| best.0);
+            all.retain(|(part, _)| *part >= least && *part >= best - near);
+            all.into_iter().map(|(_, mistake)| mistake).collect::<Vec<_>>()
+        };
+        // A program with these random numbers makes the very pixels.
+        let mut same = agreeing(pictures, right, *every, if *every > 1 { 0.9 } else { SAME }, 2e-3);
+        if *every > 1 && !same.is_empty() {
+            let few = (*every / 4).max(1).min(if *every > 12 { 6 } else { 1 });
+            same.truncate(12);
+            let again = mistaken.pictures(&same, few, LATE);
+            same = agreeing(&again, &mistaken.right(few)?, few, SAME, 2e-3);
+        }
+        if !same.is_empty() {
+            return Some((self.told(&same), None));
+        }
+        // One with others has about the same light everywhere.
+        let distance = |(_, wrong): &&(usize, Picture)| -> u64 {
+            let places = (every / 2..SIZE[1]).step_by(*every);
+            let places = places.flat_map(|y| (every / 2..SIZE[0]).step_by(*every).map(move |x| y * SIZE[0] + x));
+            let of =
+                |at: usize| (0..3).map(move |part| u64::from(picture.1[at][part].abs_diff(wrong.1[at][part])).pow(2));
+            places.flat_map(of).sum()
+        };
+        let mut near: Vec<&(usize, Picture)> = pictures.iter().filter(|(_, own)| own.0 == SIZE).collect();
+        near.sort_by_cached_key(distance);
+        near.truncate(if *every > 12 { 0 } else { NEAR });
+        let near: Vec<usize> = near.into_iter().map(|(mistake, _)| *mistake).collect();
+        let pictures: Vec<(String, Pixels)> = mistaken
+            .pictures(&near, 1, LATE)
+            .into_iter()
+            .map(|(mistake, (_, bytes))| (mistake.to_string(), pixels_of(&bytes, &self.curve)))
+            .collect();
+        let (left, all) = self.all_closest(readers, apart, &pictures, Clone::clone)?;
+        let all: Vec<usize> = all.into_iter().filter_map(|mistake| mistake.parse().ok()).collect();
+        Some((None, self.told(&all).filter(|(_, others)| *others == 0).map(|(told, _)| (left, told))))
+    }
+
+    /// What is said of mistakes that make the same picture, the likely ones first: what is known, or the lines.
+    fn told(&self, mistakes: &[usize]) -> Made {
+        let told = &self.mistaken.get()?.as_ref()?.mistaken.told;
+        let mut mistakes = mistakes.to_vec();
+        mistakes.sort_unstable();
+        let mut lines: Vec<(usize, &str)> = Vec::new();
+        for (told, line) in mistakes.iter().filter_map(|&at| told.get(at)) {
+            match line {
+                None => return Some((told.clone(), 0)),
+                Some(line) if lines.iter().any(|(other, _)| other == line) => {}
+                Some(line) => lines.push((*line, told)),
+            }
+        }
+        let others = lines.len().saturating_sub(MANY);
+        let all: Vec<&str> = lines.into_iter().take(MANY).map(|(_, told)| told).collect();
+        let more = if others > 0 {
+            format!("; {others} other lines with a mistake make the same picture")
+        } else {
+            String::new()
+        };
+        (!all.is_empty()).then(|| (format!("as if {}{more}.", all.join("; or as if ")), others))
     }
 
     /// The same, of all that leave as few.
@@ -212,7 +327,7 @@ impl Expected {
     }
 
     /// The right picture as bright as the reader's, where neither is white.
-    fn brighter(&self, readers: &Pixels) -> Mistaken {
+    fn brighter(&self, readers: &Pixels) -> LooksLike {
         let pairs = || readers.iter().flatten().zip(self.right.iter().flatten());
         let (own, right) = pairs()
             .filter(|(own, right)| **own < 1.0 && **right < 1.0)
@@ -225,7 +340,7 @@ impl Expected {
     }
 
     /// The picture written in other ways than it should be, and those of other scenes.
-    fn rewritten_or_changed(&self) -> Result<&[Mistaken], Error> {
+    fn rewritten_or_changed(&self) -> Result<&[LooksLike], Error> {
         if let Some(all) = self.rewritten_or_changed.get() {
             return Ok(all);
         }
@@ -242,20 +357,6 @@ impl Expected {
         let all = rewritten.chain(changed).collect::<Result<_, Error>>()?;
         Ok(self.rewritten_or_changed.get_or_init(|| all))
     }
-
-    /// The pictures of the program with each known mistake.
-    fn known(&self) -> &[(String, Picture)] {
-        self.known.get_or_init(|| of_size(known_mistakes(self.chapter)))
-    }
-
-    /// Those of the program with each small mistake in the lines of the last step.
-    fn altered(&self) -> &[(String, Picture)] {
-        self.altered.get_or_init(|| of_size(altered_pictures(self.chapter)))
-    }
-}
-
-fn of_size(all: Vec<(String, Picture)>) -> Vec<(String, Picture)> {
-    all.into_iter().filter(|(_, (size, _))| *size == SIZE).collect()
 }
 
 /// The light of a picture of bytes.

@@ -30,7 +30,7 @@ pub const MISTAKES: [Edit; 27] = [
     (17, "1.0 / SAMPLES as f64", "1.0 / 100.0"),
     (19, "weight.by(V(0.5, 0.7, 1.0))", "V(0.5, 0.7, 1.0)"),
     (19, "direction = mirrored;", "direction = normal;"),
-    (20, "direction.times(eta).add(down)", "direction.add(down)"),
+    (20, "direction.times(1.0 / eta).add(down)", "direction.add(down)"),
     (20, "squared <= 0.0 || random.next() < reflected", "squared <= 0.0"),
     (20, "(1.0 - cosine * cosine)", "(cosine * cosine)"),
     (21, "hidden || cosine <= 0.0", "cosine <= 0.0"),
