@@ -1,6 +1,6 @@
 //! Whether a picture of bytes shows what another one of light shows, block by block.
 
-use super::known::{Mistaken, Picture};
+use super::known::{Mistaken, Picture, few};
 use super::scene::{SIZE, film_after, picture_of, sample_at_most, scene_after, variants};
 use pinhole::Error;
 use pinhole::extract::linear_from_srgb;
@@ -27,6 +27,8 @@ const SPECKLED: f64 = 0.5;
 const MANY: usize = 3;
 /// The part of the pixels that differ that a mistake must make as they are.
 const SAME: f64 = 0.97;
+/// How much less that may be where two mistakes are taken to make the same picture.
+const ALIKE: f64 = 2e-3;
 /// Of how many mistakes that come nearest the whole picture is made.
 const NEAR: usize = 12;
 /// How long one may take.
@@ -139,7 +141,7 @@ impl Tried {
         let mistaken = Mistaken::after(chapter)?;
         // One pixel of so many in both directions; its random numbers are its own, so that it is as in the whole picture.
         let every = match chapter {
-            ..17 | 33.. => 1,
+            ..17 | 33.. => 4,
             28..30 => 24,
             30.. => 12,
             _ => 8,
@@ -154,17 +156,17 @@ impl Tried {
     }
 }
 
-/// Of the pixels in which one of two pictures is not as the right one, the part in which they are the same; and how many
-/// those are.
-fn agreement(one: &Picture, other: &Picture, right: &Picture, every: usize) -> (f64, usize) {
+/// Of the pixels in which one of two pictures is not as the right one, the part in which they are the same.
+fn agreement((_, one): &Picture, (_, other): &Picture, (_, right): &Picture) -> f64 {
     let is_apart = |one: [u8; 3], other: [u8; 3]| (0..3).any(|part| one[part].abs_diff(other[part]) > 1);
-    let places = (every / 2..SIZE[1]).step_by(every);
-    let places = places.flat_map(|y| (every / 2..SIZE[0]).step_by(every).map(move |x| y * SIZE[0] + x));
-    let [one, other, right] = [one, other, right].map(|picture| &picture.1);
-    let spoken: Vec<usize> =
-        places.filter(|&at| is_apart(one[at], right[at]) || is_apart(other[at], right[at])).collect();
-    let same = spoken.iter().filter(|&&at| !is_apart(one[at], other[at])).count();
-    (same as f64 / spoken.len().max(1) as f64, spoken.len())
+    let (mut spoken, mut same) = (0, 0);
+    for ((one, other), right) in one.iter().zip(other).zip(right) {
+        if one != right && is_apart(*one, *right) || other != right && is_apart(*other, *right) {
+            spoken += 1;
+            same += u32::from(one == other || !is_apart(*one, *other));
+        }
+    }
+    f64::from(same) / f64::from(spoken.max(1))
 }
 
 impl Expected {
@@ -237,40 +239,40 @@ impl Expected {
     fn mistaken(&self, picture: &Picture, readers: &Pixels, apart: usize) -> Option<(Made, Option<(usize, String)>)> {
         let Tried { mistaken, every, right, pictures } =
             self.mistaken.get_or_init(|| Tried::after(self.chapter)).as_ref()?;
-        let agreeing = |pictures: &[(usize, Picture)], right: &Picture, every: usize, least: f64, near: f64| {
-            let of = |(mistake, wrong): &(usize, Picture)| (agreement(picture, wrong, right, every).0, *mistake);
-            let mut all: Vec<(f64, usize)> = pictures.iter().filter(|(_, own)| own.0 == SIZE).map(of).collect();
+        let agreeing = |pictures: &[(usize, Picture)], every: usize, right: &Picture, least: f64| {
+            let readers = few(picture, every);
+            let those = pictures.iter().filter(|(_, own)| own.0 == right.0);
+            let mut all: Vec<(f64, usize)> =
+                those.map(|(mistake, wrong)| (agreement(&readers, wrong, right), *mistake)).collect();
             all.sort_by(|one, other| other.0.total_cmp(&one.0));
             let best = all.first().map_or(1.0, |best| best.0);
-            all.retain(|(part, _)| *part >= least && *part >= best - near);
+            all.retain(|(part, _)| *part >= least && *part >= best - ALIKE);
             all.into_iter().map(|(_, mistake)| mistake).collect::<Vec<_>>()
         };
         // A program with these random numbers makes the very pixels.
-        let mut same = agreeing(pictures, right, *every, if *every > 1 { 0.9 } else { SAME }, 2e-3);
-        if *every > 1 && !same.is_empty() {
-            let few = (*every / 4).max(1).min(if *every > 12 { 6 } else { 1 });
-            same.truncate(12);
-            let again = mistaken.pictures(&same, few, LATE);
-            same = agreeing(&again, &mistaken.right(few)?, few, SAME, 2e-3);
+        let mut same = agreeing(pictures, *every, right, 0.9 * SAME);
+        if !same.is_empty() {
+            same.truncate(NEAR);
+            let more = (*every / 4).max(2);
+            same = agreeing(&mistaken.pictures(&same, more, LATE), more, &mistaken.right(more)?, SAME);
         }
         if !same.is_empty() {
             return Some((self.told(&same), None));
         }
         // One with others has about the same light everywhere.
-        let distance = |(_, wrong): &&(usize, Picture)| -> u64 {
-            let places = (every / 2..SIZE[1]).step_by(*every);
-            let places = places.flat_map(|y| (every / 2..SIZE[0]).step_by(*every).map(move |x| y * SIZE[0] + x));
-            let of =
-                |at: usize| (0..3).map(move |part| u64::from(picture.1[at][part].abs_diff(wrong.1[at][part])).pow(2));
-            places.flat_map(of).sum()
+        let readers_few = few(picture, *every);
+        let distance = |(_, (_, wrong)): &&(usize, Picture)| -> u64 {
+            let parts = readers_few.1.as_flattened().iter().zip(wrong.as_flattened());
+            parts.map(|(one, other)| u64::from(one.abs_diff(*other)).pow(2)).sum()
         };
-        let mut near: Vec<&(usize, Picture)> = pictures.iter().filter(|(_, own)| own.0 == SIZE).collect();
+        let mut near: Vec<&(usize, Picture)> = pictures.iter().filter(|(_, own)| own.0 == right.0).collect();
         near.sort_by_cached_key(distance);
         near.truncate(if *every > 12 { 0 } else { NEAR });
         let near: Vec<usize> = near.into_iter().map(|(mistake, _)| *mistake).collect();
         let pictures: Vec<(String, Pixels)> = mistaken
             .pictures(&near, 1, LATE)
             .into_iter()
+            .filter(|(_, (size, _))| *size == SIZE)
             .map(|(mistake, (_, bytes))| (mistake.to_string(), pixels_of(&bytes, &self.curve)))
             .collect();
         let (left, all) = self.all_closest(readers, apart, &pictures, Clone::clone)?;

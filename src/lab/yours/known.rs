@@ -73,7 +73,7 @@ impl Mistaken {
         Some(Self { joined: joined_program, apart, told })
     }
 
-    /// The right program's picture with one pixel of so many in each direction, the others black.
+    /// The right program's picture with one pixel of so many in each direction, as [`few`] has it.
     pub fn right(&self, every: usize) -> Option<Picture> {
         self.joined.picture_with([0, every], PATIENCE).ok()
     }
@@ -93,6 +93,13 @@ impl Mistaken {
             Some((mistake, program.picture_with([number, every], patience).ok()?))
         })
     }
+}
+
+/// A picture with one pixel of so many in each direction, from the middle of the first so many on.
+pub fn few(([width, height], pixels): &Picture, every: usize) -> Picture {
+    let places = |size: usize| (every / 2..size).step_by(every);
+    let own = places(*height).flat_map(|y| places(*width).map(move |x| pixels[y * width + x])).collect();
+    ([places(*width).count(), places(*height).count()], own)
 }
 
 /// What work makes of each, in their order.
