@@ -124,8 +124,8 @@ pub struct Expected {
 /// What is said of mistakes that make a picture, and in how many other lines there are such.
 type Made = Option<(String, usize)>;
 
-/// What a picture looks like, and the picture.
-type LooksLike = (String, Pixels);
+/// What a picture looks like, the picture, and in how many blocks it is not as the right one.
+type LooksLike = (String, Pixels, usize);
 
 /// The mistakes that were put into the program: they, how few of the pixels were rendered, the right program's picture of
 /// those, and that of each mistake.
@@ -199,46 +199,41 @@ impl Expected {
             let same = Comparison::Same { resolved: resolved[resolved.len() / 2] };
             return Ok(shift(&readers, right, 0.0).map_or(same, |by| Comparison::Shifted { by }));
         };
-        let mut looks_like = self.closest(&readers, apart.len(), self.rewritten_or_changed()?, Clone::clone);
-        let brighter = [self.brighter(&readers)];
-        let brighter = self.closest(&readers, apart.len(), &brighter, Clone::clone);
-        looks_like = [looks_like, brighter].into_iter().flatten().min_by_key(|found| found.0);
         waits();
-        let (made, near) = self.mistaken(picture, &readers, apart.len()).unwrap_or_default();
-        looks_like = match made {
+        let looks_like = match self.made(picture) {
+            Some((told, 0)) => Some(told),
             // What everything looks like says more than one of many lines.
-            Some((told, others)) if others == 0 || looks_like.is_none() => Some((0, told)),
-            _ => [looks_like, near].into_iter().flatten().min_by_key(|found| found.0),
+            made => {
+                let of_all = self.closest(&readers, apart.len(), self.rewritten_or_changed()?);
+                let brighter = [self.brighter(&readers)];
+                let brighter = self.closest(&readers, apart.len(), &brighter);
+                let likest = [of_all, brighter].into_iter().flatten().min_by_key(|found| found.0);
+                let likest = likest.and_then(|(left, all)| Some((left, (*all.first()?).to_owned())));
+                let is_exact = |likest: &Option<(usize, String)>| likest.as_ref().is_some_and(|(left, _)| *left == 0);
+                let near =
+                    if made.is_some() || is_exact(&likest) { None } else { self.near(picture, &readers, apart.len()) };
+                let likest = [likest, near].into_iter().flatten().min_by_key(|found| found.0);
+                likest.map(|found| found.1).or(made.map(|(told, _)| told))
+            }
         };
         if looks_like.is_none()
             && let Some(by) = shift(&readers, right, EXPLAINED)
         {
             return Ok(Comparison::Shifted { by });
         }
-        let looks_like = looks_like.map(|found| found.1);
         let light = |pixels: &Pixels| pixels.iter().flatten().sum::<f64>();
         let brightness = light(&readers) / light(right) - 1.0;
         Ok(Comparison::Differs { blocks: apart.len(), of: found.len(), brightness, most: most.middle, looks_like })
     }
 
-    /// What the picture looks like that leaves the fewest blocks apart, if those are few; it must itself be apart from the
-    /// right one about as far as the reader's is. With it, in how many blocks they still differ.
-    fn closest<P>(
-        &self,
-        readers: &Pixels,
-        apart: usize,
-        mistakes: &[(String, P)],
-        pixels: impl Fn(&P) -> Pixels,
-    ) -> Option<(usize, String)> {
-        let (left, all) = self.all_closest(readers, apart, mistakes, pixels)?;
-        Some((left, (*all.first()?).to_owned()))
+    /// The mistakes that were put into the program, once.
+    fn tried(&self) -> Option<&Tried> {
+        self.mistaken.get_or_init(|| Tried::after(self.chapter)).as_ref()
     }
 
-    /// What is said of the mistakes in the program that make this very picture, and in how many lines more there are such;
-    /// or of one that comes near it, and in how many blocks that differs.
-    fn mistaken(&self, picture: &Picture, readers: &Pixels, apart: usize) -> Option<(Made, Option<(usize, String)>)> {
-        let Tried { mistaken, every, right, pictures } =
-            self.mistaken.get_or_init(|| Tried::after(self.chapter)).as_ref()?;
+    /// What is said of the mistakes in the program that make this very picture, as those with the same random numbers do.
+    fn made(&self, picture: &Picture) -> Made {
+        let Tried { mistaken, every, right, pictures } = self.tried()?;
         let agreeing = |pictures: &[(usize, Picture)], every: usize, right: &Picture, least: f64| {
             let readers = few(picture, every);
             let those = pictures.iter().filter(|(_, own)| own.0 == right.0);
@@ -249,17 +244,19 @@ impl Expected {
             all.retain(|(part, _)| *part >= least && *part >= best - ALIKE);
             all.into_iter().map(|(_, mistake)| mistake).collect::<Vec<_>>()
         };
-        // A program with these random numbers makes the very pixels.
         let mut same = agreeing(pictures, *every, right, 0.9 * SAME);
         if !same.is_empty() {
             same.truncate(NEAR);
             let more = (*every / 4).max(2);
             same = agreeing(&mistaken.pictures(&same, more, LATE), more, &mistaken.right(more)?, SAME);
         }
-        if !same.is_empty() {
-            return Some((self.told(&same), None));
-        }
-        // One with others has about the same light everywhere.
+        self.told(&same)
+    }
+
+    /// What is said of the mistakes that come near the picture, as those with other random numbers do, and in how many blocks
+    /// that differs.
+    fn near(&self, picture: &Picture, readers: &Pixels, apart: usize) -> Option<(usize, String)> {
+        let Tried { mistaken, every, right, pictures } = self.tried()?;
         let readers_few = few(picture, *every);
         let distance = |(_, (_, wrong)): &&(usize, Picture)| -> u64 {
             let parts = readers_few.1.as_flattened().iter().zip(wrong.as_flattened());
@@ -269,20 +266,20 @@ impl Expected {
         near.sort_by_cached_key(distance);
         near.truncate(if *every > 12 { 0 } else { NEAR });
         let near: Vec<usize> = near.into_iter().map(|(mistake, _)| *mistake).collect();
-        let pictures: Vec<(String, Pixels)> = mistaken
+        let pictures: Vec<LooksLike> = mistaken
             .pictures(&near, 1, LATE)
             .into_iter()
             .filter(|(_, (size, _))| *size == SIZE)
-            .map(|(mistake, (_, bytes))| (mistake.to_string(), pixels_of(&bytes, &self.curve)))
+            .map(|(mistake, (_, bytes))| self.looks_like(mistake.to_string(), pixels_of(&bytes, &self.curve)))
             .collect();
-        let (left, all) = self.all_closest(readers, apart, &pictures, Clone::clone)?;
+        let (left, all) = self.closest(readers, apart, &pictures)?;
         let all: Vec<usize> = all.into_iter().filter_map(|mistake| mistake.parse().ok()).collect();
-        Some((None, self.told(&all).filter(|(_, others)| *others == 0).map(|(told, _)| (left, told))))
+        self.told(&all).filter(|(_, others)| *others == 0).map(|(told, _)| (left, told))
     }
 
     /// What is said of mistakes that make the same picture, the likely ones first: what is known, or the lines.
     fn told(&self, mistakes: &[usize]) -> Made {
-        let told = &self.mistaken.get()?.as_ref()?.mistaken.told;
+        let told = &self.tried()?.mistaken.told;
         let mut mistakes = mistakes.to_vec();
         mistakes.sort_unstable();
         let mut lines: Vec<(usize, &str)> = Vec::new();
@@ -303,29 +300,25 @@ impl Expected {
         (!all.is_empty()).then(|| (format!("as if {}{more}.", all.join("; or as if ")), others))
     }
 
-    /// The same, of all that leave as few.
-    fn all_closest<'a, P>(
-        &self,
-        readers: &Pixels,
-        apart: usize,
-        mistakes: &'a [(String, P)],
-        pixels: impl Fn(&P) -> Pixels,
-    ) -> Option<(usize, Vec<&'a str>)> {
-        let differing = |one: &Pixels, other: &Pixels| {
-            blocks(one, other, &self.curve).iter().filter(|block| block.differs()).count()
-        };
-        let mut all: Vec<(usize, &str)> = Vec::new();
-        for (what, wrong) in mistakes {
-            let wrong = pixels(wrong);
-            let alone = differing(&wrong, &self.right);
-            if 2 * alone >= apart && alone <= 3 * apart {
-                all.push((differing(readers, &wrong), what));
-            }
-        }
+    /// What the picture looks like that leaves the fewest blocks apart, if those are few; it must itself be apart from the
+    /// right one about as far as the reader's is. With it, in how many blocks they still differ.
+    fn closest<'a>(&self, readers: &Pixels, apart: usize, mistakes: &'a [LooksLike]) -> Option<(usize, Vec<&'a str>)> {
+        let alike = mistakes.iter().filter(|(_, _, alone)| 2 * alone >= apart && *alone <= 3 * apart);
+        let all: Vec<(usize, &str)> =
+            alike.map(|(what, wrong, _)| (self.differing(readers, wrong), what.as_str())).collect();
         let least = all.iter().map(|found| found.0).min()?;
         // Noise alone may set one block apart.
         let is_few = least <= (apart / 10).max(usize::from(apart > 4));
         is_few.then(|| (least, all.into_iter().filter(|found| found.0 == least).map(|found| found.1).collect()))
+    }
+
+    fn differing(&self, one: &Pixels, other: &Pixels) -> usize {
+        blocks(one, other, &self.curve).iter().filter(|block| block.differs()).count()
+    }
+
+    fn looks_like(&self, told: String, wrong: Pixels) -> LooksLike {
+        let alone = self.differing(&wrong, &self.right);
+        (told, wrong, alone)
     }
 
     /// The right picture as bright as the reader's, where neither is white.
@@ -338,7 +331,7 @@ impl Expected {
         let told = format!(
             "everything is {factor:.3} times as bright, the sky, too: what is the sum divided by, and of how many?"
         );
-        (told, self.right.iter().map(|pixel| pixel.map(|light| (factor * light).min(1.0))).collect())
+        self.looks_like(told, self.right.iter().map(|pixel| pixel.map(|light| (factor * light).min(1.0))).collect())
     }
 
     /// The picture written in other ways than it should be, and those of other scenes.
@@ -346,15 +339,16 @@ impl Expected {
         if let Some(all) = self.rewritten_or_changed.get() {
             return Ok(all);
         }
-        let rewritten =
-            REWRITTEN.iter().map(|(what, rewrite)| Ok(((*what).to_owned(), rewrite(&self.right, &self.curve))));
+        let rewritten = REWRITTEN
+            .iter()
+            .map(|(what, rewrite)| Ok(self.looks_like((*what).to_owned(), rewrite(&self.right, &self.curve))));
         let variants = variants().into_iter().filter(|variant| (variant.from..variant.until).contains(&self.chapter));
         let changed = variants.map(|variant| {
             let mut world = scene_after(self.chapter);
             (variant.change)(&mut world);
             // Enough to be told from the others.
             sample_at_most(&mut world, 32);
-            Ok((variant.looks_like.to_owned(), light_of(&picture_of(&world)?)))
+            Ok(self.looks_like(variant.looks_like.to_owned(), light_of(&picture_of(&world)?)))
         });
         let all = rewritten.chain(changed).collect::<Result<_, Error>>()?;
         Ok(self.rewritten_or_changed.get_or_init(|| all))

@@ -113,11 +113,11 @@ pub const RIGHT: [Edit; 23] = [
     (19, "direction.sub(normal.times(2.0 * normal.dot(direction)))", "direction.sub(normal.times(normal.dot(direction))).times(2.0).sub(direction)"),
     (
         20,
-        "let across = (eta * cosine - cosine_beyond) / (eta * cosine + cosine_beyond);
-    let along = (eta * cosine_beyond - cosine) / (eta * cosine_beyond + cosine);",
+        "let across = (cosine - eta * cosine_beyond) / (cosine + eta * cosine_beyond);
+    let along = (cosine_beyond - eta * cosine) / (cosine_beyond + eta * cosine);",
         "let n = 1.0 / eta;
-    let across = (cosine - n * cosine_beyond) / (cosine + n * cosine_beyond);
-    let along = (n * cosine - cosine_beyond) / (n * cosine + cosine_beyond);",
+    let across = (n * cosine - cosine_beyond) / (n * cosine + cosine_beyond);
+    let along = (n * cosine_beyond - cosine) / (n * cosine_beyond + cosine);",
     ),
     (
         21,
