@@ -80,7 +80,7 @@ fn mistakes() -> Mistakes<Input, [f64; 3]> {
         .when(|i| i.1 / i.3);
     let [lens_x, lens_y] = [Part::<Input, f64>::new(|i| i.2[0]), Part::new(|i| i.2[1])];
     let lens_x = lens_x
-        .say(LEFT_OUT)
+        .say("the x of the lens point is left out")
         .when(|_| 0.0)
         .say(ADDED)
         .when(|i| -i.2[0])
@@ -89,7 +89,7 @@ fn mistakes() -> Mistakes<Input, [f64; 3]> {
         .say(BY_FOCUS)
         .when(|i| i.2[0] / i.3);
     let lens_y = lens_y
-        .say(LEFT_OUT)
+        .say("the y of the lens point is left out")
         .when(|_| 0.0)
         .say(ADDED)
         .when(|i| -i.2[1])
@@ -117,6 +117,8 @@ fn mistakes() -> Mistakes<Input, [f64; 3]> {
     Mistakes::<Input, [f64; 3]>::new()
         .say("the focus is taken along the ray: what is sharp is a sphere about the eye, no plane")
         .when(|&(screen, tangent, lens, focus)| focus_along_the_ray(screen.into(), tangent, lens.into(), focus).into())
+        .say("the direction is the pinhole's: the lens point is left out")
+        .when(|&([x, y], tangent, _, focus)| to_focus(&[x, y, tangent, 0.0, 0.0, focus]).normalize().into())
         .say("the direction is not of length 1")
         .when(|&([x, y], tangent, lens, focus)| {
             let focus = focus / DVec3::new(x * tangent, y * tangent, 1.0).length();
@@ -142,8 +144,6 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("a lens wider than its focus is far", at(2304, 50.0, [0.5, 2.0])));
     asked
 }
-
-const LEFT_OUT: &str = "the direction is the pinhole's: the lens point is left out";
 
 const ADDED: &str = "the lens point is added; the direction from it to the point in focus is the difference";
 

@@ -2,7 +2,7 @@
 //! that look unlike the book's.
 //!
 //! `cargo bench --profile dev --bench wrong_answers`; half a minute. With a number, that chapter alone; with
-//! `-- --third`, those that were written last, before anybody looked at what was known by then.
+//! `-- --latest`, those that were written last, before anybody looked at what was known by then.
 #![allow(clippy::print_stdout, reason = "a bench prints what it found")]
 #![allow(clippy::disallowed_methods, reason = "readers write with the platform's functions")]
 
@@ -21,7 +21,7 @@ fn main() {
     let only = std::env::args().find_map(|word| word.parse::<usize>().ok());
     let asks = |word: &str| std::env::args().any(|own| own == word);
     let (answers, earlier) = match () {
-        () if asks("--third") => (wrong_answers::third(), wrong_answers::all()),
+        () if asks("--latest") => (wrong_answers::latest(), wrong_answers::all()),
         () => (wrong_answers::all(), Vec::new()),
     };
     // What was answered before: in the tests, and in the earlier set.

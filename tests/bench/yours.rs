@@ -48,7 +48,7 @@ fn main() {
     let chapters = numbers.first().copied().unwrap_or(0)..=numbers.get(1).copied().unwrap_or(99);
     let (mistakes, right) = match () {
         () if asks("--third") => (&third::MISTAKES[..], &third::RIGHT[..]),
-        () if asks("--fourth") => (&fourth::MISTAKES[..], &[][..]),
+        () if asks("--fourth") => (&fourth::MISTAKES[..], &fourth::RIGHT[..]),
         () if asks("--blind") => (&BLIND[..], &[][..]),
         () => (&MISTAKES[..], &RIGHT[..]),
     };

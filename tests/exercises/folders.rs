@@ -16,7 +16,7 @@ const NAMED: [(&str, &str); 9] = [
     ("src/lab/review/mutation/table.rs", "a mutation is tried in whichever chapter runs the stage that it spoils"),
     ("tests/bench/wrong_answers/from_08.rs", "wrong answers, chapter by chapter"),
     ("tests/bench/wrong_answers/from_22.rs", "wrong answers, chapter by chapter"),
-    ("tests/bench/wrong_answers/third.rs", "wrong answers, chapter by chapter"),
+    ("tests/bench/wrong_answers/latest.rs", "wrong answers, chapter by chapter"),
     ("tests/book_numbers/spaces.rs", "the numbers that page 08 prints, computed from its scene"),
     ("tests/exercises/folders.rs", "this file"),
     ("tests/long_renders/parts.rs", "a scene of every integrator, to be rendered in parts"),

@@ -1,5 +1,7 @@
 //! How an argument is misread: by its sign, its size, its unit, the order of its parts.
 
+use std::f64::consts::PI;
+
 /// What a function is asked, as a whole or in part.
 pub trait Argument: Clone {
     /// Each way to misread it: which of its numbers, what is said of them, and what comes of it.
@@ -55,6 +57,14 @@ impl Argument for f64 {
             ("{} is turned into radians", x.to_radians()),
             ("{} is turned into degrees", x.to_degrees()),
             ("the tangent of {} is taken", libm::tan(x)),
+            ("the sine of {} is taken", libm::sin(x)),
+            ("the cosine of {} is taken", libm::cos(x)),
+            ("{} is cubed", x * x * x),
+            ("{} is multiplied by π", PI * x),
+            ("{} is divided by π", x / PI),
+            ("1 is added to {}", x + 1.0),
+            ("1 is subtracted from {}", x - 1.0),
+            ("{} is kept between 0 and 1", x.clamp(0.0, 1.0)),
             ("{} is cut off at 1", x.min(1.0)),
             ("{} is never below 0", x.max(0.0)),
             ("{} is never below 1", x.max(1.0)),
@@ -169,6 +179,7 @@ impl<T: Argument, const N: usize> Argument for [T; N] {
 }
 
 const SWAPPED: &str = "{} and {} are swapped";
+const IN_PLACE: &str = "{} is taken in place of {}";
 
 fn count(of: &impl Argument) -> usize {
     let mut numbers = Vec::new();
@@ -210,8 +221,12 @@ macro_rules! several {
         $(
             if let Some((one, two)) = swapped(&$of.$at, &$of.$other) {
                 let mut made = $of.clone();
-                (made.$at, made.$other) = (one, two);
+                (made.$at, made.$other) = (one.clone(), two.clone());
                 $all.push(Misread { numbers: vec![$places[$at], $places[$other]], told: SWAPPED, made });
+                let [mut first, mut second] = [$of.clone(), $of.clone()];
+                (first.$at, second.$other) = (one, two);
+                $all.push(Misread { numbers: vec![$places[$other], $places[$at]], told: IN_PLACE, made: first });
+                $all.push(Misread { numbers: vec![$places[$at], $places[$other]], told: IN_PLACE, made: second });
             }
         )*
         several!(@swap $of $places $all; $($other),*);

@@ -114,7 +114,7 @@ where
         apart: apart(first),
         wrong: wrong.len(),
         always_the_same: always_the_same(&given) && !always_the_same(&right),
-        looks_like: looks_like(&question, &given, &right, first).or_else(|| unused(&question, &given, &ask)),
+        looks_like: looks_like(&question, &given, &right, first, || unused(&question, &given, &ask)),
     };
     let outcome = match (wrong.iter().find(|at| !is_extreme(at)), wrong.first(), ended) {
         (Some(&first), _, _) => Outcome::Wrong(mismatch(first)),

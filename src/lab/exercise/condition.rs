@@ -3,11 +3,24 @@
 use super::relation::{Known, NamedNumbers, part_of};
 
 /// Whether something is so of an input.
-type Holds = Box<dyn Fn(&Known) -> bool>;
+pub type Holds = Box<dyn Fn(&Known) -> bool>;
 
 /// How one number may stand to another.
-const ORDERS: [(&str, fn(f64, f64) -> bool); 3] =
-    [("is below", |a, b| a < b), ("is above", |a, b| a > b), ("is", |a, b| a == b)];
+const ORDERS: [(&str, fn(f64, f64) -> bool); 5] = [
+    ("is below", |a, b| a < b),
+    ("is above", |a, b| a > b),
+    ("is", |a, b| a == b),
+    ("is at most", |a, b| a <= b),
+    ("is at least", |a, b| a >= b),
+];
+
+/// How one vector may stand to another, by their dot product.
+const SIDES: [(&str, fn(f64) -> bool); 4] = [
+    ("point to the same side", |dot| dot > 0.0),
+    ("point to opposite sides", |dot| dot < 0.0),
+    ("do not point to opposite sides", |dot| dot >= 0.0),
+    ("do not point to the same side", |dot| dot <= 0.0),
+];
 
 /// Of inputs without an answer.
 pub const NO_ANSWER: &str = "None is right";
@@ -26,7 +39,7 @@ pub fn conditions(known: &[Known], named: &NamedNumbers, count: usize) -> Vec<(S
             continue;
         }
         for (told, order) in ORDERS {
-            for limit in [0.0, 1.0] {
+            for limit in [0.0, 0.5, 1.0] {
                 say(format!("{name} {told} {limit}"), Box::new(move |known| order(known.asked[at], limit)));
             }
         }
@@ -53,13 +66,26 @@ pub fn conditions(known: &[Known], named: &NamedNumbers, count: usize) -> Vec<(S
             }
             if size == 3 {
                 let names = [[from, 3], [to, 3]].map(|place| named.of(place));
-                for (told, side) in [("the same side", 1.0), ("opposite sides", -1.0)] {
+                for (told, is_so) in SIDES {
                     let holds = move |known: &Known| {
                         let [one, two] = [&known.asked[from..from + 3], &known.asked[to..to + 3]];
-                        one.iter().zip(two).map(|(a, b)| a * b).sum::<f64>() * side > 0.0
+                        is_so(one.iter().zip(two).map(|(a, b)| a * b).sum::<f64>())
                     };
-                    say(format!("{} and {} point to {told}", names[0], names[1]), Box::new(holds));
+                    say(format!("{} and {} {told}", names[0], names[1]), Box::new(holds));
                 }
+            }
+        }
+    }
+    let vectors = || named.places().into_iter().filter(|[_, size]| *size == 3).map(|[from, _]| from);
+    for from in vectors() {
+        for other in vectors().take_while(|other| *other < from) {
+            let names = format!("{} and {} are", named.of([other, 3]), named.of([from, 3]));
+            for (told, order) in [ORDERS[0], ORDERS[1]] {
+                let told = if told == "is below" { "less" } else { "more" };
+                let holds = move |known: &Known| {
+                    order(length_of(&known.asked[from..from + 3], &known.asked[other..other + 3]), 1.0)
+                };
+                say(format!("{names} {told} than 1 apart"), Box::new(holds));
             }
         }
     }
@@ -85,4 +111,54 @@ pub fn conditions(known: &[Known], named: &NamedNumbers, count: usize) -> Vec<(S
         say("all parts of the right answer are the same".into(), Box::new(holds));
     }
     all
+}
+
+/// Beyond which number, or how far apart, all wrong answers lie.
+pub fn beyond(known: &[Known], named: &NamedNumbers, is_wrong: &[bool]) -> Vec<(String, Holds)> {
+    type Measure = Box<dyn Fn(&Known) -> f64>;
+    let mut measures: Vec<(String, Measure)> = Vec::new();
+    let places = || named.places().into_iter().filter(|[_, size]| *size <= 3);
+    for at in places().flat_map(|[from, size]| from..from + size) {
+        measures.push((format!("{} is {{}}", named.of([at, 1])), Box::new(move |known| known.asked[at])));
+    }
+    let vectors = || places().filter(|[_, size]| *size == 3).map(|[from, _]| from);
+    for (to, from) in vectors().flat_map(|to| vectors().take_while(move |from| *from < to).map(move |from| (to, from)))
+    {
+        let names = [from, to].map(|at| named.of([at, 3]));
+        let apart = move |known: &Known| length_of(&known.asked[from..from + 3], &known.asked[to..to + 3]);
+        measures.push((format!("{} and {} are {{}} apart", names[0], names[1]), Box::new(apart)));
+    }
+    let mut all: Vec<(String, Holds)> = Vec::new();
+    for (told, measure) in measures {
+        let measured: Vec<f64> = known.iter().map(&measure).collect();
+        let of = |is: bool| measured.iter().zip(is_wrong).filter(move |(_, wrong)| **wrong == is).map(|(own, _)| *own);
+        let [low, high] = [of(true).fold(f64::INFINITY, f64::min), of(true).fold(f64::NEG_INFINITY, f64::max)];
+        let (below, above) = (
+            of(false).filter(|own| *own < low).fold(f64::NEG_INFINITY, f64::max),
+            of(false).filter(|own| *own > high).fold(f64::INFINITY, f64::min),
+        );
+        let measure = std::rc::Rc::new(measure);
+        let (more, less) = (std::rc::Rc::clone(&measure), measure);
+        if below.is_finite() {
+            let limit = round_between(below, low);
+            all.push((told.replace("{}", &format!("more than {limit}")), Box::new(move |known| more(known) >= low)));
+        }
+        if above.is_finite() {
+            let limit = round_between(high, above);
+            all.push((told.replace("{}", &format!("less than {limit}")), Box::new(move |known| less(known) <= high)));
+        }
+    }
+    all
+}
+
+/// The number with the fewest digits between two.
+fn round_between(low: f64, high: f64) -> f64 {
+    let digits = (-3..12).map(|digits| libm::pow(10.0, f64::from(digits)));
+    let rounded = digits.map(|scale| (0.5 * (low + high) * scale).round() / scale);
+    { rounded }.find(|number| (low..=high).contains(number)).unwrap_or(low)
+}
+
+/// How far apart two points are.
+fn length_of(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }

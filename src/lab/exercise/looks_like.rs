@@ -1,5 +1,5 @@
 use super::argument::Misread;
-use super::condition::{NO_ANSWER, conditions};
+use super::condition::{Holds, NO_ANSWER, beyond, conditions};
 use super::question::Question;
 use super::relation::{Known, NamedNumbers, relations};
 use super::shown::Shown;
@@ -13,6 +13,9 @@ const KEPT: f64 = 0.6;
 /// How many of those one of the chapter's own must explain; one that explains fewer agrees here and there with anything.
 const MIN_EXPLAINED: f64 = 0.08;
 
+/// How many it must explain to be said before what is known of the arguments that make no difference.
+const WEAK: f64 = 0.15;
+
 /// What is said of the mistakes that explain the first wrong answer and those about it best; of those that explain it
 /// alike, the fewest, and the chapter's own before the general ones.
 pub fn looks_like<I: 'static, A: Shown + 'static>(
@@ -20,6 +23,7 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
     given: &[A],
     right: &[A],
     first: usize,
+    unused: impl FnOnce() -> Option<String>,
 ) -> Option<String> {
     let inputs = &question.probes[..given.len()];
     let near = first + inputs[first..].iter().take_while(|probe| probe.about == inputs[first].about).count();
@@ -35,6 +39,8 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
     };
     let mut best: Option<(f64, String)> = None;
     let mut of_end = 0.0;
+    // What explains the first wrong answer may explain all where something is so.
+    let mut here: Vec<(String, Vec<bool>)> = Vec::new();
     // What comes out as no number, the reader may have given up.
     for gives_up in [false, true] {
         if best.is_some() {
@@ -52,6 +58,9 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
             let changes = |at: usize| !question.same(&made[at], &right[at]);
             let agrees = |at: usize| agrees(at, &made[at]);
             let of_all = fraction(given.len(), &changes, &agrees);
+            if !gives_up {
+                here.push((told.to_owned(), (0..end).map(agrees).collect()));
+            }
             if of_all >= MIN_EXPLAINED
                 && fraction(near, &changes, &agrees) >= 0.9
                 && best.as_ref().is_none_or(|(max, _)| of_all > *max)
@@ -64,7 +73,9 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
     let is_kept = of_end >= KEPT;
     // What explains the ordinary inputs, where nothing explains them all.
     let mut ordinary_best: Option<(f64, String)> = None;
-    let Some((misread, numbers)) = question.mistakes.argument else { return best.map(|(_, told)| told) };
+    let Some((misread, numbers)) = question.mistakes.argument else {
+        return best.map(|(_, told)| told).or_else(unused);
+    };
     if best.as_ref().is_some_and(|(score, _)| *score >= GENERAL) {
         return best.map(|(_, told)| told);
     }
@@ -77,17 +88,16 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
     let asked: Vec<Vec<f64>> = inputs.iter().map(|probe| numbers_of(&probe.input)).collect();
     let named = NamedNumbers::new(&words, asked[first].len());
     let is_asked = |made: &I| named.is_like(&numbers_of(made), &asked);
-    // What explains the first wrong answer may explain all where something is so.
-    let mut here: Vec<(String, Vec<bool>)> = Vec::new();
-    for (kind, Misread { numbers, told, made }) in misread(&inputs[first].input).into_iter().enumerate() {
-        if !is_asked(&made) || !agrees(question, &given[first], &(question.right)(&made), &right[first]) {
+    let misread_all: Vec<Vec<Misread<I>>> = inputs.iter().map(|probe| misread(&probe.input)).collect();
+    for (kind, Misread { numbers, told, .. }) in misread_all[first].iter().enumerate() {
+        // Of the first wrong answer that it may explain: one input rules out most of them.
+        let of = |at: usize| Some(&misread_all[at][kind].made).filter(|made| is_asked(made));
+        let tried = (first..end).filter(|&at| is_wrong[at]).find_map(|at| Some((at, of(at)?)));
+        if !tried.is_some_and(|(at, made)| agrees(question, &given[at], &(question.right)(made), &right[at])) {
             continue;
         }
-        let made: Vec<Option<A>> = inputs
-            .iter()
-            .map(|probe| misread(&probe.input).swap_remove(kind).made)
-            .map(|made| is_asked(&made).then(|| (question.right)(&made)))
-            .collect();
+        let made = misread_all.iter().map(|of| Some(&of[kind].made).filter(|made| is_asked(made)).map(question.right));
+        let made: Vec<Option<A>> = made.collect();
         let spoken = (0..given.len()).filter(|&at| is_wrong[at] && made[at].is_some()).count();
         let explains = |end: usize| {
             fraction(
@@ -100,7 +110,7 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
         if 2 * spoken < is_wrong.iter().filter(|is_wrong| **is_wrong).count() {
             continue;
         }
-        let told = numbers.iter().fold(told.to_owned(), |told, at| told.replacen("{}", &named.of(*at), 1));
+        let told = numbers.iter().fold((*told).to_owned(), |told, at| told.replacen("{}", &named.of(*at), 1));
         if explains(given.len()) >= GENERAL {
             better(&mut best, explains(given.len()), told);
         } else if explains(end) >= GENERAL {
@@ -145,8 +155,13 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
         if let Some(told) = ordinary.or_else(somewhere) {
             return Some(told);
         }
+        if best.as_ref().is_none_or(|(score, _)| *score < WEAK) {
+            let abouts: Vec<&str> = inputs.iter().map(|probe| probe.about).collect();
+            let only_where = only_where(&known[..end], &is_wrong[..end], &named, &abouts[..end]);
+            return only_where.or_else(unused).or(best.map(|(_, told)| told));
+        }
     }
-    best.map(|(_, told)| told)
+    best.map(|(_, told)| told).or_else(unused)
 }
 
 /// Takes what explains more.
@@ -172,17 +187,21 @@ fn somewhere<A: Shown>(
         return None;
     }
     let count = known.iter().map(|known| known.right.len()).max().unwrap_or(0);
-    let mut places: Vec<(String, Vec<usize>)> = conditions(known, named, count)
-        .into_iter()
-        .filter(|(_, holds)| all(true).all(|at| holds(&known[at])))
-        .map(|(told, holds)| (told, (0..known.len()).filter(|&at| holds(&known[at])).collect::<Vec<_>>()))
-        .filter(|(_, place)| place.len() + ENOUGH <= known.len() && place.len() <= 4 * all(true).count())
-        .collect();
-    places.sort_by_key(|(_, place)| place.len());
+    let places = |conditions: Vec<(String, Holds)>| {
+        let mut places: Vec<(String, Vec<usize>)> = conditions
+            .into_iter()
+            .filter(|(_, holds)| all(true).all(|at| holds(&known[at])))
+            .map(|(told, holds)| (told, (0..known.len()).filter(|&at| holds(&known[at])).collect::<Vec<_>>()))
+            .filter(|(_, place)| place.len() + ENOUGH <= known.len() && place.len() <= 4 * all(true).count())
+            .collect();
+        places.sort_by_key(|(_, place)| place.len());
+        places
+    };
+    let places = places(conditions(known, named, count)).into_iter().chain(places(beyond(known, named, is_wrong)));
     let shown: Vec<String> = given.iter().map(Shown::shown).collect();
     let first = all(true).next()?;
     let related = if known[first].right.is_empty() { Vec::new() } else { relations(&known[first], named) };
-    places.into_iter().find_map(|(told, place)| {
+    { places }.find_map(|(told, place)| {
         let is_one = place.iter().all(|&at| shown[at] == shown[place[0]]);
         let alike = |made: Option<Vec<f64>>, at: usize| {
             made.is_some_and(|made| !made.is_empty() && is_near(&made, &known[at].given, 1e-9))
@@ -200,6 +219,25 @@ fn somewhere<A: Shown>(
         };
         Some(format!("{what} where {told}"))
     })
+}
+
+/// Where the wrong answers are, if they are all those of which something is so.
+fn only_where(known: &[Known], is_wrong: &[bool], named: &NamedNumbers, abouts: &[&str]) -> Option<String> {
+    let count = known.iter().map(|known| known.right.len()).max().unwrap_or(0);
+    let wrong = is_wrong.iter().filter(|is_wrong| **is_wrong).count();
+    if wrong < ENOUGH || wrong + ENOUGH > known.len() {
+        return None;
+    }
+    let is_it = |holds: &dyn Fn(usize) -> bool| (0..known.len()).all(|at| holds(at) == is_wrong[at]);
+    // Of what is asked: where the right answer is 0, a factor that is wrong changes nothing.
+    let found = conditions(known, named, count).into_iter().filter(|(told, _)| !told.contains("right answer"));
+    let found = found.chain(beyond(known, named, is_wrong));
+    let found = { found }.find(|(_, holds)| is_it(&|at| holds(&known[at])));
+    let told = found.map(|(told, _)| told).or_else(|| {
+        let first = is_wrong.iter().position(|is_wrong| *is_wrong)?;
+        is_it(&|at| abouts[at] == abouts[first]).then(|| format!("the input is \"{}\"", abouts[first]))
+    })?;
+    Some(format!("the answers are wrong where {told}, and right everywhere else"))
 }
 
 /// Whether a mistake makes an answer; of another rounding, where that is far nearer to it than the right one is.
@@ -246,7 +284,7 @@ mod tests {
         let answers = |function: fn(&Input) -> [f64; 2]| -> Vec<[f64; 2]> {
             question.probes.iter().map(|probe| function(&probe.input)).collect()
         };
-        looks_like(&question, &answers(yours), &answers(question.right), 0).unwrap_or_default()
+        looks_like(&question, &answers(yours), &answers(question.right), 0, || None).unwrap_or_default()
     }
 
     #[test]

@@ -16,7 +16,7 @@ type Makes = Box<dyn Fn(&Known) -> Option<Vec<f64>>>;
 pub fn relations(first: &Known, named: &NamedNumbers) -> Vec<(String, Makes)> {
     let mut all: Vec<(String, Makes)> = Vec::new();
     let mut say = |told: String, makes: Makes| all.push((told, makes));
-    let parts: [(&str, fn(f64) -> f64); 12] = [
+    let parts: [(&str, fn(f64) -> f64); 14] = [
         ("has the opposite sign", |right| -right),
         ("has lost its sign", f64::abs),
         ("is squared", |right| right * right),
@@ -25,6 +25,8 @@ pub fn relations(first: &Known, named: &NamedNumbers) -> Vec<(String, Makes)> {
         ("is what is left to 1", |right| 1.0 - right),
         ("is cut off at 0", |right| right.max(0.0)),
         ("is cut off at 1", |right| right.min(1.0)),
+        ("is kept between 0 and 1", |right| right.clamp(0.0, 1.0)),
+        ("is left at 1", |_| 1.0),
         ("is rounded to a whole number", f64::round),
         ("is cut to a whole number", f64::floor),
         ("is rounded up to a whole number", f64::ceil),
@@ -71,6 +73,30 @@ pub fn relations(first: &Known, named: &NamedNumbers) -> Vec<(String, Makes)> {
             format!("the answer is {} what it should be", times(factor)),
             Box::new(move |known| Some(known.right.iter().map(|part| factor * part).collect())),
         );
+        // One part by itself.
+        for at in (0..count).filter(|_| count > 1) {
+            let (part, factor) = (part_of(at, count), first.given[at] / first.right[at]);
+            let more = first.given[at] - first.right[at];
+            let makes: [(String, Makes); 2] = [
+                (
+                    format!("{part} of the answer is {} what it should be", times(factor)),
+                    guarded(count, move |known| {
+                        let mut made = known.right.clone();
+                        made[at] *= factor;
+                        Some(made)
+                    }),
+                ),
+                (
+                    format!("{more} is added to {part} of the answer"),
+                    guarded(count, move |known| {
+                        let mut made = known.right.clone();
+                        made[at] += more;
+                        Some(made)
+                    }),
+                ),
+            ];
+            makes.into_iter().for_each(|(told, makes)| say(told, makes));
+        }
         let more: Vec<f64> = first.given.iter().zip(&first.right).map(|(given, right)| given - right).collect();
         let told = more.iter().map(|more| format!("{more}")).collect::<Vec<_>>().join(", ");
         let told = if count > 1 { format!("({told})") } else { told };

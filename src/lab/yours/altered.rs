@@ -1,161 +1,86 @@
-//! Small mistakes that nobody wrote down: every line of a chapter's step with one word of it changed, all compiled into one
-//! program, which is told at its start which of them to make.
+//! Small mistakes that nobody wrote down: every line of a chapter's step with one thing in it changed.
 
-use super::known::Compiled;
-use super::program::{program_after, steps};
-use std::ops::Range;
+use super::joined::{Frame, Function, Mistake, code_of, functions, split};
 
-/// What tells the program which mistake to make.
-pub const WHICH: &str = "PINHOLE_ALTERED";
-
-/// How often what does not compile is left out.
-const ROUNDS: usize = 6;
-
-/// A line of a function, as the page has it and with a mistake.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Altered {
-    /// The line's number in the program, from 0.
-    at: usize,
-    right: String,
-    wrong: String,
-}
-
-/// A function of a program: its lines, its name, its parameters, and whether it is a method.
-struct Function {
-    lines: Range<usize>,
-    name: String,
-    /// From `(` to before `{`, with a space behind.
-    signature: String,
-}
-
-/// The program after a chapter with all small mistakes in the functions that its step changed, and what is said of each; the
-/// mistake of a number from 1 is made where [`WHICH`] has that number. None where there is no compiler.
-pub fn altered(chapter: u32, edit: impl Fn(String) -> String) -> Option<(Compiled, Vec<String>)> {
-    let program = edit(program_after(chapter).ok()?);
-    let before = steps().iter().map(|step| step.number).filter(|&number| number < chapter).max();
-    let before = before.and_then(|number| program_after(number).ok()).map(&edit).unwrap_or_default();
+/// All small mistakes in the functions of a program that are not in the one before, the likely ones first.
+pub fn small_mistakes(program: &str, before: &str) -> Vec<Mistake> {
     let lines: Vec<&str> = program.lines().collect();
+    let (mut likely, mut others) = (Vec::new(), Vec::new());
     let functions = functions(&lines);
-    let mut all: Vec<(usize, Altered)> = Vec::new();
-    for (which, function) in functions.iter().enumerate() {
-        // What was there before was compared before.
-        if before.contains(&lines[function.lines.clone()].join("\n")) {
-            continue;
-        }
+    // What was there before was compared before.
+    let is_new = |function: &&Function| !before.contains(&lines[function.lines.clone()].join("\n"));
+    for function in functions.iter().filter(is_new) {
+        let name = &function.name;
+        let mut bound = function.parameters();
         for at in function.lines.start + 1..function.lines.end - 1 {
-            let wrong = alterations(lines[at]).into_iter();
-            all.extend(wrong.map(|wrong| (which, Altered { at, right: lines[at].into(), wrong })));
-        }
-    }
-    for _ in 0..ROUNDS {
-        let (text, places) = joined(&lines, &functions, &all);
-        match Compiled::of(&text) {
-            Ok(compiled) => {
-                let told = |(which, altered): &(usize, Altered)| {
-                    let code = |line: &'_ str| line.split("//").next().unwrap_or_default().trim().to_owned();
-                    let [wrong, right] = [&altered.wrong, &altered.right].map(|line| code(line));
-                    let name = &functions[*which].name;
-                    match wrong.is_empty() {
-                        true => format!("in `{name}` the line `{right}` were missing"),
-                        false => format!("in `{name}` the line `{right}` were `{wrong}`"),
-                    }
+            let right = code_of(lines[at]);
+            let one = |wrong: String| {
+                let told = match wrong.trim() {
+                    "" => format!("in `{name}` the line `{}` were missing", right.trim()),
+                    wrong => format!("in `{name}` the line `{}` were `{wrong}`", right.trim()),
                 };
-                return Some((compiled, all.iter().map(told).collect()));
+                Mistake { told, changes: vec![(at..at + 1, vec![wrong])] }
+            };
+            let few = alterations(right);
+            let more = exchanged_for(right, &bound).into_iter().filter(|wrong| !few.contains(wrong));
+            // Not where each would take a copy of the function.
+            others.extend(more.filter(|_| Frame::of(&lines, at).is_some()).map(one));
+            likely.extend(few.into_iter().map(one));
+            if let Some(next) = lines.get(at + 1).map(|next| code_of(next))
+                && is_step(right)
+                && is_step(next)
+            {
+                let told = format!("in `{name}` the lines `{}` and `{}` were exchanged", right.trim(), next.trim());
+                likely.push(Mistake { told, changes: vec![(at..at + 2, vec![next.into(), right.into()])] });
             }
-            Err(told) => {
-                let wrong: Vec<usize> = error_lines(&told).collect();
-                let kept = all.len();
-                let mut place = places.iter();
-                all.retain(|_| place.next().is_some_and(|place| !wrong.iter().any(|line| place.contains(line))));
-                if all.len() == kept {
-                    return None;
-                }
-            }
+            bound.extend(bound_in(right).map(String::from));
         }
     }
-    None
+    likely.append(&mut others);
+    likely
 }
 
-/// The lines of the program that the compiler names in its errors, from 0.
-fn error_lines(told: &str) -> impl Iterator<Item = usize> {
-    let places = told.lines().filter_map(|line| line.trim().strip_prefix("--> main.rs:"));
-    places.filter_map(|place| place.split(':').next()?.parse::<usize>().ok()).map(|line| line.saturating_sub(1))
+/// Whether a line is a statement that changes something.
+fn is_step(code: &str) -> bool {
+    let code = code.trim_start();
+    code.ends_with(';') && code.contains(" = ") && !code.starts_with("let ") && !code.starts_with("return")
 }
 
-/// A program in which each function asks which mistake is to be made, and the lines of each mistake's copy of its function.
-fn joined(lines: &[&str], functions: &[Function], all: &[(usize, Altered)]) -> (String, Vec<Range<usize>>) {
-    let mut text: Vec<String> = Vec::new();
-    let mut places = vec![0..0; all.len()];
-    let mut at = 0;
-    for (which, function) in functions.iter().enumerate() {
-        text.extend(lines[at..function.lines.start].iter().map(|line| (*line).to_owned()));
-        at = function.lines.end;
-        let own = || all.iter().enumerate().filter(|(_, (of, _))| *of == which);
-        if own().next().is_none() {
-            text.extend(lines[function.lines.clone()].iter().map(|line| (*line).to_owned()));
-            continue;
-        }
-        let Function { name, signature, .. } = function;
-        let (is_method, arguments) = arguments(signature);
-        let call = |number: usize| {
-            let dot = if is_method { "self." } else { "" };
-            format!("{dot}{name}_{number}({})", arguments.join(", "))
-        };
-        let plain = signature.replace("(mut ", "(").replace(", mut ", ", ");
-        text.push(format!("fn {name}{plain} {{ match altered() {{"));
-        text.extend(own().map(|(number, _)| format!("{} => {},", number + 1, call(number + 1))));
-        text.push(format!("_ => {} }} }}", call(0)));
-        let copies = std::iter::once((0, None)).chain(own().map(|(number, (_, altered))| (number + 1, Some(altered))));
-        for (number, altered) in copies {
-            let first = text.len();
-            text.push(format!("fn {name}_{number}{signature} {{"));
-            for line in function.lines.start + 1..function.lines.end {
-                let wrong = altered.filter(|altered| altered.at == line);
-                text.push(wrong.map_or(lines[line], |altered| &altered.wrong).to_owned());
+/// The names that a line binds.
+fn bound_in(code: &str) -> impl Iterator<Item = &str> {
+    let pattern = code.trim_start().strip_prefix("let ").and_then(|rest| rest.split(" = ").next()).unwrap_or_default();
+    let words = pattern.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+    words.filter(|word| word.starts_with(|c: char| c.is_ascii_lowercase()) && *word != "mut")
+}
+
+/// A line with a name, or what a call is given, exchanged for another name that is bound there.
+fn exchanged_for(code: &str, bound: &[String]) -> Vec<String> {
+    let from = code.find(" = ").map_or(0, |at| at + 3);
+    let mut places: Vec<(usize, usize)> = Vec::new();
+    for name in bound {
+        let own = word_indices(code, name).into_iter().filter(|&at| at >= from && !code[..at].ends_with('.'));
+        places.extend(own.map(|at| (at, at + name.len())));
+    }
+    for (at, _) in code.match_indices('(') {
+        let Some(end) = close(code, at) else { continue };
+        let mut start = at + 1;
+        for part in split(&code[at + 1..end], ',') {
+            let own = part.trim();
+            let first = start + (part.len() - part.trim_start().len());
+            if own.contains(['.', '(']) && first >= from && !own.contains('|') {
+                places.push((first, first + own.len()));
             }
-            if number > 0 {
-                places[number - 1] = first..text.len();
-            }
+            start += part.len() + 1;
         }
     }
-    text.extend(lines[at..].iter().map(|line| (*line).to_owned()));
-    text.push(format!(
-        "static ALTERED: std::sync::LazyLock<u32> = std::sync::LazyLock::new(|| \
-         std::env::var(\"{WHICH}\").ok().and_then(|own| own.parse().ok()).unwrap_or(0));\n\
-         fn altered() -> u32 {{ *ALTERED }}"
-    ));
-    (text.join("\n") + "\n", places)
-}
-
-/// The functions of a program whose head is one line.
-fn functions(lines: &[&str]) -> Vec<Function> {
-    let mut all = Vec::new();
-    for (start, line) in lines.iter().enumerate() {
-        let indent = line.len() - line.trim_start().len();
-        let Some(rest) = line.trim_start().strip_prefix("fn ") else { continue };
-        let (Some(open), Some(head)) = (rest.find('('), rest.strip_suffix(" {")) else { continue };
-        let closes = |other: &&str| other.starts_with('}') || (other.trim() == "}" && other.len() == indent + 1);
-        let Some(length) = lines[start + 1..].iter().position(closes) else { continue };
-        if indent > 4 || all.last().is_some_and(|last: &Function| last.lines.contains(&start)) {
-            continue;
-        }
-        all.push(Function {
-            lines: start..start + length + 2,
-            name: rest[..open].to_owned(),
-            signature: head[open..].to_owned(),
-        });
-    }
+    let of = |&(start, end): &(usize, usize)| {
+        let others = bound.iter().filter(move |other| code[start..end] != ***other);
+        others.map(move |other| code[..start].to_owned() + other + &code[end..]).collect::<Vec<_>>()
+    };
+    let mut all: Vec<String> = places.iter().flat_map(of).collect();
+    all.sort_unstable();
+    all.dedup();
     all
-}
-
-/// Whether a function is a method, and the names of its other parameters.
-fn arguments(signature: &str) -> (bool, Vec<String>) {
-    let inner = &signature[1..close(signature, 0).unwrap_or(signature.len())];
-    let parts = split(inner, ',');
-    let is_method = parts.first().is_some_and(|first| first.trim().ends_with("self"));
-    let names = parts.iter().filter(|part| !part.trim().ends_with("self") && !part.trim().is_empty());
-    let name = |part: &&str| part.split(':').next().unwrap_or_default().trim().trim_start_matches("mut ").to_owned();
-    (is_method, names.map(name).collect())
 }
 
 /// A line with each small mistake that it can have.
@@ -231,7 +156,7 @@ fn alterations(line: &str) -> Vec<String> {
         && let Some(condition) = rest.strip_suffix(" {")
         && !condition.starts_with("let ")
     {
-        all.push(format!("if !({condition}) {{"));
+        all.extend([format!("if !({condition}) {{"), "if false {".into(), "if true {".into()]);
         for joint in [" && ", " || "] {
             for (at, _) in condition.match_indices(joint) {
                 all.push(format!("if {} {{", &condition[..at]));
@@ -239,15 +164,47 @@ fn alterations(line: &str) -> Vec<String> {
             }
         }
     }
-    let is_step = code.ends_with(';') && !code.trim_start().starts_with("let ") && !code.contains("return");
-    if is_step && code.contains(" = ") {
+    if is_step(code) {
         all.push(String::new());
+    }
+    for (at, end) in literals(code) {
+        let number = &code[at..end];
+        let others = match number.parse::<f64>() {
+            Ok(own) if number.contains('.') => {
+                [-own, 0.0, 1.0, 2.0 * own, own / 2.0, 10.0 * own, own / 10.0, own + 1.0]
+                    .map(|other| format!("{other:?}"))
+                    .to_vec()
+            }
+            Ok(own) => [own + 1.0, own - 1.0, 1.0, 0.0].map(|other| format!("{other}")).to_vec(),
+            Err(_) => Vec::new(),
+        };
+        all.extend(others.into_iter().map(|other| code[..at].to_owned() + &other + &code[end..]));
     }
     if let Some((start, sum)) = code.split_once(" += ") {
         all.push(format!("{start} = {sum}"));
     }
     let mut seen = std::collections::HashSet::new();
-    all.retain(|wrong| wrong != code && seen.insert(wrong.clone()));
+    all.retain(|wrong| wrong != code && !wrong.contains("--") && seen.insert(wrong.clone()));
+    all
+}
+
+/// Where numbers stand by themselves.
+fn literals(code: &str) -> Vec<(usize, usize)> {
+    let mut all = Vec::new();
+    let mut at = 0;
+    while let Some(start) = code[at..].find(|c: char| c.is_ascii_digit()).map(|from| at + from) {
+        let is_within = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let mut end = start + code[start..].find(|c: char| !is_within(c)).unwrap_or(code.len() - start);
+        if code[end..].starts_with('.') && code[end + 1..].starts_with(|c: char| c.is_ascii_digit()) {
+            end += 1;
+            end += code[end..].find(|c: char| !is_within(c)).unwrap_or(code.len() - end);
+        }
+        // Neither a part of a vector nor of a name, nor with a power of ten.
+        if !code[..start].ends_with(|c: char| is_within(c) || c == '.') && !code[start..end].contains('e') {
+            all.push((start, end));
+        }
+        at = end;
+    }
     all
 }
 
@@ -373,24 +330,6 @@ fn close(code: &str, open: usize) -> Option<usize> {
     })
 }
 
-/// The parts between separators outside brackets.
-fn split(code: &str, by: char) -> Vec<&str> {
-    let (mut depth, mut from, mut parts) = (0, 0, Vec::new());
-    for (at, c) in code.char_indices() {
-        match c {
-            '(' | '[' | '{' => depth += 1,
-            ')' | ']' | '}' => depth -= 1,
-            _ if c == by && depth == 0 => {
-                parts.push(&code[from..at]);
-                from = at + 1;
-            }
-            _ => {}
-        }
-    }
-    parts.push(&code[from..]);
-    parts
-}
-
 /// Where the term ends that begins here: a name or a number with its calls and parts, or a bracket.
 fn term_after(code: &str, from: usize) -> usize {
     let mut at = from;
@@ -442,14 +381,6 @@ mod tests {
         let all = alterations("let right = up.cross(back).unit();");
         for wrong in ["let right = up.cross(back);", "let right = (back).cross(up).unit();", "let right = up.unit();"] {
             assert_eq!(all.iter().any(|one| one == wrong), !wrong.contains("up.unit"), "{wrong}: {all:#?}");
-        }
-    }
-
-    #[test]
-    fn the_steps_that_are_quick_compile_with_their_small_mistakes() {
-        for chapter in [5, 19] {
-            let (_, told) = altered(chapter, |program| program).expect("compiles");
-            assert!(told.len() > 50, "{chapter}: {}", told.len());
         }
     }
 }

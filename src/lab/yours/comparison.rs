@@ -1,11 +1,12 @@
 //! Whether a picture of bytes shows what another one of light shows, block by block.
 
-use super::known::{Picture, altered_pictures, known_mistakes};
+use super::known::{Mistaken, Picture, few};
 use super::scene::{SIZE, film_after, picture_of, sample_at_most, scene_after, variants};
 use pinhole::Error;
 use pinhole::extract::linear_from_srgb;
 use pinhole::film::{Film, srgb_from_linear};
 use std::cell::OnceCell;
+use std::time::{Duration, Instant};
 
 /// The sides of a block, in pixels.
 const BLOCK: [usize; 2] = [16, 10];
@@ -24,6 +25,14 @@ const EXPLAINED: f64 = 0.15;
 const SPECKLED: f64 = 0.5;
 /// How many small mistakes that make the same picture are told, at most.
 const MANY: usize = 3;
+/// The part of the pixels that differ that a mistake must make as they are.
+const SAME: f64 = 0.97;
+/// How much less that may be where two mistakes are taken to make the same picture.
+const ALIKE: f64 = 2e-3;
+/// Of how many mistakes that come nearest the whole picture is made.
+const NEAR: usize = 12;
+/// How long one may take.
+const LATE: Duration = Duration::from_secs(30);
 /// Light that counts as none, where parts of it are told.
 const DARK: f64 = 1e-3;
 
@@ -108,13 +117,57 @@ pub struct Expected {
     chapter: u32,
     curve: Curve,
     right: Pixels,
-    rewritten_or_changed: OnceCell<Vec<Mistaken>>,
-    known: OnceCell<Vec<(String, Picture)>>,
-    altered: OnceCell<Vec<(String, Picture)>>,
+    rewritten_or_changed: OnceCell<Vec<LooksLike>>,
+    mistaken: OnceCell<Option<Tried>>,
 }
 
-/// What a picture looks like, and the picture.
-type Mistaken = (String, Pixels);
+/// What is said of mistakes that make a picture, and in how many other lines there are such.
+type Made = Option<(String, usize)>;
+
+/// What a picture looks like, the picture, and in how many blocks it is not as the right one.
+type LooksLike = (String, Pixels, usize);
+
+/// The mistakes that were put into the program: they, how few of the pixels were rendered, the right program's picture of
+/// those, and that of each mistake.
+struct Tried {
+    mistaken: Mistaken,
+    every: usize,
+    right: Picture,
+    pictures: Vec<(usize, Picture)>,
+}
+
+impl Tried {
+    fn after(chapter: u32) -> Option<Self> {
+        let mistaken = Mistaken::after(chapter)?;
+        // One pixel of so many in both directions; its random numbers are its own, so that it is as in the whole picture.
+        let every = match chapter {
+            ..17 | 33.. => 4,
+            28..30 => 24,
+            30.. => 12,
+            _ => 8,
+        };
+        let began = Instant::now();
+        let right = mistaken.right(every)?;
+        // Some mistakes make it slow, and with some it never ends.
+        let patience = 8 * began.elapsed() + Duration::from_millis(200);
+        let all: Vec<usize> = (0..mistaken.told.len()).collect();
+        let pictures = mistaken.pictures(&all, every, patience);
+        Some(Self { mistaken, every, right, pictures })
+    }
+}
+
+/// Of the pixels in which one of two pictures is not as the right one, the part in which they are the same.
+fn agreement((_, one): &Picture, (_, other): &Picture, (_, right): &Picture) -> f64 {
+    let is_apart = |one: [u8; 3], other: [u8; 3]| (0..3).any(|part| one[part].abs_diff(other[part]) > 1);
+    let (mut spoken, mut same) = (0, 0);
+    for ((one, other), right) in one.iter().zip(other).zip(right) {
+        if one != right && is_apart(*one, *right) || other != right && is_apart(*other, *right) {
+            spoken += 1;
+            same += u32::from(one == other || !is_apart(*one, *other));
+        }
+    }
+    f64::from(same) / f64::from(spoken.max(1))
+}
 
 impl Expected {
     /// The picture after a chapter.
@@ -122,15 +175,16 @@ impl Expected {
     /// Errors: those of a render.
     pub fn after(chapter: u32) -> Result<Self, Error> {
         let right = light_of(&film_after(chapter, u32::MAX)?);
-        let (rewritten_or_changed, known, altered) = <(OnceCell<_>, OnceCell<_>, OnceCell<_>)>::default();
-        Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known, altered })
+        let (rewritten_or_changed, mistaken) = <(OnceCell<_>, OnceCell<_>)>::default();
+        Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, mistaken })
     }
 
     /// Compares the picture that a reader's program wrote; `waits` is called before known mistakes are made in the program,
     /// which takes a while.
     ///
     /// Errors: a picture of another size; those of a render.
-    pub fn compare(&self, ([width, height], bytes): &Picture, waits: &mut dyn FnMut()) -> Result<Comparison, Error> {
+    pub fn compare(&self, picture: &Picture, waits: &mut dyn FnMut()) -> Result<Comparison, Error> {
+        let ([width, height], bytes) = picture;
         if [*width, *height] != SIZE {
             let told =
                 format!("the picture has {width} × {height} pixels, and pinhole's has {} × {}", SIZE[0], SIZE[1]);
@@ -145,74 +199,130 @@ impl Expected {
             let same = Comparison::Same { resolved: resolved[resolved.len() / 2] };
             return Ok(shift(&readers, right, 0.0).map_or(same, |by| Comparison::Shifted { by }));
         };
-        let mut looks_like = self.closest(&readers, apart.len(), self.rewritten_or_changed()?, Clone::clone);
-        let brighter = [self.brighter(&readers)];
-        let brighter = self.closest(&readers, apart.len(), &brighter, Clone::clone);
-        looks_like = [looks_like, brighter].into_iter().flatten().min_by_key(|found| found.0);
-        if looks_like.as_ref().is_none_or(|(left, _)| *left > 0) {
-            waits();
-            let of_bytes = |(_, bytes): &Picture| pixels_of(bytes, &self.curve);
-            let known = self.closest(&readers, apart.len(), self.known(), of_bytes);
-            looks_like = [looks_like, known].into_iter().flatten().min_by_key(|found| found.0);
-            if looks_like.as_ref().is_none_or(|(left, _)| *left > 0) {
-                let altered = self.all_closest(&readers, apart.len(), self.altered(), of_bytes);
-                // Whoever is told of many is told nothing.
-                let altered = altered.filter(|(_, all)| all.len() <= MANY);
-                let altered = altered.map(|(left, all)| (left, format!("as if {}.", all.join("; or as if "))));
-                looks_like = [looks_like, altered].into_iter().flatten().min_by_key(|found| found.0);
+        waits();
+        let looks_like = match self.made(picture) {
+            Some((told, 0)) => Some(told),
+            // What everything looks like says more than one of many lines.
+            made => {
+                let of_all = self.closest(&readers, apart.len(), self.rewritten_or_changed()?);
+                let brighter = [self.brighter(&readers)];
+                let brighter = self.closest(&readers, apart.len(), &brighter);
+                let likest = [of_all, brighter].into_iter().flatten().min_by_key(|found| found.0);
+                let likest = likest.and_then(|(left, all)| Some((left, (*all.first()?).to_owned())));
+                let is_exact = |likest: &Option<(usize, String)>| likest.as_ref().is_some_and(|(left, _)| *left == 0);
+                let near =
+                    if made.is_some() || is_exact(&likest) { None } else { self.near(picture, &readers, apart.len()) };
+                let likest = [likest, near].into_iter().flatten().min_by_key(|found| found.0);
+                likest.map(|found| found.1).or(made.map(|(told, _)| told))
             }
-        }
+        };
         if looks_like.is_none()
             && let Some(by) = shift(&readers, right, EXPLAINED)
         {
             return Ok(Comparison::Shifted { by });
         }
-        let looks_like = looks_like.map(|found| found.1);
         let light = |pixels: &Pixels| pixels.iter().flatten().sum::<f64>();
         let brightness = light(&readers) / light(right) - 1.0;
         Ok(Comparison::Differs { blocks: apart.len(), of: found.len(), brightness, most: most.middle, looks_like })
     }
 
-    /// What the picture looks like that leaves the fewest blocks apart, if those are few; it must itself be apart from the
-    /// right one about as far as the reader's is. With it, in how many blocks they still differ.
-    fn closest<P>(
-        &self,
-        readers: &Pixels,
-        apart: usize,
-        mistakes: &[(String, P)],
-        pixels: impl Fn(&P) -> Pixels,
-    ) -> Option<(usize, String)> {
-        let (left, all) = self.all_closest(readers, apart, mistakes, pixels)?;
-        Some((left, (*all.first()?).to_owned()))
+    /// The mistakes that were put into the program, once.
+    fn tried(&self) -> Option<&Tried> {
+        self.mistaken.get_or_init(|| Tried::after(self.chapter)).as_ref()
     }
 
-    /// The same, of all that leave as few.
-    fn all_closest<'a, P>(
-        &self,
-        readers: &Pixels,
-        apart: usize,
-        mistakes: &'a [(String, P)],
-        pixels: impl Fn(&P) -> Pixels,
-    ) -> Option<(usize, Vec<&'a str>)> {
-        let differing = |one: &Pixels, other: &Pixels| {
-            blocks(one, other, &self.curve).iter().filter(|block| block.differs()).count()
+    /// What is said of the mistakes in the program that make this very picture, as those with the same random numbers do.
+    fn made(&self, picture: &Picture) -> Made {
+        let Tried { mistaken, every, right, pictures } = self.tried()?;
+        let agreeing = |pictures: &[(usize, Picture)], every: usize, right: &Picture, least: f64| {
+            let readers = few(picture, every);
+            let those = pictures.iter().filter(|(_, own)| own.0 == right.0);
+            let mut all: Vec<(f64, usize)> =
+                those.map(|(mistake, wrong)| (agreement(&readers, wrong, right), *mistake)).collect();
+            all.sort_by(|one, other| other.0.total_cmp(&one.0));
+            let best = all.first().map_or(1.0, |best| best.0);
+            all.retain(|(part, _)| *part >= least && *part >= best - ALIKE);
+            all.into_iter().map(|(_, mistake)| mistake).collect::<Vec<_>>()
         };
-        let mut all: Vec<(usize, &str)> = Vec::new();
-        for (what, wrong) in mistakes {
-            let wrong = pixels(wrong);
-            let alone = differing(&wrong, &self.right);
-            if 2 * alone >= apart && alone <= 3 * apart {
-                all.push((differing(readers, &wrong), what));
+        let mut same = agreeing(pictures, *every, right, 0.9 * SAME);
+        if !same.is_empty() {
+            same.truncate(NEAR);
+            let more = (*every / 4).max(2);
+            same = agreeing(&mistaken.pictures(&same, more, LATE), more, &mistaken.right(more)?, SAME);
+        }
+        self.told(&same)
+    }
+
+    /// What is said of the mistakes that come near the picture, as those with other random numbers do, and in how many blocks
+    /// that differs.
+    fn near(&self, picture: &Picture, readers: &Pixels, apart: usize) -> Option<(usize, String)> {
+        let Tried { mistaken, every, right, pictures } = self.tried()?;
+        let readers_few = few(picture, *every);
+        let distance = |(_, (_, wrong)): &&(usize, Picture)| -> u64 {
+            let parts = readers_few.1.as_flattened().iter().zip(wrong.as_flattened());
+            parts.map(|(one, other)| u64::from(one.abs_diff(*other)).pow(2)).sum()
+        };
+        let mut near: Vec<&(usize, Picture)> = pictures.iter().filter(|(_, own)| own.0 == right.0).collect();
+        near.sort_by_cached_key(distance);
+        near.truncate(if *every > 12 { 0 } else { NEAR });
+        let near: Vec<usize> = near.into_iter().map(|(mistake, _)| *mistake).collect();
+        let pictures: Vec<LooksLike> = mistaken
+            .pictures(&near, 1, LATE)
+            .into_iter()
+            .filter(|(_, (size, _))| *size == SIZE)
+            .map(|(mistake, (_, bytes))| self.looks_like(mistake.to_string(), pixels_of(&bytes, &self.curve)))
+            .collect();
+        let (left, all) = self.closest(readers, apart, &pictures)?;
+        let all: Vec<usize> = all.into_iter().filter_map(|mistake| mistake.parse().ok()).collect();
+        self.told(&all).filter(|(_, others)| *others == 0).map(|(told, _)| (left, told))
+    }
+
+    /// What is said of mistakes that make the same picture, the likely ones first: what is known, or the lines.
+    fn told(&self, mistakes: &[usize]) -> Made {
+        let told = &self.tried()?.mistaken.told;
+        let mut mistakes = mistakes.to_vec();
+        mistakes.sort_unstable();
+        let mut lines: Vec<(usize, &str)> = Vec::new();
+        for (told, line) in mistakes.iter().filter_map(|&at| told.get(at)) {
+            match line {
+                None => return Some((told.clone(), 0)),
+                Some(line) if lines.iter().any(|(other, _)| other == line) => {}
+                Some(line) => lines.push((*line, told)),
             }
         }
+        let others = lines.len().saturating_sub(MANY);
+        let all: Vec<&str> = lines.into_iter().take(MANY).map(|(_, told)| told).collect();
+        let more = if others > 0 {
+            format!("; {others} other lines with a mistake make the same picture")
+        } else {
+            String::new()
+        };
+        (!all.is_empty()).then(|| (format!("as if {}{more}.", all.join("; or as if ")), others))
+    }
+
+    /// What the picture looks like that leaves the fewest blocks apart, if those are few; it must itself be apart from the
+    /// right one about as far as the reader's is. With it, in how many blocks they still differ.
+    fn closest<'a>(&self, readers: &Pixels, apart: usize, mistakes: &'a [LooksLike]) -> Option<(usize, Vec<&'a str>)> {
+        let alike = mistakes.iter().filter(|(_, _, alone)| 2 * alone >= apart && *alone <= 3 * apart);
+        let all: Vec<(usize, &str)> =
+            alike.map(|(what, wrong, _)| (self.differing(readers, wrong), what.as_str())).collect();
         let least = all.iter().map(|found| found.0).min()?;
         // Noise alone may set one block apart.
         let is_few = least <= (apart / 10).max(usize::from(apart > 4));
         is_few.then(|| (least, all.into_iter().filter(|found| found.0 == least).map(|found| found.1).collect()))
     }
 
+    fn differing(&self, one: &Pixels, other: &Pixels) -> usize {
+        blocks(one, other, &self.curve).iter().filter(|block| block.differs()).count()
+    }
+
+    fn looks_like(&self, told: String, wrong: Pixels) -> LooksLike {
+        let alone = self.differing(&wrong, &self.right);
+        (told, wrong, alone)
+    }
+
     /// The right picture as bright as the reader's, where neither is white.
-    fn brighter(&self, readers: &Pixels) -> Mistaken {
+    fn brighter(&self, readers: &Pixels) -> LooksLike {
         let pairs = || readers.iter().flatten().zip(self.right.iter().flatten());
         let (own, right) = pairs()
             .filter(|(own, right)| **own < 1.0 && **right < 1.0)
@@ -221,41 +331,28 @@ impl Expected {
         let told = format!(
             "everything is {factor:.3} times as bright, the sky, too: what is the sum divided by, and of how many?"
         );
-        (told, self.right.iter().map(|pixel| pixel.map(|light| (factor * light).min(1.0))).collect())
+        self.looks_like(told, self.right.iter().map(|pixel| pixel.map(|light| (factor * light).min(1.0))).collect())
     }
 
     /// The picture written in other ways than it should be, and those of other scenes.
-    fn rewritten_or_changed(&self) -> Result<&[Mistaken], Error> {
+    fn rewritten_or_changed(&self) -> Result<&[LooksLike], Error> {
         if let Some(all) = self.rewritten_or_changed.get() {
             return Ok(all);
         }
-        let rewritten =
-            REWRITTEN.iter().map(|(what, rewrite)| Ok(((*what).to_owned(), rewrite(&self.right, &self.curve))));
+        let rewritten = REWRITTEN
+            .iter()
+            .map(|(what, rewrite)| Ok(self.looks_like((*what).to_owned(), rewrite(&self.right, &self.curve))));
         let variants = variants().into_iter().filter(|variant| (variant.from..variant.until).contains(&self.chapter));
         let changed = variants.map(|variant| {
             let mut world = scene_after(self.chapter);
             (variant.change)(&mut world);
             // Enough to be told from the others.
             sample_at_most(&mut world, 32);
-            Ok((variant.looks_like.to_owned(), light_of(&picture_of(&world)?)))
+            Ok(self.looks_like(variant.looks_like.to_owned(), light_of(&picture_of(&world)?)))
         });
         let all = rewritten.chain(changed).collect::<Result<_, Error>>()?;
         Ok(self.rewritten_or_changed.get_or_init(|| all))
     }
-
-    /// The pictures of the program with each known mistake.
-    fn known(&self) -> &[(String, Picture)] {
-        self.known.get_or_init(|| of_size(known_mistakes(self.chapter)))
-    }
-
-    /// Those of the program with each small mistake in the lines of the last step.
-    fn altered(&self) -> &[(String, Picture)] {
-        self.altered.get_or_init(|| of_size(altered_pictures(self.chapter)))
-    }
-}
-
-fn of_size(all: Vec<(String, Picture)>) -> Vec<(String, Picture)> {
-    all.into_iter().filter(|(_, (size, _))| *size == SIZE).collect()
 }
 
 /// The light of a picture of bytes.

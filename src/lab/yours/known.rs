@@ -1,19 +1,18 @@
 //! Mistakes that no change of the scene makes: each is put into the program, which is compiled and run, to see whether a
 //! picture looks like it.
 
-use super::altered::{WHICH, altered};
+use super::altered::small_mistakes;
+use super::joined::{Mistake, WHICH, joined};
 use super::program::{program_after, steps};
 use pinhole::scene::{FileKind, read_file};
 use std::fs;
-use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-/// How long a program may run, and one with a mistake that is tried.
+/// How long a program may run.
 const PATIENCE: Duration = Duration::from_secs(60);
-const SHORT: Duration = Duration::from_secs(12);
-/// How long small mistakes are tried, one after the other; a reader waits for it.
+/// How long mistakes are tried, one after the other; a reader waits for it.
 const LONG: Duration = Duration::from_secs(90);
 
 /// The mistakes: after a minus what the right program says, after a plus what a wrong one says, and then what the picture
@@ -31,33 +30,76 @@ fn known() -> impl Iterator<Item = [String; 3]> {
 /// A picture of bytes: its width, its height and its pixels.
 pub type Picture = ([usize; 2], Vec<[u8; 3]>);
 
-/// The program with fewer samples, which are enough to tell one mistake from another, but where a lamp of some size makes
-/// noise.
-fn with_few_samples(chapter: u32, program: &str) -> String {
-    match chapter {
-        17..21 | 30.. => program.replace("SAMPLES: usize = 64;", "SAMPLES: usize = 16;"),
-        _ => program.replace("SAMPLES: usize = 16;", "SAMPLES: usize = 4;"),
+/// Programs that each make one mistake: all that fit are one program, which is told which of them to make.
+pub struct Mistaken {
+    joined: Compiled,
+    apart: Vec<Compiled>,
+    /// What is said of each; of the small ones that nobody wrote down, with the line in which it is.
+    pub told: Vec<(String, Option<usize>)>,
+}
+
+impl Mistaken {
+    /// Those that the program of a chapter can have, known ones first; none where there is no compiler.
+    pub fn after(chapter: u32) -> Option<Self> {
+        let program = program_after(chapter).ok()?;
+        let before = steps().iter().map(|step| step.number).filter(|&number| number < chapter).max();
+        let before = before.and_then(|number| program_after(number).ok());
+        let (mut within, mut beside): (Vec<Mistake>, Vec<(String, String)>) = (Vec::new(), Vec::new());
+        for [right, wrong, looks_like] in known().filter(|[right, ..]| program.contains(right)) {
+            match Mistake::of_text(&program, (&right, &wrong), &looks_like) {
+                Some(mistake) => within.push(mistake),
+                None => beside.push((looks_like, program.replace(&right, &wrong))),
+            }
+        }
+        if let Some(before) = &before {
+            beside.push(("it is the picture of your program as it was before this step.".into(), before.clone()));
+        }
+        let count = within.len();
+        within.extend(small_mistakes(&program, &before.unwrap_or_default()));
+        let known: Vec<String> = within[..count].iter().map(|mistake| mistake.told.clone()).collect();
+        let (joined_program, within) = joined(&program, within)?;
+        let mut told: Vec<(String, Option<usize>)> = Vec::new();
+        for mistake in within {
+            let line = mistake.changes.first().map(|(at, _)| at.start).filter(|_| !known.contains(&mistake.told));
+            told.push((mistake.told, line));
+        }
+        let mut apart = Vec::new();
+        for (looks_like, program) in beside {
+            if let Some((compiled, _)) = joined(&program, Vec::new()) {
+                apart.push(compiled);
+                told.push((looks_like, None));
+            }
+        }
+        Some(Self { joined: joined_program, apart, told })
+    }
+
+    /// The right program's picture with one pixel of so many in each direction, as [`few`] has it.
+    pub fn right(&self, every: usize) -> Option<Picture> {
+        self.joined.picture_with([0, every], PATIENCE).ok()
+    }
+
+    /// The pictures of these mistakes, as [`Self::right`] has it, where the program comes to an end.
+    pub fn pictures(&self, of: &[usize], every: usize, patience: Duration) -> Vec<(usize, Picture)> {
+        let began = Instant::now();
+        in_parallel(of.iter().copied(), |mistake| {
+            if began.elapsed() > LONG {
+                return None;
+            }
+            let inside = self.told.len() - self.apart.len();
+            let (program, number) = match mistake.checked_sub(inside) {
+                Some(at) => (&self.apart[at], 0),
+                None => (&self.joined, mistake + 1),
+            };
+            Some((mistake, program.picture_with([number, every], patience).ok()?))
+        })
     }
 }
 
-/// The pictures of small mistakes in the lines that a chapter's step brought, and what is said of each; none where there is
-/// no compiler.
-pub fn altered_pictures(chapter: u32) -> Vec<(String, Picture)> {
-    let few = |program: String| program.replace("= 16; // until", "= 2; // until").replace("= 64; //", "= 16; //");
-    let Some((compiled, told)) = altered(chapter, few) else { return Vec::new() };
-    let began = Instant::now();
-    let right = compiled.picture_with(0, SHORT).ok();
-    // Some mistakes make it slow, and with some it never ends.
-    let patience = (8 * began.elapsed() + Duration::from_millis(200)).min(SHORT);
-    let all = told.into_iter().enumerate();
-    // Of what changes nothing, nothing is said.
-    in_parallel(all, |(at, told)| {
-        if began.elapsed() > LONG {
-            return None;
-        }
-        let picture = compiled.picture_with(at + 1, patience).ok()?;
-        (Some(&picture) != right.as_ref()).then_some((told, picture))
-    })
+/// A picture with one pixel of so many in each direction, from the middle of the first so many on.
+pub fn few(([width, height], pixels): &Picture, every: usize) -> Picture {
+    let places = |size: usize| (every / 2..size).step_by(every);
+    let own = places(*height).flat_map(|y| places(*width).map(move |x| pixels[y * width + x])).collect();
+    ([places(*width).count(), places(*height).count()], own)
 }
 
 /// What work makes of each, in their order.
@@ -80,25 +122,6 @@ fn in_parallel<T, U: Send>(all: impl Iterator<Item = T> + Send, work: impl Fn(T)
     found.into_iter().map(|(_, made)| made).collect()
 }
 
-/// The pictures of all known mistakes that the program of a chapter can have, and what each is; none where there is no
-/// compiler.
-pub fn known_mistakes(chapter: u32) -> Vec<(String, Picture)> {
-    let Ok(program) = program_after(chapter) else { return Vec::new() };
-    let program = with_few_samples(chapter, &program);
-    let mut all: Vec<(String, String)> = known()
-        .filter(|[right, ..]| program.contains(right))
-        .map(|[right, wrong, looks_like]| (looks_like, program.replace(&right, &wrong)))
-        .collect();
-    let before = steps().iter().map(|step| step.number).filter(|&number| number < chapter).max().unwrap_or(1);
-    if let Ok(earlier) = program_after(before) {
-        all.insert(0, ("it is the picture of your program as it was before this step.".into(), earlier));
-    }
-    // With some mistakes a path never ends; no reader has a picture of them.
-    in_parallel(all.into_iter(), |(looks_like, program)| {
-        Some((looks_like, Compiled::of(&program).and_then(|compiled| compiled.picture_within(SHORT)).ok()?))
-    })
-}
-
 /// Compiles a program as a reader does, runs it, and reads the picture that it wrote.
 ///
 /// Errors: no compiler; what the compiler says; a program that does not end, or ends without a picture.
@@ -118,7 +141,8 @@ impl Compiled {
         let folder = tempfile::tempdir().map_err(failed)?;
         fs::write(folder.path().join("main.rs"), program).map_err(failed)?;
         let compiler = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-        let words = ["-O", "--edition", "2024", "-A", "warnings", "main.rs", "-o", "program"];
+        let words =
+            ["-O", "--edition", "2024", "--cap-lints", "allow", "--error-format", "short", "main.rs", "-o", "program"];
         let told = Command::new(compiler).args(words).current_dir(folder.path()).output().map_err(failed)?;
         if told.status.success() { Ok(Self(folder)) } else { Err(String::from_utf8_lossy(&told.stderr).into_owned()) }
     }
@@ -127,24 +151,16 @@ impl Compiled {
     ///
     /// Errors: a program that does not end, or ends without a picture.
     pub fn picture(&self) -> Result<Picture, String> {
-        self.picture_within(PATIENCE)
+        self.picture_with([0, 1], PATIENCE)
     }
 
-    fn picture_within(&self, patience: Duration) -> Result<Picture, String> {
-        self.picture_in(self.0.path(), patience, None)
-    }
-
-    /// The same, with the mistake of a number, in a folder of its own.
-    fn picture_with(&self, mistake: usize, patience: Duration) -> Result<Picture, String> {
-        let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
-        self.picture_in(folder.path(), patience, Some(mistake))
-    }
-
-    fn picture_in(&self, folder: &Path, patience: Duration, mistake: Option<usize>) -> Result<Picture, String> {
+    /// The same, where it is told which mistake to make, and of how many pixels to render one.
+    fn picture_with(&self, which: [usize; 2], patience: Duration) -> Result<Picture, String> {
         let failed = |error: std::io::Error| error.to_string();
+        let folder = tempfile::tempdir().map_err(failed)?;
         let mut run = Command::new(self.0.path().join("program"));
-        let run = run.current_dir(folder).stdout(Stdio::null()).stderr(Stdio::null());
-        let run = run.envs(mistake.map(|mistake| (WHICH, mistake.to_string())));
+        let run = run.current_dir(folder.path()).stdout(Stdio::null()).stderr(Stdio::null());
+        let run = run.envs(WHICH.into_iter().zip(which.map(|number| number.to_string())));
         let mut run = run.spawn().map_err(failed)?;
         let began = Instant::now();
         while run.try_wait().map_err(failed)?.is_none() {
@@ -155,7 +171,7 @@ impl Compiled {
             std::thread::sleep(Duration::from_millis(5));
         }
         let kind = FileKind { name: "a picture", max: 16 << 20 };
-        let text = read_file(&folder.join("picture.ppm"), kind).map_err(|told| told.to_string())?;
+        let text = read_file(&folder.path().join("picture.ppm"), kind).map_err(|told| told.to_string())?;
         picture_in(&String::from_utf8_lossy(&text))
     }
 }

@@ -5,6 +5,7 @@
 
 mod altered;
 mod comparison;
+mod joined;
 mod known;
 mod program;
 mod scene;

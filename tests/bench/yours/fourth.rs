@@ -1,38 +1,57 @@
-//! The fourth set, of the first chapters: written from the pages when the third had been seen to.
+//! The fourth set: written from the pages when the third had been seen to, and tried once.
 
 use super::programs::Edit;
 
 /// Mistakes.
-pub const MISTAKES: [Edit; 27] = [
-    (1, "point.sub(sphere.centre).unit()", "sphere.centre.sub(point).unit()"),
-    (1, "(y as f64 + 0.5) / height", "(y as f64) / height"),
-    (1, "light = 0.1", "light = 1.0"),
-    (1, "from_centre.dot(direction)", "origin.dot(direction)"),
-    (5, "2.0 * x - WIDTH as f64", "x - WIDTH as f64"),
-    (5, "to_light.dot(to_light)", "to_light.dot(normal)"),
-    (5, "const ANGLE: f64 = 60.0", "const ANGLE: f64 = 90.0"),
-    (9, "const TARGET: V = V(0.0, -0.3, -3.0)", "const TARGET: V = V(0.0, 0.3, -3.0)"),
-    (9, "self.2 * o.0 - self.0 * o.2", "self.0 * o.2 - self.2 * o.0"),
-    (9, "back.cross(to_the_right)", "to_the_right.cross(back)"),
-    (10, "V(self.0 * o.0, self.1 * o.1, self.2 * o.2)", "V(self.0 * o.0, self.1 * o.0, self.2 * o.0)"),
-    (10, "point.add(normal.times(1e-9))", "point.sub(normal.times(1e-9))"),
-    (10, "1.0 / 2.4", "1.0 / 2.2"),
-    (10, "intensity.times(cosine /", "intensity.times(1.0 /"),
+pub const MISTAKES: [Edit; 28] = [
+    (1, "/ width as f64 - 1.0) * aspect", "/ width as f64 - 1.0)"),
+    (1, "|(t, _)| t < 1.0", "|(t, _)| t > 1.0"),
+    (5, "LIGHT.sub(point)", "LIGHT.sub(origin)"),
+    (5, "(255.0 * light", "(100.0 * light"),
+    (9, "upward.times(up)", "V(0.0, 1.0, 0.0).times(up)"),
+    (9, "EYE.sub(TARGET).unit()", "TARGET.times(-1.0).unit()"),
+    (10, "..0.0031308 => 12.92 * light", "..0.0031308 => light"),
+    (10, "sphere.colour.by(light_at(point, normal))", "light_at(point, normal)"),
+    (13, "let faces = normal.dot(direction) < 0.0;", "let faces = true;"),
+    (13, "hits.min_by(|a, b| a.0.total_cmp(&b.0))", "{ hits }.next()"),
+    (17, "let (right, down) =", "let mut random = Random((y * WIDTH + x) as u64);\n        let (right, down) ="),
+    (19, "weight = weight.by(colour);", "weight = weight.add(colour);"),
+    (20, "(1.0 - cosine * cosine) / (eta * eta)", "(1.0 - cosine) / (eta * eta)"),
+    (20, "random.next() < reflected", "random.next() < 0.5"),
     (
-        13,
-        "(height - normal.dot(origin)) / normal.dot(direction)",
-        "(height - normal.dot(origin)) / direction.dot(direction)",
+        21,
+        "let outward = random.direction();",
+        "let outward = V(2.0 * random.next() - 1.0, 2.0 * random.next() - 1.0, 2.0 * random.next() - 1.0).unit();",
     ),
-    (13, "enters.0 <= leaves.0", "enters.0 >= leaves.0"),
-    (13, "false => (high, low, 1.0)", "false => (low, high, 1.0)"),
-    (13, "from_centre.dot(from_centre) - radius", "from_centre.dot(from_centre) + radius"),
-    (17, "sum = sum.add(radiance(EYE, direction));", "sum = radiance(EYE, direction);"),
-    (17, "1.0 / SAMPLES as f64", "1.0 / 100.0"),
-    (19, "weight.by(V(0.5, 0.7, 1.0))", "V(0.5, 0.7, 1.0)"),
-    (19, "direction = mirrored;", "direction = normal;"),
-    (20, "direction.times(eta).add(down)", "direction.add(down)"),
-    (20, "squared <= 0.0 || random.next() < reflected", "squared <= 0.0"),
-    (20, "(1.0 - cosine * cosine)", "(cosine * cosine)"),
-    (21, "hidden || cosine <= 0.0", "cosine <= 0.0"),
-    (21, "cosine * cosine_there * area", "cosine_there * area"),
+    (21, "cosine_there * area / to_lamp", "cosine_there / to_lamp"),
+    (21, "nearest(start, to_lamp)", "nearest(start, toward)"),
+    (23, "to_the_right.times(distance * angle.cos())", "V(distance * angle.cos(), 0.0, 0.0)"),
+    (
+        25,
+        "if random.next() >= survives {\n            return sum;",
+        "if random.next() >= survives {\n            return V(0.0, 0.0, 0.0);",
+    ),
+    (
+        25,
+        "direction = normal.add(random.direction());",
+        "direction = normal.add(random.direction());\n                weight = weight.times(normal.dot(direction.unit()));",
+    ),
+    (26, "pdf = normal.dot(direction) / PI;", "pdf = 1.0;"),
+    (26, "1.0 / (1.0 + (other / pdf) * (other / pdf))", "1.0 / (1.0 + other)"),
+    (28, "u + v <= 1.0", "u <= v"),
+    (30, "best = Some((t, normal, thing));", "return Some((t, normal, thing));"),
+    (30, "best = search(half, origin, direction, best);", "best = best.or(search(half, origin, direction, best));"),
+    (33, "let depth = 1.0 / (parts[0] / a.2 + parts[1] / b.2 + parts[2] / c.2);", "let depth = a.2;"),
+    (33, "point.sub(EYE), (ANGLE / 2.0)", "point.sub(EYE), ANGLE"),
+    (33, "|part| part < 0.0", "|part| part < 0.1"),
+];
+
+/// Programs that are right, and look unlike the book's.
+pub const RIGHT: [Edit; 6] = [
+    (5, "normal.dot(to_light.unit())", "to_light.unit().dot(normal)"),
+    (9, "EYE.sub(TARGET).unit()", "TARGET.sub(EYE).unit().times(-1.0)"),
+    (10, "hit.0 > 1.0", "hit.0 >= 1.0"),
+    (13, "t > 0.0 && t.is_finite()", "t > 0.0 && t < 1e12"),
+    (17, "(1_u64 << 53) as f64", "9_007_199_254_740_992.0"),
+    (19, "for _ in 0..12 {", "for _ in 0..40 {"),
 ];

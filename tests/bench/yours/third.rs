@@ -34,7 +34,7 @@ pub const MISTAKES: [Edit; 52] = [
     (19, "direction.sub(normal.times(2.0", "direction.add(normal.times(2.0"),
     (19, "origin = point.add(normal.times(1e-9));", ""),
     (19, "weight = weight.by(colour);", ""),
-    (20, "if enters { 1.0 / index } else { index }", "1.0 / index"),
+    (20, "if enters { index } else { 1.0 / index }", "index"),
     (20, "origin = point.sub(normal.times(1e-9));", "origin = point.add(normal.times(1e-9));"),
     (20, "let cosine = -normal.dot(direction);", "let cosine = normal.dot(direction);"),
     (20, "reflected_part(eta, cosine, beyond)", "reflected_part(1.0 / eta, cosine, beyond)"),
@@ -113,11 +113,11 @@ pub const RIGHT: [Edit; 23] = [
     (19, "direction.sub(normal.times(2.0 * normal.dot(direction)))", "direction.sub(normal.times(normal.dot(direction))).times(2.0).sub(direction)"),
     (
         20,
-        "let across = (eta * cosine - cosine_beyond) / (eta * cosine + cosine_beyond);
-    let along = (eta * cosine_beyond - cosine) / (eta * cosine_beyond + cosine);",
+        "let across = (cosine - eta * cosine_beyond) / (cosine + eta * cosine_beyond);
+    let along = (cosine_beyond - eta * cosine) / (cosine_beyond + eta * cosine);",
         "let n = 1.0 / eta;
-    let across = (cosine - n * cosine_beyond) / (cosine + n * cosine_beyond);
-    let along = (n * cosine - cosine_beyond) / (n * cosine + cosine_beyond);",
+    let across = (n * cosine - cosine_beyond) / (n * cosine + cosine_beyond);
+    let along = (n * cosine_beyond - cosine) / (n * cosine_beyond + cosine);",
     ),
     (
         21,
