@@ -141,7 +141,7 @@ fn the_picture_shows_every_mistake_that_is_named() {
     for (name, answers) in ALL {
         let chapter = chapters.iter().find(|chapter| chapter.name == *name).expect("the chapter");
         let mut asked = asked(chapter);
-        asked.resolution = Some(Resolution { width: 128, height: 72 });
+        asked.resolution = Some(Resolution { width: 96, height: 54 });
         asked.sampling.samples = asked.sampling.samples.map(|_| 4);
         match Shown::of(chapter, &answers().solution, &asked) {
             Shown::Pictures(_, seen) if seen.iter().all(|seen| !seen.is_shown() && seen.part_over_3 < 1e-3) => {}

@@ -124,9 +124,12 @@ fn falsehoods(world: &World, what: [&str; 3], is_closed: bool, told: &[String]) 
 fn what_is_said_before_a_render_is_so() {
     let (mut tried, mut claims, mut wrong) = (0, 0, Vec::new());
     for (number, (light, spawn_light)) in LIGHTS.iter().enumerate() {
-        for (material, spawn_ball) in MATERIALS {
-            for (integrator, named) in INTEGRATORS {
-                for is_closed in [false, true] {
+        for (of_material, (material, spawn_ball)) in MATERIALS.iter().enumerate() {
+            for (of_integrator, (integrator, named)) in INTEGRATORS.iter().enumerate() {
+                // In the open and enclosed in turn; with more samples asked for, both.
+                let is_first = (number + of_material + of_integrator).is_multiple_of(2);
+                let enclosures = if times_samples() > 1 { &[false, true][..] } else { &[is_first][..] };
+                for &is_closed in enclosures {
                     let mut world = World::new();
                     let look = LookAt { eye: DVec3::new(0.0, 0.5, 4.0), ..LookAt::default() };
                     let size = Resolution { width: SIDE, height: SIDE };
@@ -157,7 +160,7 @@ fn what_is_said_before_a_render_is_so() {
         }
     }
     eprintln!("foretold: {tried} scenes, {claims} of them said to be black or to render something black");
-    assert!(tried > 1000 && claims > 200, "{tried} {claims}");
+    assert!(tried > 600 && claims > 150, "{tried} {claims}");
     assert!(wrong.is_empty(), "{} of {tried}: {:#?}", wrong.len(), &wrong[..wrong.len().min(40)]);
 }
 

@@ -124,10 +124,16 @@ fn vertex_normals_answer_every_light_as_a_surface_that_leans_so() {
     const SETS: u64 = 8;
     const SAMPLES: u32 = 384;
     let mut tried = 0;
-    for &(name, material) in MATERIALS {
-        for (light, lights) in [("a turned sky", &sky as &dyn Fn(&mut World)), ("a panel", &panel)] {
+    for (turn, &(name, material)) in MATERIALS.iter().enumerate() {
+        for (at, (light, lights)) in
+            [("a turned sky", &sky as &dyn Fn(&mut World)), ("a panel", &panel)].into_iter().enumerate()
+        {
             let truth = renders(&|| scene(&tilted(material), lights), LightStrategy::Bsdf, SAMPLES, 0..SETS);
             for (number, &strategy) in ALL.iter().enumerate() {
+                // One of them in turn; with more samples asked for, each.
+                if times_samples() == 1 && number != (turn + at) % ALL.len() {
+                    continue;
+                }
                 let first = SETS * (number as u64 + 1);
                 let own = renders(&|| scene(&shaded(material), lights), strategy, SAMPLES, first..first + SETS);
                 let found = assert_agree(&format!("{name} under {light}, {strategy:?}"), &own, &truth, 8);

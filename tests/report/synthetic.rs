@@ -66,7 +66,11 @@ impl Renderer {
     pub fn render(&self, samples: u64, seed: u64) -> Numbers {
         let mut draws = Draws::new(seed, samples);
         let pixel = |pixel: usize| {
-            let noise = |draws: &mut Draws| (0..samples).map(|_| self.noise.draw(draws)).sum::<f64>() / samples as f64;
+            let noise = |draws: &mut Draws| match self.noise {
+                // The mean of so many normal numbers is a normal number.
+                Noise::Gaussian => normal(draws) / (samples as f64).sqrt(),
+                noise => (0..samples).map(|_| noise.draw(draws)).sum::<f64>() / samples as f64,
+            };
             let mean = Self::right(pixel) + self.bias_at(pixel);
             [0; 3].map(|_| mean + self.deviation_at(pixel) * noise(&mut draws))
         };
