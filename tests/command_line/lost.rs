@@ -203,6 +203,7 @@ const CALLERS: [(&str, &str); 7] = [
     ("src/scene/open_file.rs", "opens for reading"),
     ("src/lab/report/run.rs", "removes the folder of runs once it is empty"),
     ("src/lab/review/pending.rs", "removes snapshots that a reader accepts or rejects"),
+    ("src/lab/yours/joined.rs", "the text of a program that writes its own picture"),
     ("src/lab/yours/known.rs", "programs, in folders of their own for a moment"),
     ("src/lab/naive/one_page.rs", "a program for the book's first page"),
 ];
