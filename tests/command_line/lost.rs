@@ -197,7 +197,7 @@ const CALLS: [&str; 9] = [
 ];
 
 /// Where such calls stand, and why there.
-const CALLERS: [(&str, &str); 7] = [
+const CALLERS: [(&str, &str); 8] = [
     ("src/pinhole/film/whole_file.rs", "the one place that writes"),
     ("src/pinhole/film/replaces.rs", "looks whether a file may be written to"),
     ("src/scene/open_file.rs", "opens for reading"),
