@@ -1,7 +1,7 @@
 //! What `yours` says of the reader's program with mistakes, and of right ones that look unlike the book's.
 //!
-//! `cargo bench --bench yours`; a few minutes. `-- --blind`, `--third` and `--fourth` try sets that were written
-//! before anybody looked at what was known by then; two numbers behind them, from which chapter to which.
+//! `cargo bench --bench yours`; a few minutes. `-- --latest` tries a set that was written before anybody looked at what
+//! was known by then, `-- --right` all that are right; two numbers behind them, from which chapter to which.
 //! `-- --times` measures the program beside pinhole instead, both on one thread with the same number of samples, and
 //! `-- --write` keeps that beside chapter 25.
 #![allow(clippy::print_stdout, reason = "a bench prints what it found")]
@@ -10,11 +10,8 @@
 #[allow(dead_code, reason = "the test takes all of a chapter at once")]
 mod programs;
 
-#[path = "yours/third.rs"]
-mod third;
-
-#[path = "yours/fourth.rs"]
-mod fourth;
+#[path = "yours/latest.rs"]
+mod latest;
 
 use bevy_ecs::prelude::World;
 use pinhole::extract::linear_from_srgb;
@@ -22,7 +19,7 @@ use pinhole::film::srgb_from_linear;
 use pinhole::scene::Sampling;
 use pinhole_lab::report::provenance::Provenance;
 use pinhole_lab::yours::{Compiled, Expected, Picture, picture_of, program_after, scene_after, steps};
-use programs::{BLIND, Edit, MISTAKES, NOT_NAMED, RIGHT, picture_of_edited, said};
+use programs::{Edit, MISTAKES, NOT_NAMED, RIGHT, picture_of_edited, said};
 use std::time::Instant;
 
 /// Pictures of each, of which the fastest counts.
@@ -43,13 +40,12 @@ fn main() {
         }
         return;
     }
-    // `-- --blind 21 30` tries those of chapters 21 to 30 that were written by someone else.
+    // `-- --latest 21 30` tries those of chapters 21 to 30.
     let numbers: Vec<u32> = words.iter().filter_map(|word| word.parse().ok()).collect();
     let chapters = numbers.first().copied().unwrap_or(0)..=numbers.get(1).copied().unwrap_or(99);
     let (mistakes, right) = match () {
-        () if asks("--third") => (&third::MISTAKES[..], &third::RIGHT[..]),
-        () if asks("--fourth") => (&fourth::MISTAKES[..], &fourth::RIGHT[..]),
-        () if asks("--blind") => (&BLIND[..], &[][..]),
+        () if asks("--latest") => (&latest::MISTAKES[..], &latest::RIGHT[..]),
+        () if asks("--right") => (&[][..], &[&RIGHT[..], &latest::RIGHT[..]].concat()[..]),
         () => (&MISTAKES[..], &RIGHT[..]),
     };
     let of = |edits: &[Edit]| edits.iter().copied().filter(|edit| chapters.contains(&edit.0)).collect::<Vec<_>>();

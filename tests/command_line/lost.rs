@@ -197,12 +197,13 @@ const CALLS: [&str; 9] = [
 ];
 
 /// Where such calls stand, and why there.
-const CALLERS: [(&str, &str); 7] = [
+const CALLERS: [(&str, &str); 8] = [
     ("src/pinhole/film/whole_file.rs", "the one place that writes"),
     ("src/pinhole/film/replaces.rs", "looks whether a file may be written to"),
     ("src/scene/open_file.rs", "opens for reading"),
     ("src/lab/report/run.rs", "removes the folder of runs once it is empty"),
     ("src/lab/review/pending.rs", "removes snapshots that a reader accepts or rejects"),
+    ("src/lab/yours/joined.rs", "the text of a program that writes its own picture"),
     ("src/lab/yours/known.rs", "programs, in folders of their own for a moment"),
     ("src/lab/naive/one_page.rs", "a program for the book's first page"),
 ];
