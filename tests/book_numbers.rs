@@ -16,8 +16,6 @@ use std::path::Path;
 
 #[path = "book_numbers/material.rs"]
 mod material;
-#[path = "book_numbers/reflection.rs"]
-mod reflection;
 #[path = "book_numbers/spaces.rs"]
 mod spaces;
 #[path = "book_numbers/transport.rs"]

@@ -39,7 +39,9 @@ pub struct Place {
     pub heading: String,
     /// The heading's id, or nothing: the page itself.
     pub id: String,
-    /// Its prose in small letters, a space around it, hyphens as spaces, without formulas.
+    /// The heading in small letters, a space around it, hyphens as spaces.
+    title: String,
+    /// Its prose likewise, without formulas.
     words: String,
     /// What stands in italics there, likewise.
     italics: Vec<String>,
@@ -93,6 +95,7 @@ fn of_page((page, title): (&Page, &str)) -> Vec<Place> {
         short: short.to_owned(),
         heading: heading.to_owned(),
         id: id.to_owned(),
+        title: format!(" {} ", normal(heading)),
         words: " ".to_owned(),
         italics: Vec::new(),
         formulas: Vec::new(),
@@ -147,7 +150,7 @@ impl Place {
             }
         }
         let prose = without_targets(&prose);
-        self.italics.extend(italics(&prose).map(|text| normal(&text)));
+        self.italics.extend(italics(&prose).map(|text| format!(" {} ", normal(&text))));
         self.words += &format!("{} ", normal(&prose.replace('*', "")));
     }
 
@@ -158,8 +161,7 @@ impl Place {
 
     /// Whether it says what a term is: in italics, or as its heading.
     fn defines(&self, term: &str) -> bool {
-        let heading = format!(" {} ", normal(&self.heading));
-        count(&heading, term) > 0 || self.italics.iter().any(|italic| count(&format!(" {italic} "), term) > 0)
+        count(&self.title, term) > 0 || self.italics.iter().any(|italic| count(italic, term) > 0)
     }
 }
 
@@ -249,7 +251,7 @@ fn entry(term: String, derived: &[String], see: Option<String>, places: &[Place]
     let mut used: Vec<(bool, usize, usize)> = places
         .iter()
         .enumerate()
-        .filter(|(_, place)| !defined.contains(place))
+        .filter(|(_, place)| !defined.iter().any(|own| std::ptr::eq(*own, *place)))
         .map(|(at, place)| (repeats(place), place.uses(&name), at))
         .filter(|(_, count, _)| *count > 0)
         .collect();

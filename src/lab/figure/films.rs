@@ -124,7 +124,7 @@ pub fn draw_wagon_wheel(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 pub fn draw_angles(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let shown = |angle: f64| {
         let close = format!("camera.shutter.close={}", angle / 360.0 / RATE);
-        let file = film(chapter, SQUARE, 128, &[&AT_THE_WHEEL[..], &[close.as_str()]].concat())?;
+        let file = film(chapter, SQUARE, 64, &[&AT_THE_WHEEL[..], &[close.as_str()]].concat())?;
         exhibit(&frame(&file, 1.0, 64)?, format!("{angle}°"))
     };
     let exhibits = [0.0, 90.0, 180.0, 360.0].map(shown).into_iter().collect::<Result<Vec<_>>>()?;
@@ -133,7 +133,7 @@ pub fn draw_angles(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 
 /// One frame at few moments and at more, with the same samples.
 pub fn draw_moments(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let file = film(chapter, SQUARE, 128, &AT_THE_WHEEL)?;
+    let file = film(chapter, SQUARE, 64, &AT_THE_WHEEL)?;
     let shown = |moments: u32| exhibit(&frame(&file, 1.0, moments)?, format!("{moments} moments"));
     let exhibits = [2, 4, 16, 64].map(shown).into_iter().collect::<Result<Vec<_>>>()?;
     Ok(hang(figure, &exhibits, 4, &gallery_foot(chapter, figure, SQUARE)))
