@@ -17,8 +17,8 @@ use bevy_ecs::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Up to this many lights, one is chosen by power alone, which costs next to nothing; of more, `cargo bench --bench
-/// many_lights` shows how much less noise a hierarchy leaves.
+/// Up to this many lights, one is chosen by power alone, which costs next to nothing; of more, a hierarchy leaves less
+/// noise.
 const FEW: usize = 8;
 
 /// Area lights that can be sampled, in spawn order of their shapes; after them the triangles of emitting meshes, each
