@@ -298,7 +298,7 @@ mod tests {
                 let mut triangles: Vec<TriangleRow> =
                     (0..count).map(|_| TriangleRow::new([point(), point(), point()])).collect();
                 // One twice, and one with an edge of another.
-                triangles.push(triangles[0].clone());
+                triangles.push(triangles[0]);
                 let [a, b, _] = triangles[0].corners;
                 triangles.push(TriangleRow::new([a, b, point()]));
                 let (mut origins, mut directions) = (Vec::new(), Vec::new());
