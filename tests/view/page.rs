@@ -131,7 +131,7 @@ fn columns_modes_stages_and_the_pixel_are_shown() {
 
     let direct = next_picture(&mut browser, |browser| browser.key("3"));
     assert_ne!(direct, first, "path tracing shows more light");
-    assert_eq!(browser.value("document.querySelector('#modes [aria-pressed=true]').textContent"), "3path traced");
+    browser.until("document.querySelector('#modes [aria-pressed=true]').textContent === '3path traced'");
     assert_eq!(next_picture(&mut browser, |browser| browser.key("1")), first);
 
     click(&mut browser, "[data-panel=stages]");
