@@ -1,7 +1,7 @@
 """What other programs read of pinhole's OpenEXR files.
 
-    python3 -m venv /tmp/readers && /tmp/readers/bin/pip install OpenEXR OpenImageIO mitsuba bpy
-    cargo build --release && /tmp/readers/bin/python tests/bench/readers.py target/release/pinhole
+    python3 -m venv FOLDER && FOLDER/bin/pip install OpenEXR OpenImageIO mitsuba bpy
+    cargo build --release && FOLDER/bin/python tests/bench/readers.py target/release/pinhole
 
 Every kind of file is written by the program and read by OpenEXR, OpenImageIO, Mitsuba and Blender (bpy), which are asked
 for names, types, windows, chromaticities, matrices and numbers; what is not installed is skipped, and said.

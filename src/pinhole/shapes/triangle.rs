@@ -8,7 +8,9 @@ use super::ray_block::{
 };
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::normal_world_from_object;
-use super::triangle_edges::{Edges, ROUNDING, Shear, edge_values, edges, longest_axis, triangle_intersection};
+use super::triangle_edges::{
+    Edges, ROUNDING, Shear, edge_values_by_any_axis, edges, longest_axis, triangle_intersection,
+};
 use super::triangle_filter::triangle_rows;
 use super::uv::{UvSlope, planar_slope};
 use crate::bvh::by_axis;
@@ -325,21 +327,13 @@ pub(super) const EXACT_BELOW: f64 = 1.0 / (1_u64 << 24) as f64;
 /// same bits as those of [`TriangleHit::of`](super::TriangleHit::of), without a branch.
 #[inline(always)]
 fn barycentrics(origin: [f64; 3], direction: [f64; 3], corners: [[f64; 3]; 3]) -> ([f64; 3], bool, bool) {
-    let [x, y, z] = direction.map(f64::abs);
-    let by_z = (z >= x) & (z >= y);
-    let by_y = !by_z & (y > x);
-    let pick = |one: f64, other: f64, last: f64| if by_z { one } else { if by_y { other } else { last } };
-    let permuted = |[x, y, z]: [f64; 3]| [pick(x, z, y), pick(y, x, z), pick(z, y, x)];
-    let [x, y, z] = permuted(direction);
-    let shear = [x / z, y / z, 1.0 / z];
     let rounding = ROUNDING * (norm(origin) + size_of_corners(corners));
-    let corners = [permuted(corners[0]), permuted(corners[1]), permuted(corners[2])];
-    let ([u, v, w], _, error) = edge_values(corners, permuted(origin), shear, rounding);
+    let (([u, v, w], _, error), shear_z) = edge_values_by_any_axis(origin, direction, corners, rounding);
     let whole = u + v + w;
     let [u, v, w] = [not_negative(u / whole), not_negative(v / whole), not_negative(w / whole)];
     let sum = u + v + w;
     let certain = 4.0 * error < 0.25 * UNIT_ROUNDOFF * whole.abs();
-    ([u / sum, v / sum, w / sum], whole * shear[2] > 0.0, certain)
+    ([u / sum, v / sum, w / sum], whole * shear_z > 0.0, certain)
 }
 
 #[inline(always)]

@@ -387,6 +387,25 @@ pub(super) fn edge_values(corners: [[f64; 3]; 3], origin: [f64; 3], shear: [f64;
     (areas, [az, bz, cz], rounding * (lengths + rounding))
 }
 
+/// The edge functions of a triangle and the scale of depths along a ray, with axes permuted by the direction's largest
+/// component: the same bits as [`edges`], without a branch, for loops over rays whose axes differ.
+#[inline(always)]
+pub(super) fn edge_values_by_any_axis(
+    origin: [f64; 3],
+    direction: [f64; 3],
+    [a, b, c]: [[f64; 3]; 3],
+    rounding: f64,
+) -> (EdgeValues, f64) {
+    let [x, y, z] = direction.map(f64::abs);
+    let by_z = (z >= x) & (z >= y);
+    let by_y = !by_z & (y > x);
+    let pick = |one: f64, other: f64, last: f64| if by_z { one } else { if by_y { other } else { last } };
+    let permuted = |[x, y, z]: [f64; 3]| [pick(x, z, y), pick(y, x, z), pick(z, y, x)];
+    let [x, y, z] = permuted(direction);
+    let shear = [x / z, y / z, 1.0 / z];
+    (edge_values([permuted(a), permuted(b), permuted(c)], permuted(origin), shear, rounding), shear[2])
+}
+
 /// A vertex in the sheared space of a ray, but for the scale of its depth.
 #[inline(always)]
 fn sheared([x, y, z]: [f64; 3], origin: [f64; 3], shear: [f64; 3]) -> [f64; 3] {

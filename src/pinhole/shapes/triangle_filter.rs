@@ -1,12 +1,12 @@
 //! Which of a few triangles a ray may hit first, in f32 with error bounds: f64 then has one or two to test, not all.
 //!
-//! It decides nothing: where a bound leaves two answers, all triangles are tested in f64, so that the result is to the
-//! last bit that of testing all of them.
+//! It decides nothing: whatever a bound leaves open is tested in f64, so that the result is to the last bit that of testing
+//! all of them.
 
 use super::l1_norm;
 use super::ray_block::{LANES, RaySlices};
 use super::triangle::{TriangleRow, exact_triangle_t};
-use super::triangle_edges::{ROUNDING, certain_t, edge_values, rows_by_axis};
+use super::triangle_edges::{ROUNDING, certain_t, edge_values_by_any_axis, rows_by_axis};
 use glam::DVec3;
 use multiversion::multiversion;
 
@@ -14,6 +14,8 @@ use multiversion::multiversion;
 const OF_SUM: f64 = 1.0 / (1 << 20) as f64;
 /// Sizes that leave products of three lengths within what f32 represents.
 const USABLE: [f64; 2] = [1e-12, 1e12];
+/// Of |R|₁, which is from 1 to √3 for a direction.
+const LENGTHS: [f32; 2] = [0.5, 4.0];
 /// What products too small for f32 may add to a sum.
 const UNDERFLOW: f64 = 1e-18;
 /// 2⁻²⁸: f32's unit roundoff over that of the cross products in f64, with room to spare.
@@ -97,7 +99,9 @@ fn first_hits(triangles: &[TriangleInF32], [o, d]: &Rays, until: &[f32; LANES]) 
         c[2][lane] = o[0][lane] * d[1][lane] - o[1][lane] * d[0][lane];
         size[lane] = o[0][lane].abs() + o[1][lane].abs() + o[2][lane].abs();
         length[lane] = d[0][lane].abs() + d[1][lane].abs() + d[2][lane].abs();
-        product[lane] = size[lane] * length[lane];
+        // Of other rays f32 says nothing: products with theirs may be 0 or infinite.
+        let is_usable = (size[lane] < USABLE[1] as f32) & (length[lane] > LENGTHS[0]) & (length[lane] < LENGTHS[1]);
+        product[lane] = if is_usable { size[lane] * length[lane] } else { f32::INFINITY };
         (low[lane], high[lane]) = (until[lane] * (1.0 - OF_T), until[lane] * (1.0 + OF_T));
     }
     let (mut found, mut count) = ([NONE; LANES], [0_u32; LANES]);
@@ -180,18 +184,10 @@ impl Pairs {
         for lane in 0..LANES {
             let at = |vectors: &[[f64; LANES]; 3]| [vectors[0][lane], vectors[1][lane], vectors[2][lane]];
             let (origin, direction) = (at(&self.o), at(&self.d));
-            let [x, y, z] = direction.map(f64::abs);
-            let by_z = (z >= x) & (z >= y);
-            let by_y = !by_z & (y > x);
-            let pick = |one: f64, other: f64, last: f64| if by_z { one } else { if by_y { other } else { last } };
-            let permuted = |[x, y, z]: [f64; 3]| [pick(x, z, y), pick(y, x, z), pick(z, y, x)];
-            let [a, b, c] = [at(&self.corners[0]), at(&self.corners[1]), at(&self.corners[2])];
-            let [x, y, z] = permuted(direction);
-            let shear = [x / z, y / z, 1.0 / z];
+            let corners = [at(&self.corners[0]), at(&self.corners[1]), at(&self.corners[2])];
             let size = origin[0].abs() + origin[1].abs() + origin[2].abs() + self.size[lane];
-            let corners = [permuted(a), permuted(b), permuted(c)];
-            let values = edge_values(corners, permuted(origin), shear, ROUNDING * size);
-            let t = certain_t(values, shear[2]);
+            let (values, shear_z) = edge_values_by_any_axis(origin, direction, corners, ROUNDING * size);
+            let t = certain_t(values, shear_z);
             (self.t[lane], self.certain[lane]) = (t.unwrap_or(f64::INFINITY), u32::from(t.is_some()));
         }
     }
@@ -274,27 +270,23 @@ pub(super) fn triangle_rows(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Numbers in [0, 1).
-    fn numbers() -> impl FnMut() -> f64 {
-        let mut state = 1_u64;
-        move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        }
-    }
+    use crate::measure::draws::Draws;
 
     /// Rays at random, at corners, at edges, in the planes of triangles, from their surfaces, with no direction, with no
-    /// number; at scales at which f32 is exact to nothing.
+    /// number, of lengths and from distances at which products in f32 are 0 or infinite; at scales at which f32 is exact to
+    /// nothing.
     #[test]
     fn hits_are_those_of_testing_all_in_f64() {
-        let mut number = numbers();
+        let mut draws = Draws::new(2713, 0);
+        const SCALES: [f64; 12] = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1e-42, 3e-30, 1e-12, 0.1, 10.0, 1e25];
+        const DISTANCES: [f64; 4] = [1e4, 1e11, 1e20, 1e36];
         let (mut rows_tried, mut in_doubt) = (0_usize, 0_usize);
         let scales =
             [(1.0, 0.0), (300.0, 900.0), (1e-3, 1.0), (1.0, 1e6), (1e-9, 0.0), (1e9, 0.0), (1e-16, 0.0), (1e20, 0.0)];
         for (scale, away) in scales {
             for count in [1_usize, 2, 12, 40] {
-                let mut point = || DVec3::new(number(), number(), number()) * 2.0 * scale - DVec3::splat(scale - away);
+                let mut point =
+                    || DVec3::new(draws.unit(), draws.unit(), draws.unit()) * 2.0 * scale - DVec3::splat(scale - away);
                 let mut triangles: Vec<TriangleRow> =
                     (0..count).map(|_| TriangleRow::new([point(), point(), point()])).collect();
                 // One twice, and one with an edge of another.
@@ -316,8 +308,10 @@ mod tests {
                         11 => DVec3::ZERO,
                         12 => DVec3::NAN,
                         13 => DVec3::new(0.0, 0.0, f64::INFINITY),
-                        _ => (to - from).normalize_or(DVec3::X),
+                        _ => (to - from).normalize_or(DVec3::X) * SCALES[row % 16 % SCALES.len()],
                     };
+                    // As far away against its direction.
+                    let from = if row % 29 == 20 { from - direction * DISTANCES[row % DISTANCES.len()] } else { from };
                     origins.push(if row == 14 { DVec3::NAN } else { from }.as_vec3());
                     directions.push(direction.as_vec3());
                 }
