@@ -215,7 +215,7 @@ impl Cell {
         };
         let (all, halves) = (whole(self), self.halves());
         let refined: f64 = halves.iter().map(|&half| whole(half)).sum();
-        if depth == 0 || (all - refined).abs() < 1e-5 {
+        if depth == 0 || (all - refined).abs() < 1e-6 {
             return refined;
         }
         halves.iter().map(|half| half.integral(rule, depth - 1, f)).sum()

@@ -69,7 +69,9 @@ fn wide_and_narrow(name: &str, width: u32, height: u32) {
     assert_eq!(browser.value("document.getElementById('automatic').checked"), true);
     assert!(next_picture(&mut browser, |browser| set(browser, "columns", "")) == first);
 
-    // The pixel's mean with its samples; a second by keys; two pinned and compared.
+    // The pixel's mean with its samples; a second by keys; two pinned and compared. The scale has left its place by then.
+    browser.until("document.getElementById('legend').hidden");
+    let at = middle(&mut browser);
     browser.mouse("mouseMoved", at, "none", 0);
     browser.until("document.querySelectorAll('#readings tr')[1]?.children[1]?.textContent === '120, 67'");
     browser.key("p");
