@@ -7,10 +7,11 @@ use glam::{DVec2, DVec3};
 use pinhole::extract::{ImageFrame, LensTable, PerspectiveProjection, tan_half};
 use pinhole::intersect::{Hits, NO_SHAPE};
 use pinhole::plan::{Census, Column, Table, plan};
-use pinhole::rays::{CameraRays, LensPoints, RasterPoints, WorldRays, camera_ray_lens, disk_point, polygon_point};
+use pinhole::rays::{CameraRays, LensPoints, RasterPoints, WorldRays, camera_ray_lens, polygon_point};
 use pinhole::render::inspect;
 use pinhole::sample::{Purpose, uniform};
 use pinhole::scene::*;
+use pinhole_lab::naive::lens::onto_disk;
 use scenes::{Eye, Setup, film, full, named, offer, textured, turned};
 use std::f64::consts::PI;
 
@@ -27,7 +28,7 @@ fn opening(blades: u32, turn: f64) -> LensTable {
 }
 
 fn point_on(lens: &LensTable, u: DVec2) -> DVec2 {
-    if lens.corners.is_empty() { disk_point(u) } else { polygon_point(u, &lens.corners) }
+    if lens.corners.is_empty() { onto_disk(u) } else { polygon_point(u, &lens.corners) }
 }
 
 /// How far a χ² of `cells` cells lies above its mean, in standard deviations.
@@ -102,7 +103,7 @@ fn what_is_in_focus_is_hit_by_all_rays() {
                 let tangent = tan_half(Degrees(fov));
                 for number in 0..400 {
                     let screen = 2.0 * point_of_square(2 * number) - DVec2::ONE;
-                    let lens = disk_point(point_of_square(2 * number + 1)) * radius;
+                    let lens = onto_disk(point_of_square(2 * number + 1)) * radius;
                     let direction = camera_ray_lens(screen, tangent, lens, focus);
                     assert!((direction.length() - 1.0).abs() < 4e-16, "{direction}");
                     // At the depth f, in the plane, from the lens; by what f64 rounds there.

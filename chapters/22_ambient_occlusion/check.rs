@@ -4,10 +4,10 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::SamplingTable;
 use pinhole::intersect::Surfaces;
-use pinhole::material::{cosine_direction, frame_of};
+use pinhole::material::frame_of;
 use pinhole::plan::{Shared, VectorRowsMut};
 use pinhole::rays::{Depth, SampleNumber, draws_of_two};
-use pinhole::sample::Purpose;
+use pinhole::sample::{Purpose, disk_point};
 use pinhole::shade::ShadowRays;
 use pinhole::{follow, rays};
 use pinhole_lab::exercise::apart::absolute;
@@ -33,7 +33,7 @@ fn question() -> Question<Input, [f64; 3]> {
         pinhole_has: ("src/pinhole/material/frame.rs", "cosine_direction"),
         probes: asked(),
         tell: |(u, v)| format!("u {}, v {}", u.shown(), v.shown()),
-        right: |&(u, v)| cosine_direction([u, v]).into(),
+        right: |&(u, v)| raised(&[u.sqrt(), TAU * v, (1.0 - u).sqrt()]),
         apart: |yours, right| absolute(yours, right),
         allowed: 1e-12,
         measured: "of each part",
@@ -160,9 +160,9 @@ fn mine(ask: Ask<Input, [f64; 3]>, setting: &Setting<'_>) -> StandIn {
                 let (tile, samples, _) = place;
                 let draws = rays::Draws { sampling: &sampling, tile, number, samples, paths: None, depth: Depth(0) };
                 draws_of_two(&draws, Purpose::Direction, &rays.row, &mut points);
-                for (ray, &[u, v]) in points.iter().enumerate() {
+                for (ray, &drawn) in points.iter().enumerate() {
                     let row = rays.row[ray] as usize;
-                    if let Some(own) = ask.at(place, row, (u, v)) {
+                    if let Some(own) = ask.at(place, row, polar(drawn)) {
                         let direction = frame_of(surfaces.get(row).normal.as_dvec3()) * DVec3::from(own);
                         rays.direction.put(ray, direction.as_vec3());
                     }
@@ -170,6 +170,13 @@ fn mine(ask: Ask<Input, [f64; 3]>, setting: &Setting<'_>) -> StandIn {
             }
         },
     )
+}
+
+/// The area nearer to the middle than pinhole's point of the disk, and its turn.
+fn polar(drawn: [f64; 2]) -> Input {
+    let on_disk = disk_point(drawn);
+    let [x, y] = on_disk.point();
+    (on_disk.squared(), (libm::atan2(y, x) / TAU).rem_euclid(1.0))
 }
 
 /// The direction for each pair of numbers: u to the right, v down.

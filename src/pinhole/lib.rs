@@ -48,14 +48,14 @@
 //!
 //! 1. [`scene`]: the components that describe a scene.
 //! 2. [`plan`]: which stages the scene needs, and why.
-//! 3. [`material`]: how surfaces scatter light, one file for each BSDF.
-//! 4. [`cameras`]: what a camera is, and the mathematics of each.
-//! 5. [`filters`]: what a reconstruction filter is, and how each is sampled.
-//! 6. [`bvh`]: bounding volume hierarchies, and rays through them.
-//! 7. [`shapes`]: what a shape is, and the mathematics of each.
-//! 8. [`lights`]: what a light without an area is, and the mathematics of each.
-//! 9. [`extract`]: entities → tables, as structures of arrays.
-//! 10. [`sample`]: samplers and random numbers.
+//! 3. [`filters`]: what a reconstruction filter is, and how each is sampled.
+//! 4. [`sample`]: samplers and random numbers.
+//! 5. [`material`]: how surfaces scatter light, one file for each BSDF.
+//! 6. [`cameras`]: what a camera is, and the mathematics of each.
+//! 7. [`bvh`]: bounding volume hierarchies, and rays through them.
+//! 8. [`shapes`]: what a shape is, and the mathematics of each.
+//! 9. [`lights`]: what a light without an area is, and the mathematics of each.
+//! 10. [`extract`]: entities → tables, as structures of arrays.
 //! 11. [`rays`]: raster → NDC → screen → camera → world.
 //! 12. [`intersect`]: rays → the closest hit and its surface.
 //! 13. [`rasterise`]: triangles and boxes → the same hits, in the other order.
@@ -77,13 +77,16 @@ pub use pinhole_scene as scene;
 pub mod plan;
 
 #[doc(hidden)]
+pub mod filters;
+
+#[doc(hidden)]
+pub mod sample;
+
+#[doc(hidden)]
 pub mod material;
 
 #[doc(hidden)]
 pub mod cameras;
-
-#[doc(hidden)]
-pub mod filters;
 
 #[doc(hidden)]
 pub mod bvh;
@@ -96,9 +99,6 @@ pub mod lights;
 
 #[doc(hidden)]
 pub mod extract;
-
-#[doc(hidden)]
-pub mod sample;
 
 pub mod rays;
 

@@ -10,6 +10,7 @@ use pinhole::material::{
     RoughGlassTable, ShadingContext, Transport,
 };
 use pinhole::plan::Census;
+use pinhole::sample::square_of_disk;
 use pinhole::scene::{Metal, MetallicRoughnessMap, Principled, Rgb, RoughGlass};
 use pinhole_lab::measure::chi_squared::{Bins, p_value};
 use pinhole_lab::measure::draws::Draws;
@@ -107,7 +108,7 @@ fn albedo(example: &Example, context: &ShadingContext, to_eye: DVec3) -> f64 {
     let mut sum = 0.0;
     for index in 0..COUNT {
         let at = |power: f64| (0.5 + f64::from(index) / power).fract();
-        let (numbers, choice) = ([(f64::from(index) + 0.5) / f64::from(COUNT), at(G)], at(G * G));
+        let (numbers, choice) = (square_of_disk((f64::from(index) + 0.5) / f64::from(COUNT), at(G)), at(G * G));
         let Some(sample) = example.bsdf.sample(context, to_eye, numbers, choice) else { continue };
         let (light, whole) = (sample.to_light, sample.weight[0]);
         let pdf = example.bsdf.pdf(context, light, to_eye);

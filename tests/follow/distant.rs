@@ -116,7 +116,7 @@ fn evening(scale: f64) -> Environment {
 
 #[test]
 fn light_from_an_environment_brings_what_the_camera_s_paths_bring() {
-    agrees("an evening", &|| under(evening(1.0)), 16);
+    agrees("an evening", &|| under(evening(1.0)), 64); // few paths find the sun, so fewer are no normal distribution
 }
 
 /// BSDF sampling finds the light of an even sky or a gradient with less variance.

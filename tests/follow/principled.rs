@@ -3,6 +3,7 @@
 use super::*;
 use pinhole::material::{ByCosine, Parameters, ggx_brdf, ggx_sample, multiple_scattering_albedo, single_scattering};
 use pinhole::plan::Table;
+use pinhole::sample::DiskPoint;
 use std::f64::consts::FRAC_1_PI;
 
 const DIELECTRIC: f64 = 0.04;
@@ -120,7 +121,7 @@ fn a_mapped_white_metal_loses_nothing_however_smooth() {
                 let s = (at as f64 + 0.5) / LATTICE[0] as f64;
                 let turn = (at * LATTICE[1] % LATTICE[0]) as f64 / LATTICE[0] as f64;
                 // Steep microfacets get most of the points.
-                let sample = ggx_sample(eye, alpha, [1.0 - s * s * s, turn]);
+                let sample = ggx_sample(eye, alpha, DiskPoint::polar(1.0 - s * s * s, turn));
                 sample.map_or(0.0, |sample| 3.0 * s * s * sample.weight / LATTICE[0] as f64)
             };
             let once: f64 = (0..LATTICE[0]).map(weight).sum();

@@ -215,7 +215,8 @@ fn films() -> World {
 fn frosted_blocks() -> World {
     let mut world = toggled(&[Toggle::Light, Toggle::Shadow, Toggle::Plane]);
     let (camera, lamp) = (named(&mut world, "camera"), named(&mut world, "lamp"));
-    world.entity_mut(camera).insert(Integrator::PATH);
+    let sampling = Sampling { samples: 16, ..Sampling::default() };
+    world.entity_mut(camera).insert((Integrator::PATH, sampling));
     world.entity_mut(lamp).insert(Placement::at(0.0, 0.5, 0.4));
     for (middle, ior) in [(0.5, 1.8), (0.9 + 1.5e-6, 1.5)] {
         let block = (Cuboid { size: DVec3::new(1.2, 0.4, 1.2) }, Placement::at(0.0, middle, 0.4));

@@ -4,13 +4,12 @@ use super::Figure;
 use super::gallery::{Exhibit, gallery_foot, hang};
 use super::picture::Picture;
 use super::svg::Drawing;
-use crate::naive::lens::radius_at_random;
+use crate::naive::lens::{onto_disk, radius_at_random};
 use crate::naive::mistake::{moments_in_turn, opening_filled_by};
 use bevy_ecs::prelude::*;
 use pinhole::Chapter;
 use pinhole::Result;
 use pinhole::plan::Stage;
-use pinhole::rays::disk_point;
 use pinhole::scene::{
     Aperture, Degrees, EquirectangularCamera, FisheyeCamera, FovAxis, Lens, PerspectiveCamera, Sampling, Shutter,
 };
@@ -53,7 +52,7 @@ pub fn draw_openings(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         Ok(Exhibit { picture, lines: vec![line.into()] })
     };
     let exhibits = [
-        exhibit(round, Some(opening_filled_by(disk_point)), "equal areas"),
+        exhibit(round, Some(opening_filled_by(onto_disk)), "equal areas"),
         exhibit(round, Some(opening_filled_by(radius_at_random)), "a random radius"),
         exhibit(Lens { blades: 3, turn: Degrees(90.0), ..round }, None, "three edges"),
     ];

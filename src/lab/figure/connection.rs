@@ -14,6 +14,7 @@ use pinhole::lights::{MAX_TARGETS_SOLID_ANGLE, Target, direction_to_targets};
 use pinhole::material::{cosine_direction, frame_of, mirror_direction, refract};
 use pinhole::plan::{Census, Table};
 use pinhole::rays::join_camera;
+use pinhole::sample::square_of_disk;
 use pinhole::scene::LookAt;
 use pinhole::shapes::{AnyShape, sphere_t};
 use pinhole::{Chapter, Overrides};
@@ -202,9 +203,10 @@ impl Plane {
         let (centre, radius) = self.lamp;
         let target = Target { centre: self.ball.0, radius: self.ball.1 };
         let start = centre + (target.centre - centre).normalize() * radius;
-        let sampled = |numbers: [f64; 2]| {
+        let sampled = |[fraction, turn]: [f64; 2]| {
             let limit = MAX_TARGETS_SOLID_ANGLE;
-            let chosen = direction_to_targets(std::slice::from_ref(&target), start, limit, 0.0, numbers);
+            let chosen =
+                direction_to_targets(std::slice::from_ref(&target), start, limit, 0.0, square_of_disk(fraction, turn));
             chosen.map_or(DVec3::NEG_Y, |(direction, _)| direction)
         };
         let direction = self.in_section(START, true, sampled);
@@ -235,7 +237,7 @@ impl Plane {
     /// From the floor on in a direction that BSDF sampling may choose, through the ball.
     fn camera_path(&self, from: DVec3) -> Vec<DVec3> {
         let frame = frame_of(DVec3::Y);
-        let sampled = |numbers: [f64; 2]| frame * cosine_direction(numbers);
+        let sampled = |[fraction, turn]: [f64; 2]| frame * cosine_direction(square_of_disk(fraction, turn));
         let pair = self.in_section(BOUNCE, true, sampled);
         // Both are equally high; the one that leads back to the ball is wanted.
         let level = DVec3::new(pair.x, 0.0, pair.z).dot(self.along);

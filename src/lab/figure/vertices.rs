@@ -11,6 +11,7 @@ use pinhole::Result;
 use pinhole::extract::{AreaLightTable, MaterialTable, NO_ROW, ShapeTable, SphereTable, any_shapes, camera_entity};
 use pinhole::material::{Bsdf, MatteTable, Parameters, ShadingContext, frame_of};
 use pinhole::plan::{Census, Table};
+use pinhole::sample::square_of_disk;
 use pinhole::scene::LookAt;
 use pinhole::shade::irradiance_from_area;
 use pinhole::shapes::{AnyShape, Emitter, RayHit, point_on};
@@ -158,7 +159,7 @@ impl Room {
         // The azimuth of the section's plane, across x.
         let along = frame.transpose() * DVec3::X.cross(vertex.normal) * number.signum();
         let azimuth = libm::atan2(along.y, along.x) / TAU;
-        let numbers = [number.abs(), azimuth.rem_euclid(1.0)];
+        let numbers = square_of_disk(number.abs(), azimuth.rem_euclid(1.0));
         match MatteTable.sample(&ShadingContext::opaque(0, Parameters::coloured(vertex.albedo)), DVec3::Z, numbers, 0.0)
         {
             Some(sample) => (frame * sample.to_light, sample.weight),

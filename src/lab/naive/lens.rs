@@ -14,6 +14,12 @@ pub fn focus_along_the_ray(screen: DVec2, tan_half_vertical: f64, lens: DVec2, f
 }
 // ANCHOR_END: focus_along_the_ray
 
+/// A point of the disk by pinhole's mapping, which these are compared with.
+#[must_use]
+pub fn onto_disk(u: DVec2) -> DVec2 {
+    pinhole::sample::disk_point(u.into()).point().into()
+}
+
 // ANCHOR: radius_at_random
 /// A point of the disk by a random angle and a random radius: half of all points land on the inner quarter of the area.
 #[must_use]

@@ -55,7 +55,7 @@ pub struct LightPathTable {
     pub mesh: Vec<MeshLights>,
     /// The cumulative distribution in units of 2⁻³², as in [`super::AreaLightTable`].
     pub until: Vec<u64>,
-    /// The probability of choosing each light: half in proportion to its power, half uniform.
+    /// The probability of choosing each light: a quarter in proportion to its power, the rest uniform.
     pub probability: Vec<f64>,
     /// The mirrors and the glass, towards which they start.
     pub targets: Targets,

@@ -1,6 +1,7 @@
 //! Sampling rays in which light leaves towards mirrors and glass.
 
 use super::light::{LightStart, StartDraws};
+use crate::sample::disk_point;
 use crate::shapes::emitter::{cone_direction, cone_versine};
 use crate::shapes::{AnyShape, Bounds, l1_norm};
 use glam::DVec3;
@@ -88,8 +89,8 @@ impl Targets {
         }
         let Some(target) = self.sphere.get(chosen) else { return LightStart::default() };
         let (right, up) = direction.any_orthonormal_pair();
-        let (sine, cosine) = libm::sincos(TAU * draws.point[1]);
-        let from_centre = (right * cosine + up * sine) * (self.disk(target) * draws.point[0].sqrt());
+        let [x, y] = disk_point(draws.point).point();
+        let from_centre = (right * x + up * y) * self.disk(target);
         let middle = target.centre + from_centre;
 
         let (mut passed, mut first) = (0, f64::INFINITY);

@@ -1,5 +1,6 @@
+use crate::sample::disk_point;
 use glam::{DMat3, DVec3};
-use std::f64::consts::{FRAC_1_PI, TAU};
+use std::f64::consts::FRAC_1_PI;
 
 // ANCHOR: frame_of
 /// An orthonormal frame about a unit normal: two tangents and the normal, the columns of a rotation.
@@ -22,9 +23,10 @@ pub fn frame_of(normal: DVec3) -> DMat3 {
 /// A cosine-weighted direction about +z: two numbers in [0, 1) give a uniform point of the unit disk, which is
 /// projected up to the hemisphere (Malley's method).
 #[inline(always)]
-pub fn cosine_direction([u, v]: [f64; 2]) -> DVec3 {
-    let (radius, angle) = (u.sqrt(), TAU * v);
-    DVec3::new(radius * libm::cos(angle), radius * libm::sin(angle), (1.0 - u).sqrt())
+pub fn cosine_direction(u: [f64; 2]) -> DVec3 {
+    let on_disk = disk_point(u);
+    let [x, y] = on_disk.point();
+    DVec3::new(x, y, (1.0 - on_disk.squared()).sqrt())
 }
 
 /// The pdf of [`cosine_direction`] for directions of this cosine, in 1/sr; 0 at the horizon and below.
@@ -39,6 +41,7 @@ mod tests {
     use super::*;
     use crate::measure::chi_squared::{Bins, p_value};
     use crate::measure::draws::Draws;
+    use std::f64::consts::TAU;
 
     /// The rounding unit of f64.
     const U: f64 = 0.5 * f64::EPSILON;

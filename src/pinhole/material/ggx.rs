@@ -1,6 +1,7 @@
 use super::mirror_direction;
+use crate::sample::DiskPoint;
 use glam::DVec3;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 // ANCHOR: ggx_d
 /// The distribution of microfacet normals D: microfacet area per unit of surface area and solid angle of normals about
@@ -52,21 +53,21 @@ pub fn ggx_brdf(to_light: DVec3, to_eye: DVec3, alpha: f64) -> f64 {
 // ANCHOR_END: ggx_brdf
 
 // ANCHOR: visible_normal
-/// A microfacet normal sampled from those visible from `to_eye`, in proportion to their projected area; the two numbers
-/// are in [0, 1).
+/// A microfacet normal sampled from those visible from `to_eye`, in proportion to their projected area, by a uniform point
+/// of the unit disk.
 ///
 /// Stretching by α makes the microsurface a hemisphere; the half vector between the direction to the eye and a uniform
 /// point of the cap of directions that the hemisphere reflects the eye to is a visible normal of it (Dupuy and Benyoub
 /// 2023).
 #[inline(always)]
-pub fn visible_normal(to_eye: DVec3, alpha: f64, [u, v]: [f64; 2]) -> DVec3 {
+pub fn visible_normal(to_eye: DVec3, alpha: f64, on_disk: DiskPoint) -> DVec3 {
     let eye = DVec3::new(alpha * to_eye.x, alpha * to_eye.y, to_eye.z).normalize();
     // The height of the point on the cap above −eye.z, computed separately so that no digit is lost.
-    let rise = (1.0 - u) * (1.0 + eye.z);
+    let rise = (1.0 - on_disk.squared()) * (1.0 + eye.z);
     let height = rise - eye.z;
     let across = ((1.0 - height) * (1.0 + height)).max(0.0).sqrt();
-    let angle = TAU * v;
-    let half = DVec3::new(across * libm::cos(angle) + eye.x, across * libm::sin(angle) + eye.y, rise);
+    let [x, y] = on_disk.at(across);
+    let half = DVec3::new(x + eye.x, y + eye.y, rise);
     DVec3::new(alpha * half.x, alpha * half.y, half.z).normalize()
 }
 
@@ -94,13 +95,13 @@ pub struct MicrofacetSample {
 }
 
 // ANCHOR: ggx_sample
-/// Samples the direction to the light for rough metal; none where it leads below the surface, to a second microfacet.
+/// Samples the direction to the light for rough metal by a uniform point of the unit disk; none where it leads below the surface, to a second microfacet.
 #[inline(always)]
-pub fn ggx_sample(to_eye: DVec3, alpha: f64, numbers: [f64; 2]) -> Option<MicrofacetSample> {
+pub fn ggx_sample(to_eye: DVec3, alpha: f64, on_disk: DiskPoint) -> Option<MicrofacetSample> {
     if to_eye.z <= 0.0 {
         return None;
     }
-    let to_light = mirror_direction(-to_eye, visible_normal(to_eye, alpha, numbers));
+    let to_light = mirror_direction(-to_eye, visible_normal(to_eye, alpha, on_disk));
     let pdf = visible_pdf(to_light, to_eye, alpha);
     (to_light.z > 0.0 && pdf > 0.0).then(|| MicrofacetSample { to_light, pdf, weight: ggx_g1(to_light, alpha) })
 }
@@ -113,6 +114,7 @@ mod tests {
     use crate::measure::draws::Draws;
     use crate::measure::exact::{Dyadic, relative_error};
     use crate::measure::hemisphere::Quadrature;
+    use crate::sample::disk_point;
     use std::f64::consts::{FRAC_PI_2, LN_2};
 
     const ALPHAS: [f64; 4] = [0.005, 0.05, 0.3, 1.0];
@@ -212,7 +214,7 @@ mod tests {
                 assert!((bins.total() / SAMPLES as f64 - 1.0).abs() < 1e-5, "α {alpha}, {angle}°: {}", bins.total());
                 for index in 0..SAMPLES {
                     let mut draws = Draws::new((1930 + 4 * which + other) as u64, index);
-                    let half = visible_normal(eye, alpha, [draws.unit(), draws.unit()]);
+                    let half = visible_normal(eye, alpha, disk_point([draws.unit(), draws.unit()]));
                     let half = (mirror_direction(-eye, half) + eye).normalize();
                     let place = |lines: &[f64], slope: f64| {
                         lines.partition_point(|line| *line <= mapped(slope)).clamp(1, lines.len() - 1) - 1
@@ -255,7 +257,9 @@ mod tests {
         for index in 0..20_000 {
             let mut draws = Draws::new(1936, index);
             let (alpha, eye) = (draws.power_of_ten(-3.0, 0.0), eye_at(draws.between(0.0, 89.99)));
-            let Some(microfacet_sample) = ggx_sample(eye, alpha, [draws.unit(), draws.unit()]) else { continue };
+            let Some(microfacet_sample) = ggx_sample(eye, alpha, disk_point([draws.unit(), draws.unit()])) else {
+                continue;
+            };
             let sent = ggx_brdf(microfacet_sample.to_light, eye, alpha) * microfacet_sample.to_light.z;
             assert!((microfacet_sample.weight * microfacet_sample.pdf / sent - 1.0).abs() < 1e-9, "{index}");
             tried += 1;
@@ -274,7 +278,7 @@ mod tests {
                 let (mut sum, mut squares) = (0.0, 0.0);
                 for index in 0..SAMPLES {
                     let mut draws = Draws::new(1937, index);
-                    let microfacet_sample = ggx_sample(eye_at(angle), alpha, [draws.unit(), draws.unit()]);
+                    let microfacet_sample = ggx_sample(eye_at(angle), alpha, disk_point([draws.unit(), draws.unit()]));
                     let weight = microfacet_sample.map_or(0.0, |microfacet_sample| microfacet_sample.weight);
                     assert!((0.0..=1.0).contains(&weight));
                     (sum, squares) = (sum + weight, squares + weight * weight);
@@ -326,11 +330,11 @@ mod tests {
                 for numbers in corners.into_iter().flat_map(|u| corners.map(|v| [u, v])) {
                     tried += 1;
                     if eye.z >= 0.0 {
-                        let half = visible_normal(eye, alpha, numbers);
+                        let half = visible_normal(eye, alpha, disk_point(numbers));
                         assert!(half.z > 0.0 && (half.length() - 1.0).abs() < 1e-14, "{alpha} {angle} {numbers:?}");
                         assert!(visible_pdf(mirror_direction(-eye, half), eye, alpha).is_finite());
                     }
-                    let Some(microfacet_sample) = ggx_sample(eye, alpha, numbers) else { continue };
+                    let Some(microfacet_sample) = ggx_sample(eye, alpha, disk_point(numbers)) else { continue };
                     assert!(
                         microfacet_sample.to_light.is_finite() && microfacet_sample.to_light.z > 0.0 && eye.z > 0.0
                     );

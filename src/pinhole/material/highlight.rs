@@ -7,10 +7,10 @@ use super::{
 };
 use crate::check::{kind_and_name, number, reflectance, triple};
 use crate::plan::{Census, Table};
+use crate::sample::disk_point;
 use crate::scene::{Feeds, Rgb, SceneError};
 use bevy_ecs::prelude::Component;
 use glam::DVec3;
-use std::f64::consts::TAU;
 use std::marker::PhantomData;
 
 // ANCHOR: highlight
@@ -173,11 +173,12 @@ pub trait Lobe: Send + Sync + Sized + 'static {
 ///
 /// For a large exponent cos = u^(1/(n+1)) is so close to 1 that 1 − cos² would cancel, so it comes from `expm1`.
 #[inline(always)]
-pub(super) fn lobe_direction(axis: DVec3, exponent: f64, [u, v]: [f64; 2]) -> DVec3 {
-    let log = libm::log(u) / (exponent + 1.0);
+pub(super) fn lobe_direction(axis: DVec3, exponent: f64, u: [f64; 2]) -> DVec3 {
+    let on_disk = disk_point(u);
+    let log = libm::log1p(-on_disk.squared()) / (exponent + 1.0);
     let (cosine, sine) = (libm::exp(log), (-libm::expm1(2.0 * log)).sqrt());
-    let (y, x) = libm::sincos(TAU * v);
-    frame_of(axis) * DVec3::new(x * sine, y * sine, cosine)
+    let [x, y] = on_disk.at(sine);
+    frame_of(axis) * DVec3::new(x, y, cosine)
 }
 // ANCHOR_END: lobe_direction
 
@@ -279,6 +280,7 @@ mod lobe_tests {
     use crate::measure::chi_squared::{Bins, p_value};
     use crate::measure::draws::Draws;
     use std::f64::consts::PI;
+    use std::f64::consts::TAU;
 
     const EXPONENTS: [f64; 4] = [1.0, 3.0, 12.0, 60.0];
     /// Angles of the direction to the eye, in degrees, and diffuse colours.

@@ -5,6 +5,7 @@ use super::{
 };
 use crate::check::{kind_and_name, number, reflectance};
 use crate::plan::{Census, Table};
+use crate::sample::disk_point;
 use crate::scene::{Metal, Rgb, SceneError};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -102,7 +103,7 @@ impl Bsdf for MetalTable {
     /// By visible microfacet normals; `choice` selects the single- or the multiple-scattering lobe.
     #[inline(always)]
     fn sample(&self, context: &ShadingContext, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
-        let microfacet_sample = || ggx_sample(to_eye, self.alpha[context.row], numbers);
+        let microfacet_sample = || ggx_sample(to_eye, self.alpha[context.row], disk_point(numbers));
         let Some(several) = &self.several else {
             let (sample, colour) = (microfacet_sample()?, self.colour[context.row]);
             let weight = colour.map(|colour| colour * sample.weight);

@@ -7,6 +7,7 @@ use super::{
 };
 use crate::check::{kind_and_name, number, reflectance};
 use crate::plan::{Census, Table};
+use crate::sample::disk_point;
 use crate::scene::{Feeds, MetallicRoughnessMap, Principled, Rgb, SceneError};
 use glam::DVec3;
 use std::collections::HashMap;
@@ -211,9 +212,9 @@ impl Surface<'_> {
         let [of_coat, once] = self.probabilities(to_eye);
         let below = if of_coat > 0.0 { (choice - of_coat) / (1.0 - of_coat) } else { choice };
         let to_light = if let (true, Some(coat)) = (below < 0.0, self.coat) {
-            ggx_sample(to_eye, coat.alpha, numbers)?.to_light
+            ggx_sample(to_eye, coat.alpha, disk_point(numbers))?.to_light
         } else if below < once {
-            ggx_sample(to_eye, self.alpha, numbers)?.to_light
+            ggx_sample(to_eye, self.alpha, disk_point(numbers))?.to_light
         } else {
             cosine_direction(numbers)
         };

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::check::{kind_and_name, number};
 use crate::plan::{Census, Table};
+use crate::sample::disk_point;
 use crate::scene::{Glass, RoughGlass, SceneError};
 use glam::DVec3;
 
@@ -150,7 +151,7 @@ impl Bsdf for RoughGlassTable {
         if to_eye.z <= 0.0 {
             return None;
         }
-        let half = visible_normal(to_eye, alpha, numbers);
+        let half = visible_normal(to_eye, alpha, disk_point(numbers));
         let reflects = choice < fresnel(to_eye.dot(half).max(0.0), eta);
         let to_light = if reflects { mirror_direction(-to_eye, half) } else { refract(-to_eye, half, eta)? };
         let masking = ggx_g1(DVec3::new(to_light.x, to_light.y, to_light.z.abs()), alpha);

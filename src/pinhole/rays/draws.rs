@@ -71,7 +71,20 @@ pub fn draws_of_one(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut V
     into.resize(rows.len(), 0.0);
     with_sampler!(of.sampling.sampler, D => {
         let draw = D::of(of.sample(), purpose);
-        of.of_blocks(rows, into, |pixels, numbers| numbers_of_pixels(draw, of.sampling.seed, pixels, numbers));
+        of.of_blocks(rows, into, |pixels, numbers| {
+            let mut fractions = [0; AT_ONCE];
+            fractions_of_pixels(draw, of.sampling.seed, pixels, &mut fractions[..numbers.len()]);
+            numbers.iter_mut().zip(fractions).for_each(|(number, fraction)| *number = unit(fraction));
+        });
+    });
+}
+
+/// Draws a 32-bit fraction for each of these rows.
+pub fn fractions_of_one(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut Vec<u32>) {
+    into.resize(rows.len(), 0);
+    with_sampler!(of.sampling.sampler, D => {
+        let draw = D::of(of.sample(), purpose);
+        of.of_blocks(rows, into, |pixels, fractions| fractions_of_pixels(draw, of.sampling.seed, pixels, fractions));
     });
 }
 
@@ -101,9 +114,9 @@ fn points_of_pixels<D: Draw>(draw: D, seed: u64, [xs, ys]: &[[u32; AT_ONCE]; 2],
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn numbers_of_pixels<D: Draw>(draw: D, seed: u64, [xs, ys]: &[[u32; AT_ONCE]; 2], into: &mut [f64]) {
-    for (number, (&x, &y)) in into.iter_mut().zip(xs.iter().zip(ys)) {
-        *number = unit(draw.one(PixelKey::new(seed, [x, y])));
+fn fractions_of_pixels<D: Draw>(draw: D, seed: u64, [xs, ys]: &[[u32; AT_ONCE]; 2], into: &mut [u32]) {
+    for (fraction, (&x, &y)) in into.iter_mut().zip(xs.iter().zip(ys)) {
+        *fraction = draw.one(PixelKey::new(seed, [x, y]));
     }
 }
 

@@ -2,10 +2,9 @@ use super::draws::{Rows, draw_two};
 use super::{CameraRays, PixelSamples, RasterPoints, SampleNumber, ScreenPoints, Tile};
 use crate::extract::{LensTable, PerspectiveProjection, SamplingTable, lens_evidence};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRows, VectorRowsMut, column};
-use crate::sample::Purpose;
+use crate::sample::{Purpose, disk_point};
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
-use std::f64::consts::PI;
 
 column! {
     /// The point of the lens at which each ray starts, relative to the lens's centre, in the plane of the lens.
@@ -25,25 +24,6 @@ impl LensPoints {
     }
 }
 
-// ANCHOR: disk_point
-/// Maps a point of the unit square to the unit disk, preserving area and adjacency: the concentric mapping (Shirley and
-/// Chiu 1997).
-///
-/// Concentric squares become circles: the distance from the centre determines the radius, the position along the
-/// square's side the angle.
-#[inline(always)]
-pub fn disk_point(u: DVec2) -> DVec2 {
-    let at = DVec2::new(2.0 * u.x - 1.0, 2.0 * u.y - 1.0);
-    let across = at.x.abs() > at.y.abs();
-    let (radius, along) = if across { (at.x, at.y) } else { (at.y, at.x) };
-    if radius == 0.0 {
-        return DVec2::ZERO;
-    }
-    let (sine, cosine) = libm::sincos(along / radius * (PI / 4.0));
-    if across { DVec2::new(cosine, sine) * radius } else { DVec2::new(sine, cosine) * radius }
-}
-// ANCHOR_END: disk_point
-
 // ANCHOR: polygon_point
 /// Maps a point of the unit square to a regular polygon about the origin, preserving area.
 ///
@@ -62,7 +42,8 @@ pub fn polygon_point(u: DVec2, corners: &[DVec2]) -> DVec2 {
 /// Maps a point of the unit square to the lens, preserving area; in scene units.
 #[inline(always)]
 pub fn lens_point(u: DVec2, lens: &LensTable) -> DVec2 {
-    lens.radius * if lens.corners.is_empty() { disk_point(u) } else { polygon_point(u, &lens.corners) }
+    let is_round = lens.corners.is_empty();
+    lens.radius * if is_round { disk_point(u.into()).point().into() } else { polygon_point(u, &lens.corners) }
 }
 
 // ANCHOR: camera_ray_lens

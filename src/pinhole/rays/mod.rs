@@ -38,11 +38,11 @@ pub use camera::CameraRays;
 #[doc(hidden)]
 pub use camera::{camera_stage, camera_stages, generate_camera_rays, orthographic_stage, perspective_stage};
 #[doc(hidden)]
-pub use draws::{Draws, DrawsView, DrawsViewItem, draws_of_one, draws_of_two};
+pub use draws::{Draws, DrawsView, DrawsViewItem, draws_of_one, draws_of_two, fractions_of_one};
 #[doc(hidden)]
 pub use lens::{
-    LensPoints, camera_ray_lens, disk_point, draw_lens_points, fill_lens_rays, lens_point, lens_point_stage,
-    lens_stage, polygon_point,
+    LensPoints, camera_ray_lens, draw_lens_points, fill_lens_rays, lens_point, lens_point_stage, lens_stage,
+    polygon_point,
 };
 pub use ndc::NdcPoints;
 #[doc(hidden)]

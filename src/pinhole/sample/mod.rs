@@ -17,6 +17,7 @@
 //! assert!((mean - 0.5).abs() < 0.02);
 //! ```
 
+mod circle;
 mod hash;
 mod independent;
 mod mean_error;
@@ -26,6 +27,7 @@ mod sobol;
 mod stratified;
 
 pub use crate::filters::{box_offset, table_offset, tent_offset};
+pub use circle::{DiskPoint, circle_point, disk_point, square_of_disk};
 pub use hash::{PixelKey, unit, unit_of_ray};
 pub use independent::{Independent, uniform};
 pub use mean_error::{INTEGRANDS, Integrand, MeanError, mean_error, slope};

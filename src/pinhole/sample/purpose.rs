@@ -5,7 +5,7 @@ pub const DIMENSIONS: u32 = 16;
 ///
 /// Each purpose has dimensions of its own, whether or not a scene uses the others, so that a stage that is left out
 /// does not shift the numbers of the rest.
-/// The most important come first, because the first dimensions of a Sobol sequence are the best distributed together.
+/// Which of them are drawn together is the sampler's to say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// The position in the pixel, to the right and downward.

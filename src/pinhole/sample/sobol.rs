@@ -1,34 +1,21 @@
 use super::hash::halves;
-use super::{DIMENSIONS, Draw, PixelKey, Purpose, SampleIndex, owen_scrambled};
+use super::{Draw, PixelKey, Purpose, SampleIndex, owen_scrambled};
 
 /// The primitive polynomial of a dimension (degree and coefficients), and its initial direction numbers.
-type JoeKuo = (usize, u32, [u32; 6]);
+type JoeKuo = (usize, u32, [u32; 3]);
 
-/// Dimensions 2 to 16 of Joe and Kuo (2008, new-joe-kuo-6.21201).
-const JOE_KUO: [JoeKuo; DIMENSIONS as usize - 1] = [
-    (1, 0, [1, 0, 0, 0, 0, 0]),
-    (2, 1, [1, 3, 0, 0, 0, 0]),
-    (3, 1, [1, 3, 1, 0, 0, 0]),
-    (3, 2, [1, 1, 1, 0, 0, 0]),
-    (4, 1, [1, 1, 3, 3, 0, 0]),
-    (4, 4, [1, 3, 5, 13, 0, 0]),
-    (5, 2, [1, 1, 5, 5, 17, 0]),
-    (5, 4, [1, 1, 5, 5, 5, 0]),
-    (5, 7, [1, 1, 7, 11, 19, 0]),
-    (5, 11, [1, 1, 5, 1, 1, 0]),
-    (5, 13, [1, 1, 1, 3, 11, 0]),
-    (5, 14, [1, 3, 5, 5, 31, 0]),
-    (6, 1, [1, 3, 3, 9, 7, 49]),
-    (6, 13, [1, 1, 1, 15, 21, 21]),
-    (6, 16, [1, 3, 1, 13, 27, 49]),
-];
+/// The dimensions that purposes draw together, at most.
+const TOGETHER: usize = 5;
+
+/// Dimensions 2 to 5 of Joe and Kuo (2008, new-joe-kuo-6.21201).
+const JOE_KUO: [JoeKuo; TOGETHER - 1] = [(1, 0, [1, 0, 0]), (2, 1, [1, 3, 0]), (3, 1, [1, 3, 1]), (3, 2, [1, 1, 1])];
 
 /// The generator matrices with reversed bits: for each dimension, the fraction that each binary digit of a point's
 /// index contributes.
-const REVERSED: [[u32; 32]; DIMENSIONS as usize] = {
-    let mut table = [[0; 32]; DIMENSIONS as usize];
+const REVERSED: [[u32; 32]; TOGETHER] = {
+    let mut table = [[0; 32]; TOGETHER];
     let mut dimension = 0;
-    while dimension < DIMENSIONS as usize {
+    while dimension < TOGETHER {
         table[dimension] = reversed_directions(dimension);
         dimension += 1;
     }
@@ -86,30 +73,51 @@ pub fn sobol_bits(number: u32, dimension: u32) -> u32 {
 ///
 /// The first 2ᵏ samples of a pixel are as well distributed as 2ᵏ points of the sequence can be, and so is every later
 /// block of 2ᵏ.
-/// At each bounce after the first, all purposes together visit the points of such a block in a shuffled order, so that
-/// the same dimensions can be used again: within a bounce purposes remain jointly stratified, and between bounces they
-/// are independent (padding).
+/// Purposes whose numbers belong together are dimensions of one point: the pixel, the lens and the time; a light and the
+/// point on it; a direction and the lobe. Each such set begins with the first two dimensions, the only ones whose points
+/// are a (0, m, 2)-net, and visits the points of a block in a shuffled order of its own, so that sets and bounces meet
+/// at random (padding, as in Burley 2020).
 #[derive(Clone, Copy, Debug)]
 pub struct Sobol {
     dimension: u32,
     reversed: [u32; 2],
 }
 
+/// The set of purposes that a purpose belongs to, and its first dimension there.
+const fn place_of(purpose: Purpose) -> (u32, u32) {
+    match purpose {
+        Purpose::Pixel => (0, 0),
+        Purpose::Lens => (0, 2),
+        Purpose::Time => (0, 4),
+        Purpose::LightPoint => (1, 0),
+        Purpose::LightChoice => (1, 2),
+        Purpose::Direction => (2, 0),
+        Purpose::MaterialChoice => (2, 2),
+        Purpose::EnvironmentPoint => (3, 0),
+        Purpose::Roulette => (4, 0),
+        Purpose::DeltaLightChoice => (5, 0),
+    }
+}
+
 impl Sobol {
     /// A sample's numbers for a purpose at a bounce.
     #[inline(always)]
     pub fn new(sample: u32, depth: u32, purpose: Purpose) -> Self {
+        let (set, first) = place_of(purpose);
+        let number = if set == 0 && depth == 0 { sample } else { shuffled(sample, depth * SETS + set) };
+        let second = first + purpose.numbers() - 1;
         let dimension = purpose.dimension(depth);
-        let number = if depth == 0 { sample } else { shuffled(sample, depth) };
-        let second = dimension % DIMENSIONS + purpose.numbers() - 1;
-        Self { dimension, reversed: [dimension % DIMENSIONS, second].map(|within| sobol_bits(number, within)) }
+        Self { dimension, reversed: [first, second].map(|within| sobol_bits(number, within)) }
     }
 }
 
-/// The index of the point that a sample uses at a later bounce; samples of a block of 2ᵏ stay within a block.
+/// The sets of purposes at a bounce.
+const SETS: u32 = 6;
+
+/// The index of the point that a sample uses for a set of purposes; samples of a block of 2ᵏ stay within a block.
 #[inline(always)]
-fn shuffled(sample: u32, depth: u32) -> u32 {
-    let [seed, _] = halves(super::hash::mixed(u64::from(depth)));
+fn shuffled(sample: u32, set: u32) -> u32 {
+    let [seed, _] = halves(super::hash::mixed(u64::from(set)));
     owen_scrambled(sample.reverse_bits(), seed).reverse_bits()
 }
 
@@ -135,12 +143,6 @@ impl Draw for Sobol {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Pairs of dimensions that one purpose draws together.
-    fn pairs() -> Vec<[u32; 2]> {
-        let two = |purpose: &Purpose| purpose.numbers() == 2;
-        Purpose::ALL.into_iter().filter(two).map(|purpose| [0, 1].map(|n| purpose.dimension(0) + n)).collect()
-    }
 
     /// The smallest t for which 2ᵐ points are a (t, m, 2)-net: each box of area 2ᵗ⁻ᵐ with sides of powers of two holds
     /// 2ᵗ.
@@ -174,38 +176,46 @@ mod tests {
         }
     }
 
-    /// Every block of 2ᵐ samples has one in each interval of length 2⁻ᵐ on each axis; the two numbers for the pixel,
-    /// one in every elementary box of area 2⁻ᵐ; other pairs, 2ᵗ in every box of area 2ᵗ⁻ᵐ, with the t that theory
-    /// allows (Niederreiter 1987: the sum of the degrees minus 1 each).
+    /// Every block of 2ᵐ samples has one in each interval of length 2⁻ᵐ on each axis, and two numbers of one purpose are
+    /// a (0, m, 2)-net; pairs of two purposes of a set have the t that theory allows (Niederreiter 1987: the sum of the
+    /// degrees minus 1 each).
     #[test]
     fn nets() {
+        let axes = Purpose::ALL.into_iter().flat_map(|purpose| (0..purpose.numbers()).map(move |axis| (purpose, axis)));
+        let axes: Vec<(Purpose, u32)> = axes.collect();
         let (mut tried, mut worst) = (0, Vec::new());
-        for purpose in Purpose::ALL.into_iter().filter(|purpose| purpose.numbers() == 2) {
-            let [first, second] = [0, 1].map(|n| degree(purpose.dimension(0) + n));
-            let allowed = first.saturating_sub(1) + second.saturating_sub(1);
-            let mut largest = 0;
-            for m in 0..=10_u32 {
-                for (seed, block, depth) in [(0, 0, 0), (1, 0, 0), (2, 1, 0), (3, 5, 0), (4, 0, 1), (5, 3, 2)] {
-                    let pixel = PixelKey::new(seed, [7, 11]);
-                    let numbers = block << m..(block + 1) << m;
-                    let points: Vec<_> = numbers.map(|n| Sobol::new(n, depth, purpose).two(pixel)).collect();
-                    for axis in 0..2 {
-                        let own: Vec<[u32; 2]> = points.iter().map(|point| [point[axis], 0]).collect();
-                        let mut cells: Vec<u64> = own.iter().map(|p| u64::from(p[0]) >> (32 - m)).collect();
-                        cells.sort_unstable();
-                        assert!(cells.iter().copied().eq(0..1 << m), "{purpose:?}, axis {axis}, 2^{m} points");
-                    }
-                    let t = quality(&points);
-                    assert!(
-                        t <= allowed,
-                        "{purpose:?}, 2^{m} points, depth {depth}: t = {t}, but {allowed} is allowed"
-                    );
-                    (largest, tried) = (largest.max(t), tried + 1);
+        for (one, (first, axis)) in axes.iter().copied().enumerate() {
+            for (second, other) in axes[one + 1..].iter().copied() {
+                let ((set, a), (its_set, b)) = (place_of(first), place_of(second));
+                if set != its_set {
+                    continue;
                 }
+                let [of_first, of_second] = [a + axis, b + other].map(degree);
+                let allowed = of_first.saturating_sub(1) + of_second.saturating_sub(1);
+                assert!(first != second || set == 0 && a > 0 || allowed == 0, "{first:?} is not a (0, m, 2)-net");
+                let mut largest = 0;
+                for m in 0..=10_u32 {
+                    for (seed, block, depth) in [(0, 0, 0), (1, 0, 0), (2, 1, 0), (3, 5, 0), (4, 0, 1), (5, 3, 2)] {
+                        let pixel = PixelKey::new(seed, [7, 11]);
+                        let of = |n: u32, purpose: Purpose, axis: u32| {
+                            let sobol = Sobol::new(n, depth, purpose);
+                            if purpose.numbers() == 2 { sobol.two(pixel)[axis as usize] } else { sobol.one(pixel) }
+                        };
+                        let numbers = block << m..(block + 1) << m;
+                        let points: Vec<_> = numbers.map(|n| [of(n, first, axis), of(n, second, other)]).collect();
+                        for axis in 0..2 {
+                            let mut cells: Vec<u64> = points.iter().map(|p| u64::from(p[axis]) >> (32 - m)).collect();
+                            cells.sort_unstable();
+                            assert!(cells.iter().copied().eq(0..1 << m), "{first:?}, {second:?}, 2^{m} points");
+                        }
+                        let t = quality(&points);
+                        assert!(t <= allowed, "{first:?}, {second:?}, 2^{m} points: t = {t}, but {allowed} is allowed");
+                        (largest, tried) = (largest.max(t), tried + 1);
+                    }
+                }
+                worst.push(format!("{first:?} {axis} and {second:?} {other} {largest} of {allowed}"));
             }
-            worst.push(format!("{purpose:?} {largest} of {allowed}"));
         }
-        assert!(worst[0].ends_with("0 of 0"), "the pixel's numbers are a (0, m, 2)-net");
         eprintln!("nets: {tried} blocks of 2^0 to 2^10 samples; largest t: {}", worst.join(", "));
     }
 
@@ -213,25 +223,24 @@ mod tests {
     #[test]
     fn agrees_with_sobol_burley() {
         let (mut points, mut compared) = (0, 0);
-        for dimension in 0..DIMENSIONS {
+        for dimension in 0..TOGETHER as u32 {
             for number in 0..1_u32 << 16 {
                 let theirs = sobol_burley::parts::sobol_rev(number.reverse_bits(), dimension);
                 assert_eq!(sobol_bits(number, dimension), theirs, "{number} in dimension {dimension}");
                 points += 1;
             }
         }
-        for pair in pairs() {
+        for purpose in [Purpose::Pixel, Purpose::Lens] {
+            let first = place_of(purpose).1;
             for m in 0..=10_u32 {
                 let theirs = |n: u32, d: u32| {
                     // Exact: 24 bits of an f32 from 0 to 1.
                     ((f64::from(sobol_burley::sample(n, d, 9)) * f64::from(1 << 24)) as u32) << 8
                 };
-                let burley: Vec<[u32; 2]> = (0..1 << m).map(|n| pair.map(|d| theirs(n, d))).collect();
+                let burley: Vec<[u32; 2]> = (0..1 << m).map(|n| [first, first + 1].map(|d| theirs(n, d))).collect();
                 let pixel = PixelKey::new(9, [0, 0]);
-                let purpose = Purpose::ALL.into_iter().find(|purpose| purpose.dimension(0) == pair[0]);
-                let purpose = purpose.expect("a purpose");
                 let own: Vec<[u32; 2]> = (0..1 << m).map(|n| Sobol::new(n, 0, purpose).two(pixel)).collect();
-                assert_eq!(quality(&own), quality(&burley), "dimensions {pair:?}, 2^{m} points");
+                assert_eq!(quality(&own), quality(&burley), "{purpose:?}, 2^{m} points");
                 compared += 1;
             }
         }

@@ -1,16 +1,18 @@
 use super::ShadowRays;
 use super::light::{ShadowRay, cosine_of, shadow_t_max};
 use super::radiance::{LightSamplingView, LightSamplingViewItem};
-use super::receivers::{LightRay, LightRows, RayLists, append_sampled};
+use super::receivers::{LightDraws, LightRay, LightRows, MakesRays, RayLists, append_rays, append_sampled};
 use crate::extract::{AreaLightTable, SamplingTable, area_light_evidence, light_sampling_evidence, material_evidence};
 use crate::intersect::Surface;
 use crate::lights::Receiver;
 use crate::plan::{Shared, Stage, StageKind, TileSystems};
-use crate::rays::{DrawsView, Paths};
+use crate::rays::{DrawsView, Paths, draws_of_two, fractions_of_one};
 use crate::sample::{Draw, PixelKey, Purpose, unit, with_sampler};
-use crate::shapes::{distance_to, offset_origin, pdf_towards, point_on};
+use crate::shapes::emitter::Emitting;
+use crate::shapes::{EmitterVisitor, offset_origin, pdf_towards, visit_emitter};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
+use multiversion::multiversion;
 
 // ANCHOR: irradiance_from_area
 /// One sample's estimate of the irradiance from an area light of radiance L: L cos θ / p.
@@ -38,43 +40,42 @@ pub fn area_light_pdf(lights: &AreaLightTable, light: usize, receiver: &Receiver
 }
 
 // ANCHOR: sample_light
-/// Chooses a light and samples a point on it; returns the shadow ray towards it and its pdf in 1/sr.
+/// Samples a point on a light that is chosen with this probability; returns the shadow ray towards it.
 ///
 /// The shadow ray follows its direction as rounded to f32, so its end is computed anew by intersecting the light along
 /// it: otherwise a light hit at grazing incidence would block its own ray.
 #[inline(always)]
-fn sample_light(
-    lights: &AreaLightTable,
-    choice: u32,
+fn sample_light<E: Emitting>(
+    light: &E,
+    (radiance, one_sided, probability): ([f64; 3], bool, f64),
     surface: &Surface,
     normal: DVec3,
     u: [f64; 2],
-) -> (LightRay, f64) {
+) -> LightRay {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let from = origin.as_dvec3();
-    let receiver = Receiver { position: from, normal: surface.normal.as_dvec3() };
-    let (light, probability) = lights.choose(&receiver, choice);
-    lights.with_light(light, |emitter, radiance, one_sided| {
-        let point = point_on(emitter, from, u);
-        let pdf = probability * point.pdf;
-        let shines = pdf > 0.0 && (!one_sided || emitter.faces(from));
+    let point = light.point(from, u);
+    let pdf = probability * point.pdf;
+    let shines = (pdf > 0.0) & (!one_sided | light.faces(from));
 
-        let length = point.to.length();
-        let direction = (point.to * (1.0 / length)).as_vec3();
-        let hit = distance_to(emitter, from, direction.as_dvec3());
-        let distance = if hit > 0.0 && hit < f64::INFINITY { hit } else { length };
-        let cosine = if shines { cosine_of(surface, normal, direction) } else { 0.0 };
-        let irradiance = irradiance_from_area(radiance, cosine, pdf);
-        let ray = ShadowRay { origin, direction, distance, cosine };
-        (LightRay { ray, t_max: shadow_t_max(distance), irradiance }, pdf)
-    })
+    let length = point.to.length();
+    let direction = (point.to * (1.0 / length)).as_vec3();
+    let hit = light.distance(from, direction.as_dvec3());
+    let distance = if (hit > 0.0) & (hit < f64::INFINITY) { hit } else { length };
+    let cosine = cosine_of(surface, normal, direction);
+    let irradiance = irradiance_from_area(radiance, cosine, pdf);
+    let ray = ShadowRay { origin, direction, distance, cosine: if shines { cosine } else { 0.0 } };
+    LightRay { ray, t_max: shadow_t_max(distance), irradiance, pdf }
 }
 // ANCHOR_END: sample_light
 
 /// Appends, for each row, a shadow ray to a point sampled on one of the area lights.
+///
+/// Of few lights each is sampled for all rows that have chosen it; of many, one row at a time.
 pub fn sample_area_lights(
     lights: Res<Shared<AreaLightTable>>,
     sampling: Res<Shared<SamplingTable>>,
+    (mut fractions, mut lists, mut points): (Local<[Vec<u32>; 2]>, Local<[Vec<u32>; 2]>, Local<[Vec<[f64; 2]>; 2]>),
     mut tiles: Query<(LightSamplingView, DrawsView, Option<&Paths>)>,
 ) {
     if lights.is_empty() {
@@ -82,17 +83,81 @@ pub fn sample_area_lights(
     }
     for (LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs }, draws, paths) in &mut tiles {
         let receivers = LightRows::new(surfaces, shading, list, far);
-        let (draws, to) = (draws.draws(&sampling, paths), (&mut *rays, pdfs.as_deref_mut()));
-        let (sample, key) = (draws.sample(), |row| draws.key(row));
-        with_sampler!(sampling.sampler, D => {
-            let drawn = [Purpose::LightChoice, Purpose::LightPoint].map(|purpose| D::of(sample, purpose));
-            sample_rows(drawn, key, &lights, &receivers, to);
-        });
+        let draws = draws.draws(&sampling, paths);
+        if lights.hierarchy.is_some() {
+            let to = (&mut *rays, pdfs.as_deref_mut());
+            let (sample, key) = (draws.sample(), |row| draws.key(row));
+            with_sampler!(sampling.sampler, D => {
+                let drawn = [Purpose::LightChoice, Purpose::LightPoint].map(|purpose| D::of(sample, purpose));
+                sample_one_of_many(drawn, key, &lights, &receivers, to);
+            });
+            continue;
+        }
+        for (rows, fractions) in receivers.rows().into_iter().zip(fractions.iter_mut()) {
+            fractions_of_one(&draws, Purpose::LightChoice, rows, fractions);
+        }
+        for light in 0..lights.lights() {
+            for ((rows, fractions), chosen) in receivers.rows().into_iter().zip(&*fractions).zip(lists.iter_mut()) {
+                chosen.clear();
+                let has_chosen = lights.fractions_of(light);
+                let with_fractions =
+                    rows.iter().zip(fractions).filter(|(_, fraction)| has_chosen.contains(&u64::from(**fraction)));
+                chosen.extend(with_fractions.map(|(row, _)| *row));
+            }
+            for (chosen, points) in lists.iter().zip(points.iter_mut()) {
+                draws_of_two(&draws, Purpose::LightPoint, chosen, points);
+            }
+            let probability = lights.probability[light];
+            lights.with_light(light, |emitter, radiance, one_sided| {
+                let light = (radiance, one_sided, probability);
+                let receivers = receivers.part(&lists[0], &lists[1]);
+                let to = (&mut *rays, pdfs.as_deref_mut());
+                visit_emitter(emitter, OneLight { light, receivers, draws: [&points[0], &points[1]], to });
+            });
+        }
+    }
+}
+
+/// One area light, the surfaces that have chosen it, and where their shadow rays go.
+struct OneLight<'a> {
+    /// Its radiance, whether it shines on one side only, and the probability of choosing it.
+    light: ([f64; 3], bool, f64),
+    receivers: LightRows<'a>,
+    draws: LightDraws<'a>,
+    to: RayLists<'a>,
+}
+
+impl EmitterVisitor for OneLight<'_> {
+    fn visit<E: Emitting>(self, emitter: &E) {
+        let Self { light, receivers, draws, to } = self;
+        let light = (*emitter, light);
+        if E::IN_BLOCKS {
+            sample_in_blocks(&light, &receivers, draws, to)
+        } else {
+            append_rays(&receivers, to, true, &light, draws)
+        }
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn sample_in_blocks<E: Emitting>(
+    light: &(E, ([f64; 3], bool, f64)),
+    receivers: &LightRows<'_>,
+    draws: LightDraws<'_>,
+    to: RayLists<'_>,
+) {
+    append_rays(receivers, to, true, light, draws);
+}
+
+impl<E: Emitting> MakesRays for (E, ([f64; 3], bool, f64)) {
+    #[inline(always)]
+    fn ray_from(&self, surface: &Surface, normal: DVec3, u: [f64; 2]) -> LightRay {
+        sample_light(&self.0, self.1, surface, normal, u)
     }
 }
 
 #[inline(always)]
-fn sample_rows<D: Draw>(
+fn sample_one_of_many<D: Draw>(
     [choice, place]: [D; 2],
     key: impl Fn(usize) -> PixelKey,
     lights: &AreaLightTable,
@@ -100,9 +165,32 @@ fn sample_rows<D: Draw>(
     to: RayLists<'_>,
 ) {
     append_sampled(receivers, to, |row, surface, normal| {
-        let key = key(row);
-        sample_light(lights, choice.one(key), surface, normal, place.two(key).map(unit))
+        let (key, origin) = (key(row), offset_origin(surface.position, surface.normal, surface.bound));
+        let receiver = Receiver { position: origin.as_dvec3(), normal: surface.normal.as_dvec3() };
+        let (light, probability) = lights.choose(&receiver, choice.one(key));
+        let mut ray = LightRay::default();
+        lights.with_light(light, |emitter, radiance, one_sided| {
+            let (light, u) = ((radiance, one_sided, probability), place.two(key).map(unit));
+            visit_emitter(emitter, OneRay { light, surface, normal, u, ray: &mut ray });
+        });
+        ray
     });
+}
+
+/// A surface whose shadow ray to one light is asked for.
+struct OneRay<'a> {
+    light: ([f64; 3], bool, f64),
+    surface: &'a Surface,
+    normal: DVec3,
+    u: [f64; 2],
+    ray: &'a mut LightRay,
+}
+
+impl EmitterVisitor for OneRay<'_> {
+    #[inline(always)]
+    fn visit<E: Emitting>(self, emitter: &E) {
+        *self.ray = sample_light(emitter, self.light, self.surface, self.normal, self.u);
+    }
 }
 
 /// The stage that runs [`sample_area_lights`]: next-event estimation, the alternative to BSDF sampling alone.

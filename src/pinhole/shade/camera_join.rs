@@ -106,7 +106,8 @@ pub fn connect_to_camera(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<Co
             let side = own.dot(from).signum();
             let cosine = join_cosine(seen, side * own.dot(from), falling_cosine(side * own, side * normal, from));
             let ray = ShadowRay { origin, direction, distance, cosine };
-            (LightRay { ray, t_max: shadow_t_max(distance), irradiance: [joined.importance * cosine; 3] }, 0.0)
+            let irradiance = [joined.importance * cosine; 3];
+            LightRay { ray, t_max: shadow_t_max(distance), irradiance, pdf: 0.0 }
         });
     }
 }

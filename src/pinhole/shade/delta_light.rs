@@ -25,7 +25,7 @@ use std::any::TypeId;
 impl<L: Light> MakesRays for L {
     /// The shadow ray to a light, and the irradiance that it brings if it is not blocked.
     #[inline(always)]
-    fn ray_from(&self, surface: &Surface, normal: DVec3) -> LightRay {
+    fn ray_from(&self, surface: &Surface, normal: DVec3, _: [f64; 2]) -> LightRay {
         let origin = offset_origin(surface.position, surface.normal, surface.bound);
         let sample = self.sample(origin.as_dvec3());
         let cosine = cosine_of(surface, normal, sample.direction);
@@ -37,7 +37,7 @@ impl<L: Light> MakesRays for L {
             distance: sample.distance,
             cosine: if r | g | b { cosine } else { 0.0 },
         };
-        LightRay { ray, t_max: shadow_t_max(sample.distance), irradiance }
+        LightRay { ray, t_max: shadow_t_max(sample.distance), irradiance, pdf: 0.0 }
     }
 }
 // ANCHOR_END: shadow_ray_to
@@ -56,7 +56,7 @@ pub fn sample_lights<L: ListedLight>(
             with_sampler!(sampling.sampler, D => {
                 let drawn = D::of(draws.sample(), Purpose::DeltaLightChoice);
                 append_sampled(&receivers, to, |row, surface, normal| {
-                    (chosen_ray(&lights, choice, drawn.one(draws.key(row)), surface, normal), 0.0)
+                    chosen_ray(&lights, choice, drawn.one(draws.key(row)), surface, normal)
                 });
             });
             continue;
@@ -79,7 +79,7 @@ fn chosen_ray<L: ListedLight>(
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let receiver = Receiver { position: origin.as_dvec3(), normal: surface.normal.as_dvec3() };
     let (light, probability) = choice.choose(&receiver, fraction);
-    let mut light_ray = lights.row[light].ray_from(surface, normal);
+    let mut light_ray = lights.row[light].ray_from(surface, normal, [0.0; 2]);
     light_ray.irradiance = light_ray.irradiance.map(|part| part / probability);
     if !lights.casts_shadows[light] {
         light_ray.t_max = 0.0;
@@ -93,7 +93,7 @@ fn chosen_ray<L: ListedLight>(
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn sample_rows<L: Light>(receivers: &LightRows<'_>, light: &L, casts_shadows: bool, rays: RayLists<'_>) {
     let light = light.clone();
-    append_rays(receivers, rays, casts_shadows, &light);
+    append_rays(receivers, rays, casts_shadows, &light, [&[], &[]]);
 }
 
 /// The stage that runs [`sample_lights`].

@@ -7,10 +7,13 @@ use crate::plan::{Column, VectorRows, VectorRowsMut};
 use glam::{DVec3, Vec3};
 
 /// A shadow ray with the irradiance that it carries.
+#[derive(Default)]
 pub(super) struct LightRay {
     pub ray: ShadowRay,
     pub t_max: f32,
     pub irradiance: [f64; 3],
+    /// The pdf with which it was sampled, in 1/sr; 0 for a light without an area.
+    pub pdf: f64,
 }
 
 /// The surfaces that lights may illuminate.
@@ -31,6 +34,17 @@ impl<'a> LightRows<'a> {
         far: Option<&'a TransmissiveRows>,
     ) -> Self {
         Self { surfaces, shading, rows: &list.row, far: far.map_or(&[], |far| &far.row) }
+    }
+
+    /// Some of them: these rows, and those of them that are lit from behind as well.
+    #[inline(always)]
+    pub fn part(&self, rows: &'a [u32], far: &'a [u32]) -> Self {
+        Self { rows, far, ..*self }
+    }
+
+    /// The rows of the surfaces, and of those that are lit from behind as well.
+    pub fn rows(&self) -> [&'a [u32]; 2] {
+        [self.rows, self.far]
     }
 
     /// A row's surface and shading normal.
@@ -57,9 +71,13 @@ pub(super) type RayLists<'a> = (&'a mut ShadowRays, Option<&'a mut LightPdfs>);
 /// It is a trait, and no closure, since a closure is compiled apart from the loop that calls it, and for the oldest
 /// processors.
 pub(super) trait MakesRays {
-    /// The shadow ray from a surface; `normal` is the shading normal, or the geometric one where there is no other.
-    fn ray_from(&self, surface: &Surface, normal: DVec3) -> LightRay;
+    /// The shadow ray from a surface; `normal` is the shading normal, or the geometric one where there is no other, and
+    /// `u` a point of the unit square for a light that has an area.
+    fn ray_from(&self, surface: &Surface, normal: DVec3, u: [f64; 2]) -> LightRay;
 }
+
+/// A point of the unit square for each row, and for each that is lit from behind; none for a light without an area.
+pub(super) type LightDraws<'a> = [&'a [[f64; 2]]; 2];
 
 /// Appends the shadow rays from all surfaces of a list to one light, where they carry light.
 ///
@@ -70,17 +88,16 @@ pub(super) fn append_rays(
     (rays, pdfs): RayLists<'_>,
     casts_shadows: bool,
     light: &impl MakesRays,
+    [draws, far_draws]: LightDraws<'_>,
 ) {
+    let mut to = (rays, pdfs);
+    let rows = (receivers.rows, draws);
     match receivers.shading {
-        None => append(receivers.rows, rays, casts_shadows, light, &Plain(receivers.surfaces)),
-        Some(normals) => append(receivers.rows, rays, casts_shadows, light, &Shaded(receivers.surfaces, normals)),
+        None => append(rows, &mut to, casts_shadows, light, &Plain(receivers.surfaces)),
+        Some(normals) => append(rows, &mut to, casts_shadows, light, &Shaded(receivers.surfaces, normals)),
     }
     if !receivers.far.is_empty() {
-        append(receivers.far, rays, casts_shadows, light, &Behind(receivers));
-    }
-    if let Some(pdfs) = pdfs {
-        let (path, _) = pdfs.slices_mut(rays.rows());
-        path.copy_from_slice(&rays.row);
+        append((receivers.far, far_draws), &mut to, casts_shadows, light, &Behind(receivers));
     }
 }
 
@@ -131,6 +148,7 @@ struct SurfaceBlock {
     bound: [f32; AT_ONCE],
     material: [u32; AT_ONCE],
     normal: [[f64; AT_ONCE]; 3],
+    u: [[f64; AT_ONCE]; 2],
 }
 
 /// Their shadow rays, and 1 for each that carries light.
@@ -139,6 +157,7 @@ struct LightRayBlock {
     direction: [[f32; AT_ONCE]; 3],
     t_max: [f32; AT_ONCE],
     irradiance: [[f32; AT_ONCE]; 3],
+    pdf: [f64; AT_ONCE],
     counts: [u32; AT_ONCE],
 }
 
@@ -149,6 +168,7 @@ impl SurfaceBlock {
         bound: [0.0; AT_ONCE],
         material: [0; AT_ONCE],
         normal: [[0.0; AT_ONCE]; 3],
+        u: [[0.0; AT_ONCE]; 2],
     };
 
     #[inline(always)]
@@ -173,6 +193,7 @@ impl LightRayBlock {
         direction: [[0.0; AT_ONCE]; 3],
         t_max: [0.0; AT_ONCE],
         irradiance: [[0.0; AT_ONCE]; 3],
+        pdf: [0.0; AT_ONCE],
         counts: [0; AT_ONCE],
     };
 
@@ -184,11 +205,12 @@ impl LightRayBlock {
     }
 
     #[inline(always)]
-    fn set(&mut self, lane: usize, LightRay { ray, t_max, irradiance }: &LightRay) {
+    fn set(&mut self, lane: usize, LightRay { ray, t_max, irradiance, pdf }: &LightRay) {
         self.origin.put(lane, ray.origin);
         self.direction.put(lane, ray.direction);
         self.t_max[lane] = *t_max;
         self.irradiance.put(lane, irradiance.map(|part| if part < MAX { part as f32 } else { f32::MAX }));
+        self.pdf[lane] = *pdf;
         self.counts[lane] = u32::from((ray.cosine > 0.0) & is_apart(ray));
     }
 }
@@ -198,24 +220,28 @@ impl LightRayBlock {
 fn make(light: &impl MakesRays, block: &SurfaceBlock, made: &mut LightRayBlock) {
     for lane in 0..AT_ONCE {
         let (surface, normal) = block.get(lane);
-        made.set(lane, &light.ray_from(&surface, normal));
+        made.set(lane, &light.ray_from(&surface, normal, [block.u[0][lane], block.u[1][lane]]));
     }
 }
 
 /// Appends the rays of all rows that carry light.
 #[inline(always)]
 fn append(
-    rows: &[u32],
-    rays: &mut ShadowRays,
+    (rows, draws): (&[u32], &[[f64; 2]]),
+    (rays, pdfs): &mut RayLists<'_>,
     casts_shadows: bool,
     light: &impl MakesRays,
     receivers: &impl Receivers,
 ) {
     let (mut block, mut made) = (SurfaceBlock::NONE, LightRayBlock::NONE);
     let mut path = [0; AT_ONCE];
+    let mut draws = draws.chunks(AT_ONCE);
     for rows in rows.chunks(AT_ONCE) {
         for (lane, &row) in rows.iter().enumerate() {
             block.set(lane, receivers.of_row(row as usize));
+        }
+        for (lane, &[u, v]) in draws.next().unwrap_or_default().iter().enumerate() {
+            (block.u[0][lane], block.u[1][lane]) = (u, v);
         }
         make(light, &block, &mut made);
         path[..rows.len()].copy_from_slice(rows);
@@ -228,6 +254,7 @@ fn append(
                 for component in made.components() {
                     component[count] = component[lane];
                 }
+                made.pdf[count] = made.pdf[lane];
                 count += made.counts[lane] as usize;
             }
         }
@@ -239,6 +266,10 @@ fn append(
         for (column, component) in [ox, oy, oz, dx, dy, dz, t_max, r, g, b].into_iter().zip(made.components()) {
             column.extend_from_slice(&component[..count]);
         }
+        if let Some(pdfs) = pdfs {
+            pdfs.row.extend_from_slice(&path[..count]);
+            pdfs.pdf.extend_from_slice(&made.pdf[..count]);
+        }
     }
 }
 
@@ -249,7 +280,7 @@ fn append(
 pub(super) fn append_sampled(
     receivers: &LightRows<'_>,
     (rays, mut pdfs): RayLists<'_>,
-    ray_of: impl Fn(usize, &Surface, DVec3) -> (LightRay, f64),
+    ray_of: impl Fn(usize, &Surface, DVec3) -> LightRay,
 ) {
     append_sampled_rows(receivers.rows, (rays, pdfs.as_deref_mut()), |row| {
         let (surface, normal) = receivers.near(row);
@@ -264,21 +295,21 @@ pub(super) fn append_sampled(
 }
 
 #[inline(always)]
-fn append_sampled_rows(rows: &[u32], (rays, mut pdfs): RayLists<'_>, ray_of: impl Fn(usize) -> (LightRay, f64)) {
+fn append_sampled_rows(rows: &[u32], (rays, mut pdfs): RayLists<'_>, ray_of: impl Fn(usize) -> LightRay) {
     let length = rays.rows();
     let max = length + rows.len();
     let (path, mut origin, mut direction, t_max, mut irradiance) = rays.slices_mut(max);
     let mut pdf_columns = pdfs.as_deref_mut().map(|pdfs| pdfs.slices_mut(max));
     let mut at = length;
     for &row in rows {
-        let (light_ray, pdf) = ray_of(row as usize);
+        let light_ray = ray_of(row as usize);
         path[at] = row;
         origin.put(at, light_ray.ray.origin);
         direction.put(at, light_ray.ray.direction);
         t_max[at] = light_ray.t_max;
         irradiance.put(at, light_ray.irradiance.map(|part| part.min(MAX) as f32));
         if let Some(columns) = &mut pdf_columns {
-            (columns.0[at], columns.1[at]) = (row, pdf);
+            (columns.0[at], columns.1[at]) = (row, light_ray.pdf);
         }
         at += usize::from(light_ray.ray.cosine > 0.0);
     }

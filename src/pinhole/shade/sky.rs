@@ -209,7 +209,7 @@ fn sample_environment_at(
     surface: &Surface,
     normal: DVec3,
     u: [f64; 2],
-) -> (LightRay, f64) {
+) -> LightRay {
     let (direction, pdf) = environment_direction(light, environment.turn, u);
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let radiance = environment_radiance(environment, direction);
@@ -217,7 +217,7 @@ fn sample_environment_at(
     let cosine = if pdf > 0.0 { cosine_of(surface, normal, direction) } else { 0.0 };
     let irradiance = irradiance_from_area(radiance, cosine, pdf);
     let ray = ShadowRay { origin, direction, distance: f64::INFINITY, cosine };
-    (LightRay { ray, t_max: f32::INFINITY, irradiance }, pdf)
+    LightRay { ray, t_max: f32::INFINITY, irradiance, pdf }
 }
 
 /// Appends, for each row, a shadow ray to a bright part of the environment.

@@ -8,6 +8,7 @@ use super::ray_block::{Intersection, RayHit, SurfacePoint};
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::{UnitRay, UnitSpace};
 use super::uv::{UvSlope, face_axes, within_unit};
+use crate::sample::circle_point;
 use crate::scene::{SceneError, positive_length};
 use glam::{DMat3, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -384,7 +385,7 @@ impl EmittingFrustum {
         let (up, area) = if left < bottom || top == 0.0 { (-1.0, bottom) } else { (1.0, top) };
         left -= if up > 0.0 { bottom } else { 0.0 };
         let radius = self.frustum.radius(up) * (left / area).clamp(0.0, 1.0).sqrt();
-        let (sine, cosine) = libm::sincos(TAU * u[1]);
+        let [cosine, sine] = circle_point(u[1]);
         let own = DVec3::new(radius * cosine, up, radius * sine);
         (space.centre + space.world_from_unit * own, self.area_normal(DVec3::Y * up).normalize(), all)
     }

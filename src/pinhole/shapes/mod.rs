@@ -96,8 +96,8 @@ pub use planar::{Crossing, Planar, crossing};
 pub use plane::{PlacedPlane, plane_t};
 pub use rectangle::{PlacedRectangle, rectangle_intersection, rectangle_t};
 pub use registry::{
-    AnyShape, CustomShape, Emitter, LeavingPoint, Listed, ShapeVisitor, custom_shape, distance_to, leaving_point,
-    pdf_towards, point_on, shape_names, visit_shapes,
+    AnyShape, CustomShape, Emitter, EmitterVisitor, LeavingPoint, Listed, ShapeVisitor, custom_shape, distance_to,
+    leaving_point, pdf_towards, point_on, shape_names, visit_emitter, visit_shapes,
 };
 pub use shape::{Placed, SceneShape, Shape, ShapeNames};
 pub use sphere::{PlacedSphere, sphere_intersection, sphere_t};

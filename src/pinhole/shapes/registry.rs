@@ -31,6 +31,12 @@ pub trait ShapeVisitor {
     fn visit<S: Listed>(&mut self);
 }
 
+/// Something to be done with an emitter.
+pub trait EmitterVisitor {
+    /// Does it with one of this type.
+    fn visit<E: Emitting>(self, emitter: &E);
+}
+
 /// The probability of starting a ray inside a closed shape that emits on both sides, where there is seldom anything.
 const INWARD: f64 = 1.0 / 16.0;
 
@@ -199,6 +205,12 @@ macro_rules! registry {
             pub fn faces(&self, point: DVec3) -> bool {
                 match self { $(Self::$kind(emitter) => emitter.faces(point),)+ }
             }
+        }
+
+        /// Does something with an emitter by its type.
+        #[inline(always)]
+        pub fn visit_emitter(emitter: &Emitter, visitor: impl EmitterVisitor) {
+            match emitter { $(Emitter::$kind(emitter) => visitor.visit(emitter),)+ }
         }
 
         /// The point of a light for a point of the unit square.

@@ -104,6 +104,7 @@ impl Shape for PlacedSphere {
 
 impl Emitting for PlacedSphere {
     const IS_CLOSED: bool = true;
+    const IN_BLOCKS: bool = true;
 
     fn area(&self) -> f64 {
         4.0 * PI * self.radius * self.radius

@@ -3,10 +3,10 @@
 use super::{Group, Method, Tally, Trial};
 use crate::measure::draws::Draws;
 use crate::measure::exact::Dyadic;
-use crate::naive::lens::{focus_along_the_ray, radius_at_random, square_onto_disk};
+use crate::naive::lens::{focus_along_the_ray, onto_disk, radius_at_random, square_onto_disk};
 use glam::{DVec2, DVec3};
 use pinhole::extract::{LensTable, tan_half};
-use pinhole::rays::{camera_ray_lens, disk_point, polygon_point};
+use pinhole::rays::{camera_ray_lens, polygon_point};
 use pinhole::scene::{Aperture, Degrees, Lens};
 use std::ops::Range;
 
@@ -60,7 +60,7 @@ fn check_in_focus(range: Range<u64>, seed: u64, fov: [f64; 2], powers: [f64; 2])
         let tangent = tan_half(Degrees(draws.between(fov[0], fov[1])));
         let screen = DVec2::new(draws.between(-1.78, 1.78), draws.between(-1.0, 1.0));
         let (radius, focus) = (draws.power_of_ten(powers[0], powers[1]), draws.power_of_ten(powers[0], powers[1]));
-        let lens = disk_point(DVec2::new(draws.unit(), draws.unit())) * radius;
+        let lens = onto_disk(DVec2::new(draws.unit(), draws.unit())) * radius;
         tally.count(true);
         for (score, aim) in tally.scores.iter_mut().zip([camera_ray_lens, focus_along_the_ray]) {
             score.measure(miss(screen, tangent, lens, focus, aim(screen, tangent, lens, focus)));
@@ -98,7 +98,7 @@ fn check_disk(range: Range<u64>) -> Tally {
         let (fraction, side) = (draws.between(0.1, 0.9), draws.unit() * std::f64::consts::TAU);
         let across = DVec2::new(libm::cos(side), libm::sin(side));
         tally.count(true);
-        for (score, spread) in tally.scores.iter_mut().zip([disk_point, radius_at_random, square_onto_disk]) {
+        for (score, spread) in tally.scores.iter_mut().zip([onto_disk, radius_at_random, square_onto_disk]) {
             let (mut within, mut beside) = (0, 0);
             for point in points(2315, index).map(spread) {
                 within += u32::from(point.length_squared() < fraction);
@@ -131,7 +131,7 @@ fn check_polygon(range: Range<u64>) -> Tally {
             .collect();
         let within = |point: DVec2| edges.iter().all(|&(outward, distance)| outward.dot(point) < distance);
         tally.count(true);
-        let spreads: [&dyn Fn(DVec2) -> DVec2; 2] = [&|u| polygon_point(u, &opening.corners), &disk_point];
+        let spreads: [&dyn Fn(DVec2) -> DVec2; 2] = [&|u| polygon_point(u, &opening.corners), &onto_disk];
         for (score, spread) in tally.scores.iter_mut().zip(spreads) {
             let count = points(2317, index).filter(|&u| within(spread(u))).count();
             score.measure((count as f64 / f64::from(POINTS) - fraction).abs());

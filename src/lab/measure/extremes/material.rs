@@ -12,6 +12,7 @@ use pinhole::material::{
     Bsdf, MetalTable, MultipleScattering, Parameters, ShadingContext, cosine_direction, frame_of, fresnel, ggx_brdf,
     ggx_d, ggx_sample, refract, visible_normal, visible_pdf,
 };
+use pinhole::sample::disk_point;
 use std::f64::consts::{FRAC_PI_2, LN_2};
 use std::ops::Range;
 
@@ -262,7 +263,7 @@ fn check_numbers(range: Range<u64>) -> Tally {
         tally.count(true);
         let score = &mut tally.scores[0];
         score.check(cosine_direction(numbers).z > 0.0);
-        match ggx_sample(eye, alpha, numbers) {
+        match ggx_sample(eye, alpha, disk_point(numbers)) {
             Some(microfacet_sample) => {
                 let within = (0.0..=1.0).contains(&microfacet_sample.weight)
                     && microfacet_sample.pdf > 0.0
@@ -276,7 +277,7 @@ fn check_numbers(range: Range<u64>) -> Tally {
                 score.check(ggx_brdf(microfacet_sample.to_light, eye, alpha).is_finite());
             }
             None if eye.z >= 0.0 => {
-                let half = visible_normal(eye, alpha, numbers);
+                let half = visible_normal(eye, alpha, disk_point(numbers));
                 score.check(half.z > 0.0 && half.is_finite() && visible_pdf(half, eye, alpha).is_finite());
             }
             None => {}

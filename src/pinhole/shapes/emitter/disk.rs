@@ -1,7 +1,8 @@
 use super::emitting::{AreaSample, Emitting, LightPoint, pdf_from_area};
 use super::parallelogram::{Parallelogram, RectangleSeen};
+use crate::sample;
 use glam::DVec3;
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+use std::f64::consts::{FRAC_PI_4, PI};
 
 /// From farther away than this many of its longest radii, a disk is sampled by area.
 const FAR: f64 = 3.0;
@@ -46,8 +47,7 @@ impl Emitting for EmittingDisk {
 
     #[inline(always)]
     fn spot(&self, u: [f64; 2]) -> AreaSample {
-        let (radius, (sine, cosine)) = (u[0].sqrt(), libm::sincos(TAU * u[1]));
-        AreaSample { area: self.area(), ..self.0.spot_at([radius * cosine, radius * sine]) }
+        AreaSample { area: self.area(), ..self.0.spot_at(sample::disk_point(u).point()) }
     }
 }
 
@@ -96,20 +96,10 @@ fn box_seen(disk: &Parallelogram, from: DVec3) -> Option<RectangleSeen> {
     (seen.solid_angle >= MIN_SOLID_ANGLE).then_some(seen)
 }
 
-/// Samples a point uniformly over the disk's area; concentric squares map to concentric circles (Shirley and Chiu
-/// 1997).
+/// Samples a point uniformly over the disk's area.
 #[inline(always)]
 fn disk_area_point(disk: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint {
-    let [a, b] = u.map(|u| 2.0 * u - 1.0);
-    let (radius, turn) = if a * a > b * b {
-        (a, FRAC_PI_4 * (b / a))
-    } else if b != 0.0 {
-        (b, FRAC_PI_2 - FRAC_PI_4 * (a / b))
-    } else {
-        (0.0, 0.0)
-    };
-    let [x, y] = disk.half_edges;
-    let (sine, cosine) = libm::sincos(turn);
-    let to = disk.centre - from + x * (radius * cosine) + y * (radius * sine);
+    let ([right, up], [x, y]) = (sample::disk_point(u).point(), disk.half_edges);
+    let to = disk.centre - from + x * right + y * up;
     LightPoint { to, pdf: pdf_from_area(to, disk.normal, PI / 4.0 * disk.area()) }
 }

@@ -1,10 +1,13 @@
 use glam::DVec3;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use std::fmt::Debug;
 
 /// A shape as a light that is sampled: what sampling its area asks of it.
 pub trait Emitting: Clone + Copy + Debug + PartialEq + Send + Sync + 'static {
     /// Whether it encloses a space, so that little of what leaves its inner side is ever seen.
     const IS_CLOSED: bool;
+    /// Whether [`Self::point`] is so nearly without branches that it is sampled for many surfaces at once.
+    const IN_BLOCKS: bool = false;
 
     /// The area that emits, on one side, in square scene units.
     fn area(&self) -> f64;
@@ -103,8 +106,65 @@ pub fn pdf_from_area(to: DVec3, unit_normal: DVec3, area: f64) -> f64 {
 }
 // ANCHOR_END: pdf_from_area
 
-/// The angle in [0, π] with a sine and a cosine in this ratio.
+/// tan (π/8).
+const EIGHTH: f64 = std::f64::consts::SQRT_2 - 1.0;
+
+/// The angle in [−π, π] with a sine and a cosine in this ratio, within 2 · 2⁻⁵³ of it; 0 where both are 0.
+///
+/// The lesser over the greater is the tangent of an angle of at most 45°, and with 45° taken off where that leaves less,
+/// of at most 22.5°, where the series of the arc tangent needs no more than 22 terms. There is no branch, so that one loop
+/// computes the angles of many rows.
 #[inline(always)]
 pub(super) fn angle_of(sine: f64, cosine: f64) -> f64 {
-    libm::atan2(sine, cosine)
+    let (a, b) = (sine.abs(), cosine.abs());
+    let is_steep = a > b;
+    let (less, more) = if is_steep { (b, a) } else { (a, b) };
+    let is_large = less > EIGHTH * more;
+    let (over, under) = if is_large { (less - more, less + more) } else { (less, more) };
+    let tangent = if under > 0.0 { over / under } else { under };
+    let square = tangent * tangent;
+    // Odd and even powers apart are two short chains of operations in place of a long one.
+    let [mut even, mut odd] = [0.0; 2];
+    let fourth = square * square;
+    for pair in (0..11_u32).rev() {
+        even = even * fourth + 1.0 / f64::from(4 * pair + 1);
+        odd = odd * fourth - 1.0 / f64::from(4 * pair + 3);
+    }
+    let angle = tangent * (even + square * odd);
+    let angle = if is_large { FRAC_PI_4 + angle } else { angle };
+    let angle = if is_steep { FRAC_PI_2 - angle } else { angle };
+    let angle = if cosine < 0.0 { PI - angle } else { angle };
+    if sine < 0.0 { -angle } else { angle }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::draws::Draws;
+
+    #[test]
+    fn angles_are_those_of_libm() {
+        let (mut tried, mut worst) = (0, 0.0_f64);
+        let mut beside = |sine: f64, cosine: f64| {
+            let (own, expected) = (angle_of(sine, cosine), libm::atan2(sine, cosine));
+            if expected != own {
+                worst = worst.max((own / expected - 1.0).abs() * (1_u64 << 53) as f64);
+            }
+            tried += 1;
+        };
+        for number in 0..200_000 {
+            let mut draws = Draws::new(2711, number);
+            let vector = draws.unit_vector();
+            beside(vector.x, vector.y);
+            beside(draws.power_of_ten(-300.0, 0.0), vector.z);
+            beside(vector.z, draws.power_of_ten(-300.0, 0.0));
+        }
+        for ends in
+            [[0.0, 1.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0], [0.0, -1.0], [-1.0, -1.0], [-1.0, 0.0], [f64::MAX, 1.0]]
+        {
+            beside(ends[0], ends[1]);
+        }
+        eprintln!("angles: {tried}, worst {worst:.2} · 2⁻⁵³ from libm's, relative");
+        assert!(worst <= 4.0, "{worst}");
+    }
 }

@@ -1,5 +1,6 @@
 use super::emitting::{AreaSample, Emitting, LightPoint, angle_of, pdf_from_area};
 use super::triangle::{MIN_SOLID_ANGLE, TriangleSeen, triangle_solid_angle};
+use crate::sample::circle_point;
 use crate::shapes::l1_norm;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -62,6 +63,7 @@ impl Parallelogram {
 
 impl Emitting for Parallelogram {
     const IS_CLOSED: bool = false;
+    const IN_BLOCKS: bool = true;
 
     fn area(&self) -> f64 {
         self.area()
@@ -162,7 +164,7 @@ impl RectangleSeen {
     #[inline(always)]
     pub fn at(&self, u: [f64; 2]) -> DVec3 {
         let ([x0, x1], [y0, y1], z) = (self.x, self.y, self.z);
-        let (sine, cosine) = libm::sincos(u[0] * self.solid_angle);
+        let [cosine, sine] = circle_point(u[0] * self.solid_angle / TAU);
         let [cosine, sine] = add_turns([cosine, sine], self.first_angle);
         let f = (cosine * self.lean[0] - self.lean[1]) / sine;
         // f² + lean² − 1, with 1 − lean² computed as one term.

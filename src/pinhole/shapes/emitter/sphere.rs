@@ -1,4 +1,5 @@
 use super::emitting::LightPoint;
+use crate::sample::disk_point;
 use glam::{DMat3, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -22,12 +23,13 @@ pub fn sphere_point(axis: DVec3, radius: f64, u: [f64; 2]) -> LightPoint {
     let (dd, rr) = (axis.length_squared(), radius * radius);
     let inside = dd <= rr;
     let whole = if inside { 2.0 } else { cone_versine(rr / dd) };
-    let versine = u[0] * whole;
-    let (sine, turn) = ((versine * (2.0 - versine)).max(0.0).sqrt(), TAU * u[1]);
+    let on_disk = disk_point(u);
+    let versine = on_disk.squared() * whole;
+    let sine = (versine * (2.0 - versine)).max(0.0).sqrt();
     let ahead = if inside { DVec3::Z } else { axis / dd.sqrt() };
     let (right, up) = ahead.any_orthonormal_pair();
-    let (up_part, right_part) = libm::sincos(turn);
-    let direction = ahead * (1.0 - versine) + (right * right_part + up * up_part) * sine;
+    let [x, y] = on_disk.at(sine);
+    let direction = ahead * (1.0 - versine) + (right * x + up * y);
     let distance = sphere_distance(axis, radius, direction);
     LightPoint { to: direction * distance, pdf: 1.0 / (TAU * whole) }
 }
@@ -65,9 +67,9 @@ pub fn sphere_direction(u: [f64; 2]) -> DVec3 {
 /// A direction uniform over the cone about an axis, `whole` being 1 − cos of its half angle.
 #[inline(always)]
 pub fn cone_direction(axis: DVec3, whole: f64, u: [f64; 2]) -> DVec3 {
-    let versine = u[0] * whole;
-    let sine = (versine * (2.0 - versine)).max(0.0).sqrt();
+    let on_disk = disk_point(u);
+    let versine = on_disk.squared() * whole;
+    let [x, y] = on_disk.at((versine * (2.0 - versine)).max(0.0).sqrt());
     let (right, up) = axis.any_orthonormal_pair();
-    let (up_part, right_part) = libm::sincos(TAU * u[1]);
-    DMat3::from_cols(right, up, axis) * DVec3::new(sine * right_part, sine * up_part, 1.0 - versine)
+    DMat3::from_cols(right, up, axis) * DVec3::new(x, y, 1.0 - versine)
 }

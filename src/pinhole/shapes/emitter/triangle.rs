@@ -1,10 +1,22 @@
 use super::emitting::{AreaSample, Emitting, LightPoint, angle_of, pdf_from_area};
+use crate::sample::circle_point;
 use crate::shapes::l1_norm;
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// A triangle that subtends less than this many sr is sampled by area, since the width of a thin one would have no
 /// digits left.
 pub(super) const MIN_SOLID_ANGLE: f64 = 1e-9;
+
+/// Beyond this its square would be infinite.
+const MAX_TAN: f64 = 1e154;
+
+/// A vector divided by its length; 0 where it has none.
+#[inline(always)]
+fn unit_or_zero(vector: DVec3) -> DVec3 {
+    let inverse = 1.0 / vector.length();
+    vector * if (inverse > 0.0) & (inverse < f64::INFINITY) { inverse } else { 0.0 }
+}
 
 /// A triangle as a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +29,7 @@ pub struct EmittingTriangle {
 
 impl Emitting for EmittingTriangle {
     const IS_CLOSED: bool = false;
+    const IN_BLOCKS: bool = true;
 
     fn area(&self) -> f64 {
         let [a, b, c] = self.corners;
@@ -96,15 +109,16 @@ impl TriangleSeen {
         // From the edges: the cross product of two nearly equal offsets would lose their difference.
         let (across_b, across_c) = (a.cross(b - a), a.cross(c - a));
         let (sine, cosine) = (across_b.cross(across_c).length(), across_b.dot(across_c));
-        let whole = (sine * sine + cosine * cosine).sqrt();
+        let inverse = 1.0 / (sine * sine + cosine * cosine).sqrt();
+        let (length_a, length_b) = (a.length(), b.length());
         Self {
             corners,
             cross: (b - a).cross(c - a),
-            first: a.normalize(),
-            second: b.normalize(),
-            to_third: across_c.cross(a).normalize_or_zero(),
-            alpha: [cosine / whole, sine / whole],
-            tan_half: across_b.length() / (a.length() * b.length() + a.dot(b)),
+            first: a * (1.0 / length_a),
+            second: b * (1.0 / length_b),
+            to_third: unit_or_zero(across_c.cross(a)),
+            alpha: [cosine * inverse, sine * inverse],
+            tan_half: across_b.length() / (length_a * length_b + a.dot(b)),
             solid_angle,
         }
     }
@@ -117,13 +131,14 @@ impl TriangleSeen {
     /// The second selects a point on that circle, where 1 − cos of the angle from b is uniform.
     #[inline(always)]
     pub fn at(&self, u: [f64; 2]) -> DVec3 {
-        let (sine, cosine) = libm::sincos(0.5 * u[0] * self.solid_angle);
+        let [cosine, sine] = circle_point(u[0] * self.solid_angle * (0.25 / PI));
         let tan = sine / (self.tan_half * (self.alpha[1] * cosine - self.alpha[0] * sine));
-        let tan = if tan >= 0.0 { tan.min(f64::MAX.sqrt()) } else { 0.0 };
-        let end = (self.first * (1.0 - tan * tan) + self.to_third * (2.0 * tan)) / (1.0 + tan * tan);
+        let tan = if tan >= 0.0 { if tan < MAX_TAN { tan } else { MAX_TAN } } else { 0.0 };
+        let end = (self.first * (1.0 - tan * tan) + self.to_third * (2.0 * tan)) * (1.0 / (1.0 + tan * tan));
         let versine = u[1] * 0.5 * (end - self.second).length_squared();
-        let away = (end - self.second * self.second.dot(end)).normalize_or_zero();
-        let direction = self.second * (1.0 - versine) + away * (versine * (2.0 - versine)).max(0.0).sqrt();
+        let away = unit_or_zero(end - self.second * self.second.dot(end));
+        let squared = versine * (2.0 - versine);
+        let direction = self.second * (1.0 - versine) + away * if squared > 0.0 { squared } else { 0.0 }.sqrt();
         direction * (self.cross.dot(self.corners[0]) / self.cross.dot(direction))
     }
 }
@@ -133,10 +148,11 @@ impl TriangleSeen {
 pub fn triangle_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> LightPoint {
     let there = corners.map(|corner| corner - from);
     let solid_angle = triangle_solid_angle(&there);
-    if solid_angle < MIN_SOLID_ANGLE {
-        return triangle_area_point(corners, from, u);
-    }
-    LightPoint { to: TriangleSeen::new(there, solid_angle).at(u), pdf: 1.0 / solid_angle }
+    // Both are computed and one is picked, so that a loop over many surfaces has no branch.
+    let (by_area, seen) = (triangle_area_point(corners, from, u), TriangleSeen::new(there, solid_angle).at(u));
+    let pick = |small: f64, large: f64| if solid_angle < MIN_SOLID_ANGLE { small } else { large };
+    let to = DVec3::new(pick(by_area.to.x, seen.x), pick(by_area.to.y, seen.y), pick(by_area.to.z, seen.z));
+    LightPoint { to, pdf: pick(by_area.pdf, 1.0 / solid_angle) }
 }
 
 /// The pdf of a direction sampled by [`triangle_point`], in 1/sr; `to` is the offset to the triangle's point there.
