@@ -164,7 +164,7 @@ fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
                         1.0
                     } else {
                         let at = rays.point_at(row, hits.t[row]);
-                        // Few lights are chosen by power alone, whatever the normal.
+                        // Few lights are chosen alike for all surfaces, whatever the normal.
                         let receiver = Receiver { position: rays.origin_of(row), normal: DVec3::ZERO };
                         let asked = (paths.pdf[row], area_light_pdf(&lights, light as usize, &receiver, at));
                         ask.at((tile, samples, Some(paths)), row, asked).unwrap_or_default()

@@ -44,7 +44,7 @@ fn light_strategies_agree_on_many_lights_of_every_kind() {
 }
 
 /// The light of many lights is the sum of what parts of them bring, each so few that all are summed or that they are
-/// chosen by power alone.
+/// chosen alike for all surfaces.
 #[test]
 fn many_lights_bring_what_few_at_a_time_add_up_to() {
     const SETS: u64 = 12;

@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Up to this many lights, one is chosen by power alone, which costs next to nothing; of more, a hierarchy leaves less
+/// Up to this many lights, one is chosen alike for all surfaces, which costs next to nothing; of more, a hierarchy leaves less
 /// noise.
 const FEW: usize = 8;
 
@@ -267,7 +267,7 @@ pub fn many_area_lights_evidence(scene: &Census<'_>) -> Evidence {
     if lights > FEW || lights == 0 {
         return found;
     }
-    let reason = format!("{}, chosen by power alone", counted(lights, "light with area"));
+    let reason = format!("{}, chosen alike for all surfaces", counted(lights, "light with area"));
     Evidence { needed: false, reason, count: 0 }
 }
 
@@ -385,7 +385,7 @@ const PARTS: u64 = 1 << 32;
 pub enum LightChoice {
     /// By position and power, for lights that have a position.
     Hierarchy(LightHierarchy),
-    /// By power alone.
+    /// Alike for all surfaces: partly by power.
     Power {
         /// The cumulative distribution in units of 2⁻³².
         until: Vec<u64>,
