@@ -35,7 +35,7 @@ pub struct Span {
 pub fn table_offset(u: f64, cells: &FilterCells) -> (f64, bool) {
     let side = 2.0 * u - 1.0;
     let area = side.abs();
-    let mut at = usize::from(cells.first[(area * cells.cells.len() as f64) as usize]);
+    let mut at = usize::from(cells.first[(area * (cells.first.len() - 1) as f64) as usize]);
     while cells.cells[at].end <= area {
         at += 1;
     }

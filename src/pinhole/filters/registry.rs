@@ -67,7 +67,8 @@ fn tabulated<K: Kernel>(kernel: K) -> FilterCells {
     if let Some(last) = cells.last_mut() {
         last.end = 2.0;
     }
-    let steps = cells.len();
+    // So many that a step seldom has the end of a cell in it, and a power of two, so that no product is rounded.
+    let steps = (16 * cells.len()).next_power_of_two();
     let first = |step: usize| cells.partition_point(|cell| cell.end <= step as f64 / steps as f64) as u16;
     FilterCells { first: (0..=steps).map(first).collect(), cells }
 }

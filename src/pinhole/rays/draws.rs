@@ -95,14 +95,20 @@ impl Draws<'_> {
     /// Calls a function with the pixels of each block of rows, x and y, and what is drawn for them.
     #[inline(always)]
     fn of_blocks<T>(&self, rows: &[u32], into: &mut [T], fill: impl Fn(&[[u32; AT_ONCE]; 2], &mut [T])) {
-        let mut pixels = [[0; AT_ONCE]; 2];
         for (rows, into) in rows.chunks(AT_ONCE).zip(into.chunks_mut(AT_ONCE)) {
-            for (lane, &row) in rows.iter().enumerate() {
-                let [x, y] = pixel_of_row(self.tile, self.samples, self.paths, row as usize);
-                (pixels[0][lane], pixels[1][lane]) = (x, y);
-            }
-            fill(&pixels, into);
+            fill(&self.pixels(rows.iter().map(|&row| row as usize)), into);
         }
+    }
+
+    /// The pixels of at most so many rows, x and y.
+    #[inline(always)]
+    fn pixels(&self, rows: impl Iterator<Item = usize>) -> [[u32; AT_ONCE]; 2] {
+        let mut pixels = [[0; AT_ONCE]; 2];
+        for (lane, row) in rows.take(AT_ONCE).enumerate() {
+            let [x, y] = pixel_of_row(self.tile, self.samples, self.paths, row);
+            (pixels[0][lane], pixels[1][lane]) = (x, y);
+        }
+        pixels
     }
 }
 
@@ -120,52 +126,32 @@ fn fractions_of_pixels<D: Draw>(draw: D, seed: u64, [xs, ys]: &[[u32; AT_ONCE]; 
     }
 }
 
-// Random numbers for each row of a tile; the sampler is dispatched once per tile.
+// Random numbers for every row of a column, at depth 0.
 
-/// Which sample of which pixel each row of a tile is, with the seed and the sampler.
-#[derive(Clone, Copy)]
-pub(super) struct Rows<'a> {
-    pub sampling: &'a SamplingTable,
-    pub tile: &'a Tile,
-    pub number: Option<&'a SampleNumber>,
-    pub samples: Option<&'a PixelSamples>,
+/// Draws a uniform point in [0, 1)² for each row.
+pub(super) fn draw_two(of: &Draws<'_>, purpose: Purpose, xs: &mut [f64], ys: &mut [f64]) {
+    with_sampler!(of.sampling.sampler, D => {
+        let (draw, mut points) = (D::of(of.sample(), purpose), [[0.0; 2]; AT_ONCE]);
+        for (block, (xs, ys)) in xs.chunks_mut(AT_ONCE).zip(ys.chunks_mut(AT_ONCE)).enumerate() {
+            let first = block * AT_ONCE;
+            let points = &mut points[..xs.len()];
+            points_of_pixels(draw, of.sampling.seed, &of.pixels(first..first + xs.len()), points);
+            for (point, (x, y)) in points.iter().zip(xs.iter_mut().zip(ys)) {
+                [*x, *y] = *point;
+            }
+        }
+    });
 }
 
-impl Rows<'_> {
-    fn sample(&self) -> SampleIndex {
-        let number = self.number.map_or(0, |number| number.0);
-        SampleIndex { number, samples: self.sampling.samples, depth: 0 }
-    }
-}
-
-/// Draws a uniform point in [0, 1)² for each row, at depth 0.
-pub(super) fn draw_two(rows: Rows<'_>, purpose: Purpose, xs: &mut [f64], ys: &mut [f64]) {
-    with_sampler!(rows.sampling.sampler, D => two_rows(D::of(rows.sample(), purpose), rows, xs, ys));
-}
-
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn two_rows<D: Draw>(draw: D, rows: Rows<'_>, xs: &mut [f64], ys: &mut [f64]) {
-    for (row, (x, y)) in xs.iter_mut().zip(ys).enumerate() {
-        let [a, b] = draw.two(key(rows, row));
-        (*x, *y) = (unit(a), unit(b));
-    }
-}
-
-/// The key of a row's pixel, which is that of its own index in the tile unless samples are placed.
-#[inline(always)]
-fn key(rows: Rows<'_>, row: usize) -> PixelKey {
-    let pixel = rows.samples.map_or(row, |samples| samples.pixel[row] as usize);
-    PixelKey::new(rows.sampling.seed, rows.tile.pixel_of(pixel))
-}
-
-/// Draws a uniform number in [0, 1) for each row, at depth 0.
-pub(super) fn draw_one(rows: Rows<'_>, purpose: Purpose, xs: &mut [f64]) {
-    with_sampler!(rows.sampling.sampler, D => one_rows(D::of(rows.sample(), purpose), rows, xs));
-}
-
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn one_rows<D: Draw>(draw: D, rows: Rows<'_>, xs: &mut [f64]) {
-    for (row, x) in xs.iter_mut().enumerate() {
-        *x = unit(draw.one(key(rows, row)));
-    }
+/// Draws a uniform number in [0, 1) for each row.
+pub(super) fn draw_one(of: &Draws<'_>, purpose: Purpose, xs: &mut [f64]) {
+    with_sampler!(of.sampling.sampler, D => {
+        let (draw, mut fractions) = (D::of(of.sample(), purpose), [0; AT_ONCE]);
+        for (block, xs) in xs.chunks_mut(AT_ONCE).enumerate() {
+            let first = block * AT_ONCE;
+            let fractions = &mut fractions[..xs.len()];
+            fractions_of_pixels(draw, of.sampling.seed, &of.pixels(first..first + xs.len()), fractions);
+            fractions.iter().zip(xs).for_each(|(&fraction, x)| *x = unit(fraction));
+        }
+    });
 }

@@ -1,10 +1,11 @@
-use super::draws::{Rows, draw_two};
-use super::{CameraRays, PixelSamples, RasterPoints, SampleNumber, ScreenPoints, Tile};
+use super::draws::{Draws, draw_two};
+use super::{CameraRays, Depth, PixelSamples, RasterPoints, SampleNumber, ScreenPoints, Tile};
 use crate::extract::{LensTable, PerspectiveProjection, SamplingTable, lens_evidence};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRows, VectorRowsMut, column};
 use crate::sample::{Purpose, disk_point};
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
+use multiversion::multiversion;
 
 column! {
     /// The point of the lens at which each ray starts, relative to the lens's centre, in the plane of the lens.
@@ -70,12 +71,29 @@ pub fn draw_lens_points(
     mut tiles: Query<(&Tile, Option<&SampleNumber>, Option<&PixelSamples>, &RasterPoints, &mut LensPoints)>,
 ) {
     for (tile, number, samples, raster, mut points) in &mut tiles {
-        let rows = Rows { sampling: &sampling, tile, number, samples };
+        let draws = Draws { sampling: &sampling, tile, number, samples, paths: None, depth: Depth(0) };
         let [xs, ys] = points.slices_mut(raster.rows());
-        draw_two(rows, Purpose::Lens, xs, ys);
-        for (x, y) in xs.iter_mut().zip(ys) {
-            (*x, *y) = lens_point(DVec2::new(*x, *y), &lens).into();
+        draw_two(&draws, Purpose::Lens, xs, ys);
+        if lens.corners.is_empty() {
+            onto_disk(&lens, xs, ys);
+        } else {
+            onto_lens(&lens, xs, ys);
         }
+    }
+}
+
+/// Maps points of the unit square to a round lens, many at once.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn onto_disk(lens: &LensTable, xs: &mut [f64], ys: &mut [f64]) {
+    for (x, y) in xs.iter_mut().zip(ys) {
+        (*x, *y) = (lens.radius * DVec2::from(disk_point([*x, *y]).point())).into();
+    }
+}
+
+/// Maps points of the unit square to any lens.
+fn onto_lens(lens: &LensTable, xs: &mut [f64], ys: &mut [f64]) {
+    for (x, y) in xs.iter_mut().zip(ys) {
+        (*x, *y) = lens_point(DVec2::new(*x, *y), lens).into();
     }
 }
 

@@ -1,6 +1,6 @@
 //! What is kept of a path.
 
-use super::draws::{Rows, draw_one};
+use super::draws::{Draws, draw_one};
 use super::{PixelSamples, RasterPoints, SampleNumber, Tile};
 use crate::extract::{SamplingTable, ShutterTable, motion_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
@@ -75,9 +75,9 @@ pub fn draw_times(
     mut tiles: Query<(&Tile, Option<&SampleNumber>, Option<&PixelSamples>, &RasterPoints, &mut RayTimes)>,
 ) {
     for (tile, number, samples, raster, mut times) in &mut tiles {
-        let rows = Rows { sampling: &sampling, tile, number, samples };
+        let draws = Draws { sampling: &sampling, tile, number, samples, paths: None, depth: Depth(0) };
         let times = times.slices_mut(raster.rows());
-        draw_one(rows, Purpose::Time, times);
+        draw_one(&draws, Purpose::Time, times);
         times.iter_mut().for_each(|time| *time *= shutter.length);
     }
 }
