@@ -1,4 +1,4 @@
-//! What is kept of the curves of chapters 31 and 34 says when it was measured, and has the forms that the pages describe.
+//! What is kept of the curves of chapters 31, 34 and 37 says when it was measured, and has the forms that the pages describe.
 
 use pinhole::scene::MeshGeometry;
 use pinhole::shapes::{MeshHierarchy, PlacedSphere, hierarchy_of};
@@ -46,7 +46,7 @@ fn the_hierarchies_of_the_curves_are_of_the_sizes_that_are_kept() {
 /// Each file says when and where its times were measured.
 #[test]
 fn curves_say_when_they_were_measured() {
-    for chapter in ["31_wide_tree", "34_both"] {
+    for chapter in ["31_wide_tree", "34_both", "37_rows"] {
         let kept = kept(chapter);
         assert!(kept.lines().any(|line| line.starts_with("machine: ")), "{chapter}");
         assert!(kept.lines().last().is_some_and(|line| line.starts_with("measured on ")), "{chapter}");
@@ -65,6 +65,22 @@ fn table(chapter: &str, title: &str, columns: usize) -> Vec<(f64, Vec<f64>)> {
     let rows: Vec<_> = lines.map_while(row).collect();
     assert!(rows.len() >= 5, "{} rows of {title}", rows.len());
     rows
+}
+
+/// "The same loop now takes 2.1 ns", "so a row takes 1.7 ns", "only where the columns no longer fit there does the fused
+/// loop win", "and a row takes 6 ns": what the page says of the rows of chapter 37, as ratios that hold on any machine
+/// whose registers hold four f64 or more.
+#[test]
+fn rows_take_less_time_in_columns_and_by_lists() {
+    let rows = table("37_rows", "rows at once", 7);
+    let [tile, last] = [1024.0, 1_048_576.0].map(|count| rows.iter().find(|row| row.0 == count).expect("a row"));
+    let [library, series, columns, fused, mixed, listed] = [0, 1, 2, 3, 4, 5];
+    assert!(tile.1[library] > 2.0 * tile.1[series], "the library is called");
+    assert!(last.1[library] > 1.2 * tile.1[library], "a thousand rows are learned by heart");
+    assert!(tile.1[columns] < 1.1 * tile.1[series], "columns are not gathered");
+    assert!(tile.1[fused] > 0.9 * tile.1[columns], "a fused loop gains nothing for a tile");
+    assert!(last.1[fused] < 0.95 * last.1[columns], "it does for a million rows");
+    assert!(tile.1[mixed] > 1.5 * tile.1[listed], "rows of one kind are done at once");
 }
 
 /// The exponent with which a column grows between two rows.

@@ -21,11 +21,12 @@ use std::process;
 use std::time::Instant;
 
 /// The benches whose numbers are kept beside a chapter: the chapter, the file, and what follows `cargo bench --bench`.
-const BENCHES: [(&str, &str, &[&str]); 4] = [
+const BENCHES: [(&str, &str, &[&str]); 5] = [
     ("12_how_it_is_built", "entity_per_ray.txt", &["entity_per_ray", "--", "--write"]),
     ("25_path_tracing", "yours.txt", &["yours", "--", "--write"]),
     ("31_wide_tree", "curves.txt", &["curves", "--", "--write"]),
     ("34_both", "curves.txt", &["rasterisation", "--", "curves", "--write"]),
+    ("37_rows", "curves.txt", &["rows", "--", "--write"]),
 ];
 
 /// A chapter's report as it was made last: what it is compared with is what it was compared with.

@@ -24,7 +24,7 @@ use pinhole_lab::measure::oracle::Oracle;
 use pinhole_lab::measure::specimen::{Specimen, shapes_in_a_cube};
 use pinhole_lab::measure::torus_knot::{steps_for, torus_knot};
 use pinhole_lab::naive::tree::{Search, Tree, build as build_tree, by_cost, to_visit};
-use pinhole_lab::report::provenance::Provenance;
+use pinhole_lab::report::provenance::{Provenance, processor_and_caches};
 
 /// The rays that a stage gets at once.
 const BATCH: usize = 1024;
@@ -280,20 +280,6 @@ fn triangle_curve(max: usize) -> Curve {
     curve
 }
 
-/// The processor's name and its caches, as Linux tells them.
-fn machine() -> String {
-    let read = |path: String| std::fs::read_to_string(path).unwrap_or_default().trim().to_owned();
-    let cpus = read("/proc/cpuinfo".into());
-    let name = cpus.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
-    let caches = (0..8).filter_map(|index| {
-        let of = |what: &str| read(format!("/sys/devices/system/cpu/cpu0/cache/index{index}/{what}"));
-        let kib: usize = of("size").strip_suffix('K')?.parse().ok()?;
-        (of("type") != "Instruction").then(|| format!("L{} {kib} KiB", of("level")))
-    });
-    let caches: Vec<String> = caches.collect();
-    format!("machine: {}; caches: {}", name.map_or("unknown", |(_, name)| name), caches.join(", "))
-}
-
 /// Keeps the curves beside their chapter.
 fn keep(curves: &[Curve]) {
     let head = "nanoseconds a ray, processor time of one thread, the least of five; - is not measured";
@@ -301,7 +287,7 @@ fn keep(curves: &[Curve]) {
     for curve in curves {
         text += &format!("\n{}\n{}\n", curve.title, curve.lines().join("\n"));
     }
-    text += &format!("\n{}\n{}\n", machine(), Provenance::now(String::new()).measured());
+    text += &format!("\n{}\n{}\n", processor_and_caches(), Provenance::now(String::new()).measured());
     let file = format!("{}/chapters/{CHAPTER}/curves.txt", env!("CARGO_MANIFEST_DIR"));
     std::fs::write(file, text).expect("the curves can be written");
 }
@@ -321,7 +307,7 @@ fn main() {
         let counts: Vec<usize> = counts.filter(|&count| count <= max).collect();
         curves.push(sphere_curve(&counts));
     }
-    println!("{}", machine());
+    println!("{}", processor_and_caches());
     if words.iter().any(|word| word == "--write") && only.is_none() {
         return keep(&curves);
     }

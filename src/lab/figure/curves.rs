@@ -13,6 +13,9 @@ const FRAME: [f64; 4] = [66.0, 40.0, 566.0, 340.0];
 const HEIGHT: f64 = 412.0;
 const KEPT: FileKind = FileKind { name: "kept curves", max: 1 << 20 };
 
+/// The column of what must be in a cache.
+const SIZE: &str = "KiB";
+
 /// A table of the kept file: its columns' names, and a row for each count, whose cells may be empty.
 #[derive(Clone, Debug, PartialEq)]
 struct Kept {
@@ -39,7 +42,9 @@ impl Kept {
 
     /// The points of a column.
     fn column(&self, name: &str) -> Vec<(f64, f64)> {
-        let Some(at) = self.names.iter().position(|own| own == name) else { return Vec::new() };
+        let Some(at) = self.names.iter().position(|own| own == name || (name == SIZE && own.ends_with(name))) else {
+            return Vec::new();
+        };
         self.rows.iter().filter_map(|(count, cells)| Some((*count, cells[at]?))).collect()
     }
 }
@@ -91,6 +96,17 @@ pub fn draw_spheres(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         ("wide, coherent", "wide, coherent", Pen::new(BLUE, 2.2)),
     ];
     draw(chapter, figure, Axes { across: "spheres", ..OF_RAYS }, &shown)
+}
+
+/// One piece of work written three ways.
+pub fn draw_rows(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let shown = [
+        ("by library", "by library", Pen::new(GREY, 1.8)),
+        ("by series", "by series", Pen::new(GREEN, 1.8)),
+        ("in columns", "in columns", Pen::new(ORANGE, 2.2)),
+        ("fused", "fused", Pen::new(BLUE, 2.2)),
+    ];
+    draw(chapter, figure, Axes { across: "rows", up: "a row", unit: 0, bench: "--bench rows -- --write" }, &shown)
 }
 
 /// First hits by both classes in a small and a large picture, and what rays need beforehand.
@@ -158,7 +174,7 @@ fn draw(chapter: &Chapter, figure: &Figure, axes: Axes, shown: &[Shown]) -> Resu
     }
     let caches = caches(&text);
     for (place, (name, kib)) in caches.iter().enumerate() {
-        let sizes = kept.column("hierarchy KiB");
+        let sizes = kept.column(SIZE);
         let Some(count) = crossing(&sizes, *kib) else { continue };
         let x = at((count, 1.0)).x;
         svg.quiet_line(DVec2::new(x, top), DVec2::new(x, bottom), Pen::new(INK, 1.0).faint(0.5).dashed("2 4"));
@@ -257,14 +273,14 @@ mod tests {
         let kept = Kept::of(TEXT, "triangles").expect("a table");
         assert_eq!(kept.names, ["all, random", "hierarchy KiB"]);
         assert_eq!(kept.column("all, random"), [(100.0, 10.0)]);
-        assert_eq!(kept.column("hierarchy KiB"), [(100.0, 8.0), (1000.0, 80.0)]);
+        assert_eq!(kept.column(SIZE), [(100.0, 8.0), (1000.0, 80.0)]);
         assert_eq!(Kept::of(TEXT, "spheres").expect("a table").column("b"), [(1.0, 2.0)]);
         assert_eq!(Kept::of(TEXT, "cubes"), None);
         assert_eq!(caches(TEXT), [("L1".to_owned(), 32.0), ("L2".to_owned(), 1024.0)]);
         assert_eq!(machine(TEXT).as_deref(), Some("M"));
         assert_eq!(machine("machine: M\nmade from 1").as_deref(), Some("M"));
-        let count = crossing(&kept.column("hierarchy KiB"), 80.0).expect("it comes to that");
-        assert!((count - 1000.0).abs() < 1e-9 && crossing(&kept.column("hierarchy KiB"), 90.0).is_none());
+        let count = crossing(&kept.column(SIZE), 80.0).expect("it comes to that");
+        assert!((count - 1000.0).abs() < 1e-9 && crossing(&kept.column(SIZE), 90.0).is_none());
         assert_eq!(
             [time(0), time(2), time(3), time(7), time(10), power(3), power(7)],
             ["1 ns", "100 ns", "1 µs", "10 ms", "10 s", "1000", "10⁷"]

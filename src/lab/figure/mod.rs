@@ -50,6 +50,7 @@ pub mod samples;
 mod scenery;
 pub mod screen;
 mod section;
+pub mod series;
 mod side;
 mod sketch;
 pub mod slabs;

@@ -32,6 +32,7 @@ pub mod planar;
 pub mod plane;
 pub mod projection;
 pub mod rasterise;
+pub mod rows;
 pub mod sampling;
 pub mod screen;
 pub mod shadow;

@@ -67,6 +67,18 @@ pub fn processor() -> String {
     model.map_or("unknown processor".into(), |(_, model)| model.into())
 }
 
+/// The processor and the sizes of its caches, as far as the system says.
+pub fn processor_and_caches() -> String {
+    let cache = |index: u32| {
+        let of = |what: &str| fs::read_to_string(format!("/sys/devices/system/cpu/cpu0/cache/index{index}/{what}"));
+        let [level, size, kind] = [of("level").ok()?, of("size").ok()?, of("type").ok()?];
+        let kib: usize = size.trim().strip_suffix('K')?.parse().ok()?;
+        (kind.trim() != "Instruction").then(|| format!("L{} {kib} KiB", level.trim()))
+    };
+    let caches: Vec<String> = (0..8).filter_map(cache).collect();
+    format!("machine: {}; caches: {}", processor(), caches.join(", "))
+}
+
 /// The compiler that is at hand now, which under cargo is the one that built this.
 pub fn compiler() -> String {
     let at_least = || format!("rustc {} or later", env!("CARGO_PKG_RUST_VERSION"));

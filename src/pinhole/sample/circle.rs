@@ -22,6 +22,7 @@ const fn series<const N: usize>(of: [u64; N]) -> [f64; N] {
     inverse
 }
 
+// ANCHOR: circle_point
 /// The point of the unit circle at a fraction u of a full turn: cos 2πu and sin 2πu, each within 1.5 · 2⁻⁵³.
 ///
 /// u less the nearest quarter of a turn is exact and at most an eighth, where few terms of the series suffice; the quarter
@@ -39,6 +40,7 @@ pub fn circle_point(u: f64) -> [f64; 2] {
     let negative = |is_so: bool, of: f64| if is_so { -of } else { of };
     [negative((quarter ^ (quarter >> 1)) & 1 != 0, across), negative(quarter & 2 != 0, up)]
 }
+// ANCHOR_END: circle_point
 
 /// The greatest number of 24 binary places below 1.
 const LAST: f64 = 1.0 - 1.0 / (1 << 24) as f64;

@@ -10,7 +10,7 @@ use pinhole::scene::*;
 use pinhole::shapes::MeshHierarchy;
 use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::torus_knot::torus_knot;
-use pinhole_lab::report::provenance::Provenance;
+use pinhole_lab::report::provenance::{Provenance, processor};
 use std::fmt::Write;
 
 const CHAPTER: &str = "34_both";
@@ -170,13 +170,6 @@ fn by_lights() -> Curve {
     curve
 }
 
-/// The processor's name, as Linux tells it.
-fn machine() -> String {
-    let cpus = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let name = cpus.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
-    format!("machine: {}", name.map_or("unknown", |(_, name)| name))
-}
-
 /// The curves; all of them are kept if they are asked for in full.
 pub fn measure() {
     let curves = [by_triangles(), by_pixels(), by_lights()];
@@ -185,7 +178,7 @@ pub fn measure() {
     for curve in &curves {
         _ = write!(text, "\n{}\n{}\n", curve.title, curve.text().trim_end());
     }
-    _ = writeln!(text, "\n{}", machine());
+    _ = writeln!(text, "\nmachine: {}", processor());
     println!("{text}");
     if std::env::args().any(|word| word == "--write") {
         let measured = Provenance::now(String::new()).measured();
