@@ -6,6 +6,8 @@ use crate::scene::Adaptive;
 use crate::{Error, Result};
 use std::time::{Duration, Instant};
 
+/// The first picture is written after the first pass that ends later than this.
+const FIRST: Duration = Duration::from_millis(150);
 /// A picture is not written again sooner than this.
 const SOONEST: Duration = Duration::from_millis(500);
 /// Writing takes at most one part in this many of the time.
@@ -155,7 +157,8 @@ impl Passes {
     }
 
     fn is_time_to_write(&self) -> bool {
-        let pause = self.limits.write_every.unwrap_or((self.writing * FRACTION_FOR_WRITING).max(SOONEST));
+        let soonest = if self.writing.is_zero() { FIRST } else { SOONEST };
+        let pause = self.limits.write_every.unwrap_or((self.writing * FRACTION_FOR_WRITING).max(soonest));
         self.written.elapsed() >= pause
     }
 
