@@ -18,8 +18,7 @@ pub type Yours = fn(f64) -> [f64; 2];
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::rendered("circle", question, move |&turn| yours(turn), mine)
-        .and_in("one turn, from left to right", |_| ())
+    Exercise::rendered("circle", question, move |&turn| yours(turn), mine).and_in("one turn", |_| ())
 }
 
 fn question() -> Question<f64, [f64; 2]> {
