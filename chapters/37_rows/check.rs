@@ -10,7 +10,7 @@ use pinhole_lab::exercise::{
     Ask, Exercise, Mistakes, Probe, Question, RowPlaces, Setting, Shown, StandIn, extremes, probes,
 };
 use pinhole_lab::measure::draws::Draws;
-use pinhole_lab::naive::rows::{circle_by_terms, series};
+use pinhole_lab::naive::rows::{circle_by_terms, series, turned_by_quarters};
 use std::f64::consts::{PI, TAU};
 
 /// What the reader writes.
@@ -61,44 +61,23 @@ fn question() -> Question<f64, [f64; 2]> {
                     _ => [cosine, -sine],
                 })
             })
-            .say("the parts are those of the right quarter, but a sign around a quarter or three quarters of a turn is not")
-            .when(|&turn| {
-                in_quarters(turn, |quarter, [cosine, sine]| match quarter {
-                    0 => [cosine, sine],
-                    1 => [sine, cosine],
-                    2 => [-cosine, -sine],
-                    _ => [-sine, -cosine],
-                })
-            })
-            .when(|&turn| {
-                in_quarters(turn, |quarter, [cosine, sine]| match quarter {
-                    0 => [cosine, sine],
-                    1 => [sine, cosine],
-                    2 => [-cosine, -sine],
-                    _ => [sine, -cosine],
-                })
-            })
-            .when(|&turn| {
-                in_quarters(turn, |quarter, [cosine, sine]| match quarter {
-                    0 => [cosine, sine],
-                    1 => [-sine, cosine],
-                    2 => [-cosine, -sine],
-                    _ => [-sine, -cosine],
-                })
-            })
+            .say("around a quarter or three quarters of a turn a sign is wrong; the parts are those of the right quarter")
+            .when(|&turn| signed_in_odd_quarters(turn, [[1.0, 1.0], [-1.0, -1.0]]))
+            .when(|&turn| signed_in_odd_quarters(turn, [[1.0, 1.0], [1.0, -1.0]]))
+            .when(|&turn| signed_in_odd_quarters(turn, [[-1.0, 1.0], [-1.0, -1.0]]))
             .say("the signs of the second half are those of the first")
-            .when(|&turn| in_quarters(turn, |quarter, [cosine, sine]| if quarter & 1 == 0 { [cosine, sine] } else { [-sine, cosine] }))
+            .when(|&turn| turned_by_quarters(libm::round(4.0 * turn) as u32 & 1, from_nearest(turn)))
             .say("a point of the wrong quarter: which is nearest is found by rounding 4 · turn, not by cutting it off")
             .when(|&turn| {
                 let x = (turn - 0.25 * libm::round(4.0 * turn)) * TAU;
-                placed(libm::floor(4.0 * turn) as u32, series(x, 8))
+                turned_by_quarters(libm::floor(4.0 * turn) as u32, series(x, 8))
             })
             .say("what is left of the turn is taken without its sign, so that the point comes back on its way")
             .when(|&turn| {
                 let x = (turn - 0.25 * libm::round(4.0 * turn)).abs() * TAU;
-                placed(libm::round(4.0 * turn) as u32, series(x, 8))
+                turned_by_quarters(libm::round(4.0 * turn) as u32, series(x, 8))
             })
-            .say("the series are summed up far from 0, where they need many terms; take off the nearest quarter of a turn first")
+            .say("the series are summed up far from 0, where they need many terms; take off the nearest quarter first")
             .when(|&turn| series(TAU * turn, 2))
             .when(|&turn| series(TAU * turn, 3))
             .when(|&turn| series(TAU * turn, 4))
@@ -109,7 +88,7 @@ fn question() -> Question<f64, [f64; 2]> {
             .say("halves are taken off, not quarters: a quarter of a turn from 0 the series need more terms")
             .when(|&turn| in_halves(turn, 4))
             .when(|&turn| in_halves(turn, 5))
-            .say("a term or two are missing: up to an eighth of a turn it takes the powers up to x⁷ and x⁸ for 10⁻⁶")
+            .say("a term or two are missing: for 10⁻⁶ it takes powers up to x⁷ and x⁸, up to an eighth of a turn")
             .when(|&turn| circle_by_terms(turn, 1))
             .when(|&turn| circle_by_terms(turn, 2))
             .when(|&turn| circle_by_terms(turn, 3))
@@ -118,13 +97,14 @@ fn question() -> Question<f64, [f64; 2]> {
             .say("all terms are added; the signs of the series alternate")
             .when(|&turn| {
                 let x = (turn - 0.25 * libm::round(4.0 * turn)) * TAU;
-                placed(libm::round(4.0 * turn) as u32, [libm::cosh(x), libm::sinh(x)])
+                turned_by_quarters(libm::round(4.0 * turn) as u32, [libm::cosh(x), libm::sinh(x)])
             })
             .say("the terms are not divided by the factorials of their powers")
             .when(|&turn| {
                 let x = (turn - 0.25 * libm::round(4.0 * turn)) * TAU;
                 let y = x * x;
-                placed(libm::round(4.0 * turn) as u32, [1.0 - y * (1.0 - y * (1.0 - y)), x * (1.0 - y * (1.0 - y * (1.0 - y)))])
+                let cosine = 1.0 - y * (1.0 - y * (1.0 - y));
+                turned_by_quarters(libm::round(4.0 * turn) as u32, [cosine, x * (1.0 - y * cosine)])
             })
             .say("a parabola through the right places: its values between them are off by up to 0.06")
             .when(|&turn| [parabola((turn + 0.25).fract()), parabola(turn)])
@@ -140,32 +120,36 @@ fn question() -> Question<f64, [f64; 2]> {
             }),
         hints: &[
             "which quarter of a turn, 0 to 4, is nearest? what is left is at most an eighth, to either side",
-            "in radians, x: sin x = x − x³/3! + x⁵/5! − …, cos x = 1 − x²/2! + x⁴/4! − …; the powers up to 8 suffice",
+            "in radians: sin x = x − x³/3! + x⁵/5! − …, cos x = 1 − x²/2! + x⁴/4! − …; powers up to 8 suffice",
             "a quarter of a turn further (x, y) becomes (−y, x): once, twice, three times, or not at all",
         ],
     }
 }
 
-/// What is made of the nearest quarter, and of the cosine and sine of what is left.
-fn in_quarters(turn: f64, made: fn(u32, [f64; 2]) -> [f64; 2]) -> [f64; 2] {
-    let quarter = libm::round(4.0 * turn);
-    made(quarter as u32 & 3, series((turn - 0.25 * quarter) * TAU, 8))
+/// Cosine and sine of what is left of a turn after the nearest quarter.
+fn from_nearest(turn: f64) -> [f64; 2] {
+    series((turn - 0.25 * libm::round(4.0 * turn)) * TAU, 8)
 }
 
-/// A point turned on by quarters.
-fn placed(quarters: u32, [x, y]: [f64; 2]) -> [f64; 2] {
-    match quarters & 3 {
-        0 => [x, y],
-        1 => [-y, x],
-        2 => [-x, -y],
-        _ => [y, -x],
+/// What is made of the nearest quarter, and of the cosine and sine of what is left.
+fn in_quarters(turn: f64, made: fn(u32, [f64; 2]) -> [f64; 2]) -> [f64; 2] {
+    made(libm::round(4.0 * turn) as u32 & 3, from_nearest(turn))
+}
+
+/// Around a quarter and around three quarters, sine and cosine with these signs.
+fn signed_in_odd_quarters(turn: f64, signs: [[f64; 2]; 2]) -> [f64; 2] {
+    let (quarter, [cosine, sine]) = (libm::round(4.0 * turn) as u32 & 3, from_nearest(turn));
+    let [of_sine, of_cosine] = signs[quarter as usize / 2];
+    match quarter {
+        1 | 3 => [of_sine * sine, of_cosine * cosine],
+        _ => turned_by_quarters(quarter, [cosine, sine]),
     }
 }
 
 /// After the nearest half of a turn is taken off, by this many terms.
 fn in_halves(turn: f64, terms: u32) -> [f64; 2] {
     let half = libm::round(2.0 * turn);
-    placed(2 * half as u32, series((turn - 0.5 * half) * TAU, terms))
+    turned_by_quarters(2 * half as u32, series((turn - 0.5 * half) * TAU, terms))
 }
 
 /// 4x(π − x)/π², once up and once down.

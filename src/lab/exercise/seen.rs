@@ -150,11 +150,11 @@ impl Seen {
                 "0" => "it is seen in blocks of pixels".to_owned(),
                 part => format!("{part} % of the pixels differ visibly"),
             };
+            let [yours, pinholes] = told_apart([yours, pinholes]);
             return format!(
-                "yours is {}{noise}; {where_seen}, most about column {x}, row {y}: {colour}{} where pinhole has {}",
+                "yours is {}{noise}; {where_seen}, most about column {x}, row {y}: {colour}{yours} where pinhole has \
+                 {pinholes}",
                 average(brighter),
-                number(yours),
-                number(pinholes),
             );
         }
         match self.hidden {
@@ -232,7 +232,26 @@ fn percent(part: f64) -> String {
     }
 }
 
-/// Light to two digits.
-fn number(light: f64) -> String {
-    if light >= 0.1 || light == 0.0 { format!("{light:.2}") } else { format!("{light:.1e}") }
+/// Light to two digits, or to as many as it takes to tell one from the other.
+fn told_apart(light: [f64; 2]) -> [String; 2] {
+    let told = |digits: usize| {
+        light.map(|light| match light >= 0.1 || light == 0.0 {
+            true => format!("{light:.digits$}"),
+            false => format!("{light:.*e}", digits - 1),
+        })
+    };
+    (2..9).map(told).find(|[one, other]| one != other).unwrap_or_else(|| told(2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::told_apart;
+
+    #[test]
+    fn numbers_have_as_many_digits_as_tell_them_apart() {
+        assert_eq!(told_apart([0.23, 0.43]), ["0.23", "0.43"]);
+        assert_eq!(told_apart([0.1149, 0.1062]), ["0.115", "0.106"]);
+        assert_eq!(told_apart([0.0, 0.001_234]), ["0.00", "1.2e-3"]);
+        assert_eq!(told_apart([0.25, 0.25]), ["0.25", "0.25"]);
+    }
 }

@@ -13,9 +13,6 @@ const FRAME: [f64; 4] = [66.0, 40.0, 566.0, 340.0];
 const HEIGHT: f64 = 412.0;
 const KEPT: FileKind = FileKind { name: "kept curves", max: 1 << 20 };
 
-/// The column of what must be in a cache.
-const SIZE: &str = "KiB";
-
 /// A table of the kept file: its columns' names, and a row for each count, whose cells may be empty.
 #[derive(Clone, Debug, PartialEq)]
 struct Kept {
@@ -40,12 +37,15 @@ impl Kept {
         (!rows.is_empty()).then_some(Self { names, rows })
     }
 
-    /// The points of a column.
-    fn column(&self, name: &str) -> Vec<(f64, f64)> {
-        let Some(at) = self.names.iter().position(|own| own == name || (name == SIZE && own.ends_with(name))) else {
-            return Vec::new();
-        };
+    /// The points of the first column whose name is as asked.
+    fn column(&self, is: impl Fn(&str) -> bool) -> Vec<(f64, f64)> {
+        let Some(at) = self.names.iter().position(|name| is(name)) else { return Vec::new() };
         self.rows.iter().filter_map(|(count, cells)| Some((*count, cells[at]?))).collect()
+    }
+
+    /// The points of the column of what must be in a cache.
+    fn sizes(&self) -> Vec<(f64, f64)> {
+        self.column(|name| name.ends_with(" KiB"))
     }
 }
 
@@ -150,7 +150,7 @@ fn draw(chapter: &Chapter, figure: &Figure, axes: Axes, shown: &[Shown]) -> Resu
         Error::Usage(format!("{place} has no curve of {what}; `cargo bench {}` measures it", axes.bench))
     };
     let kept = Kept::of(&text, what).ok_or_else(missing)?;
-    let points = || shown.iter().flat_map(|(column, ..)| kept.column(column));
+    let points = || shown.iter().flat_map(|(column, ..)| kept.column(|name| name == *column));
     let xs = decades(points().map(|(count, _)| count));
     let ys = decades(points().map(|(_, ns)| ns));
     let [left, top, right, bottom] = FRAME;
@@ -174,7 +174,7 @@ fn draw(chapter: &Chapter, figure: &Figure, axes: Axes, shown: &[Shown]) -> Resu
     }
     let caches = caches(&text);
     for (place, (name, kib)) in caches.iter().enumerate() {
-        let sizes = kept.column(SIZE);
+        let sizes = kept.sizes();
         let Some(count) = crossing(&sizes, *kib) else { continue };
         let x = at((count, 1.0)).x;
         svg.quiet_line(DVec2::new(x, top), DVec2::new(x, bottom), Pen::new(INK, 1.0).faint(0.5).dashed("2 4"));
@@ -183,7 +183,7 @@ fn draw(chapter: &Chapter, figure: &Figure, axes: Axes, shown: &[Shown]) -> Resu
     }
     let mut ends = Vec::new();
     for (column, name, pen) in shown {
-        let points = kept.column(column);
+        let points = kept.column(|name| name == *column);
         for pair in points.windows(2) {
             svg.quiet_line(at(pair[0]), at(pair[1]), *pen);
         }
@@ -272,15 +272,15 @@ mod tests {
     fn a_kept_table_is_read_by_its_names() {
         let kept = Kept::of(TEXT, "triangles").expect("a table");
         assert_eq!(kept.names, ["all, random", "hierarchy KiB"]);
-        assert_eq!(kept.column("all, random"), [(100.0, 10.0)]);
-        assert_eq!(kept.column(SIZE), [(100.0, 8.0), (1000.0, 80.0)]);
-        assert_eq!(Kept::of(TEXT, "spheres").expect("a table").column("b"), [(1.0, 2.0)]);
+        assert_eq!(kept.column(|name| name == "all, random"), [(100.0, 10.0)]);
+        assert_eq!(kept.sizes(), [(100.0, 8.0), (1000.0, 80.0)]);
+        assert_eq!(Kept::of(TEXT, "spheres").expect("a table").column(|name| name == "b"), [(1.0, 2.0)]);
         assert_eq!(Kept::of(TEXT, "cubes"), None);
         assert_eq!(caches(TEXT), [("L1".to_owned(), 32.0), ("L2".to_owned(), 1024.0)]);
         assert_eq!(machine(TEXT).as_deref(), Some("M"));
         assert_eq!(machine("machine: M\nmade from 1").as_deref(), Some("M"));
-        let count = crossing(&kept.column(SIZE), 80.0).expect("it comes to that");
-        assert!((count - 1000.0).abs() < 1e-9 && crossing(&kept.column(SIZE), 90.0).is_none());
+        let count = crossing(&kept.sizes(), 80.0).expect("it comes to that");
+        assert!((count - 1000.0).abs() < 1e-9 && crossing(&kept.sizes(), 90.0).is_none());
         assert_eq!(
             [time(0), time(2), time(3), time(7), time(10), power(3), power(7)],
             ["1 ns", "100 ns", "1 µs", "10 ms", "10 s", "1000", "10⁷"]

@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 /// Where the axes are: left, top, right, bottom.
 const FRAME: [f64; 4] = [66.0, 24.0, 560.0, 300.0];
 const HEIGHT: f64 = 366.0;
-/// The most terms, and the powers of ten of the least and the greatest error that are shown.
+/// The maximum number of terms, and the powers of ten between which errors are shown.
 const TERMS: u32 = 16;
 const DECADES: [i32; 2] = [-18, 3];
 

@@ -225,12 +225,17 @@ pub fn series(x: f64, terms: u32) -> [f64; 2] {
 #[must_use]
 pub fn circle_by_terms(turn: f64, terms: u32) -> [f64; 2] {
     let quarter = libm::round(4.0 * turn);
-    let [cosine, sine] = series((turn - 0.25 * quarter) * TAU, terms);
-    match quarter as u32 & 3 {
-        0 => [cosine, sine],
-        1 => [-sine, cosine],
-        2 => [-cosine, -sine],
-        _ => [sine, -cosine],
+    turned_by_quarters(quarter as u32, series((turn - 0.25 * quarter) * TAU, terms))
+}
+
+/// A point turned on by so many quarters of a turn.
+#[must_use]
+pub fn turned_by_quarters(quarters: u32, [x, y]: [f64; 2]) -> [f64; 2] {
+    match quarters & 3 {
+        0 => [x, y],
+        1 => [-y, x],
+        2 => [-x, -y],
+        _ => [y, -x],
     }
 }
 
@@ -294,10 +299,10 @@ mod tests {
         let (mut worst, mut terms) = (0.0_f64, 0.0_f64);
         for step in 0..1_u32 << 16 {
             let turn = step as f32 / 65_536.0;
-            let [right, own, few] =
+            let [right, half, few] =
                 [circle_point(turn.into()), circle_in_f32(turn).map(f64::from), circle_by_terms(turn.into(), 8)];
             for part in 0..2 {
-                worst = worst.max((own[part] - right[part]).abs());
+                worst = worst.max((half[part] - right[part]).abs());
                 terms = terms.max((few[part] - right[part]).abs());
             }
         }

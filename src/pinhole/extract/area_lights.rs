@@ -18,8 +18,8 @@ use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Up to this many lights, one is chosen alike for all surfaces, which costs next to nothing; of more, a hierarchy leaves less
-/// noise.
+/// Up to this many lights, one is chosen alike for all surfaces, which costs next to nothing; of more, a hierarchy leaves
+/// less noise.
 const FEW: usize = 8;
 
 /// Area lights that can be sampled, in spawn order of their shapes; after them the triangles of emitting meshes, each

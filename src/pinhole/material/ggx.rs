@@ -95,7 +95,8 @@ pub struct MicrofacetSample {
 }
 
 // ANCHOR: ggx_sample
-/// Samples the direction to the light for rough metal by a uniform point of the unit disk; none where it leads below the surface, to a second microfacet.
+/// Samples the direction to the light for rough metal by a uniform point of the unit disk; none where it leads below the
+/// surface, to a second microfacet.
 #[inline(always)]
 pub fn ggx_sample(to_eye: DVec3, alpha: f64, on_disk: DiskPoint) -> Option<MicrofacetSample> {
     if to_eye.z <= 0.0 {

@@ -318,8 +318,8 @@ mod tests {
                     // No more than either lobe by itself: what is seen of G₁ ≤ 1, and what is lost in this direction beside
                     // the average.
                     let [of_light, of_eye] = [light.z, eye.z].map(|cosine| lost.at(cosine));
-                    let most = (1.0 / (1.0 - of_eye)).max(of_light / lost.average()) * (1.0 + 1e-9);
-                    assert!((0.0..=most).contains(&weight), "{alpha} {angle} {u} {v}: {weight}, at most {most}");
+                    let max = (1.0 / (1.0 - of_eye)).max(of_light / lost.average()) * (1.0 + 1e-9);
+                    assert!((0.0..=max).contains(&weight), "{alpha} {angle} {u} {v}: {weight}, at most {max}");
                 }
             }
         }

@@ -74,23 +74,12 @@ pub fn draw_lens_points(
         let draws = Draws { sampling: &sampling, tile, number, samples, paths: None, depth: Depth(0) };
         let [xs, ys] = points.slices_mut(raster.rows());
         draw_two(&draws, Purpose::Lens, xs, ys);
-        if lens.corners.is_empty() {
-            onto_disk(&lens, xs, ys);
-        } else {
-            onto_lens(&lens, xs, ys);
-        }
+        onto_lens(&lens, xs, ys);
     }
 }
 
-/// Maps points of the unit square to a round lens, many at once.
+/// Maps points of the unit square to the lens, many at once.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn onto_disk(lens: &LensTable, xs: &mut [f64], ys: &mut [f64]) {
-    for (x, y) in xs.iter_mut().zip(ys) {
-        (*x, *y) = (lens.radius * DVec2::from(disk_point([*x, *y]).point())).into();
-    }
-}
-
-/// Maps points of the unit square to any lens.
 fn onto_lens(lens: &LensTable, xs: &mut [f64], ys: &mut [f64]) {
     for (x, y) in xs.iter_mut().zip(ys) {
         (*x, *y) = lens_point(DVec2::new(*x, *y), lens).into();

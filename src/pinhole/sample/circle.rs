@@ -145,7 +145,7 @@ mod tests {
         assert!(worst < 1e-15, "{worst}");
     }
 
-    /// Against the platform's sine and cosine of an angle in double-double, on a grid and at the ends of every quarter.
+    /// Against libm's sine and cosine of what is left after the nearest quarter, on a grid and at the ends of every quarter.
     #[test]
     fn points_are_on_the_circle_to_the_last_digits() {
         let eighths = (0..=8).map(|eighth| f64::from(eighth) / 8.0);
@@ -153,7 +153,7 @@ mod tests {
         let grid = (0..1_u32 << 18).map(|n| f64::from(n << 6 | 37) / f64::from(1 << 24));
         let (mut tried, mut worst) = (0, 0.0_f64);
         for u in grid.chain(beside) {
-            // From the nearest quarter, so that the rounding of the angle is not the platform's fault.
+            // The angle itself would be rounded by more than is asked for here.
             let quarter = libm::round(4.0 * u);
             let (sine, cosine) = libm::sincos((u - 0.25 * quarter) * TAU);
             let expected = match quarter as i64 & 3 {
