@@ -134,10 +134,18 @@ fn wide_and_narrow(name: &str, width: u32, height: u32) {
     browser.until("sheet.camera && sheet.column === 'ndc.x' && !document.getElementById('legend').hidden");
     set(&mut browser, "columns", "");
     until_picture(&mut browser, &other);
-    browser.value("location.hash = '#curve=cubic'");
+    // The page writes its own address before the browser has told it of this one.
+    browser.value("location.hash = '#curve=cubic'; keepAddress()");
     browser.until("document.getElementById('message').textContent.includes('no curve is called \"cubic\"')");
     next_picture(&mut browser, |browser| browser.key("0"));
     browser.until("document.getElementById('message').hidden");
+    browser.value("location.hash = '#curve=agx'");
+    browser.until("look.curve === 'agx'");
+    browser.value("setLook({ curve: 'scene' }).then(() => (location.hash = '#curve=agx', location.reload()))");
+    browser.until("typeof look === 'object' && look.curve === 'agx' && location.hash === '#curve=agx'");
+    browser.until(DONE);
+    next_picture(&mut browser, |browser| _ = browser.value("location.hash = '#curve=scene'"));
+    browser.until("location.hash === ''");
 
     // A pause, a region, as many pixels as there is room for; panels.
     browser.key(" ");

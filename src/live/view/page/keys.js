@@ -5,8 +5,11 @@
 
 const digits = (numbers) => numbers.map((number) => Number(number.toPrecision(9))).join(",");
 
+/** The address as the page last wrote or followed it; another one is the reader's, and is followed before it is written over. */
+let address = null;
+
 const keepAddress = () => {
-  if (!sheet) return;
+  if (!sheet || location.hash !== address) return;
   const kept = new URLSearchParams();
   if (sheet.mode !== sheet.modes[0][0]) kept.set("mode", sheet.mode);
   if (sheet.column) kept.set("show", sheet.column);
@@ -18,12 +21,14 @@ const keepAddress = () => {
     for (const name of ["eye", "target", "up"]) kept.set(name, digits(sheet.camera[name]));
     kept.set("height", digits([sheet.camera.height]));
   }
-  const address = kept.size ? `#${kept.toString().replaceAll("%2C", ",")}` : location.pathname;
-  if (address !== (location.hash || location.pathname)) history.replaceState(null, "", address);
+  const next = kept.size ? `#${kept.toString().replaceAll("%2C", ",")}` : location.pathname;
+  if (next !== (location.hash || location.pathname)) history.replaceState(null, "", next);
+  address = location.hash;
 };
 
 /** Does what the address says, as far as it is not so already; what it cannot say is told. */
 const followAddress = async () => {
+  address = location.hash;
   const wanted = new URLSearchParams(location.hash.slice(1));
   const numbers = (name) => wanted.get(name).split(",").map(Number);
   const orders = [];
@@ -41,15 +46,18 @@ const followAddress = async () => {
     const own = sheet.camera && digits([...sheet.camera.eye, ...sheet.camera.target]);
     if (own !== digits([...camera.eye, ...(camera.target ?? [])])) orders.push({ camera });
   }
+  if (!orders.length) return keepAddress();
   let mistake = null;
+  [choices, unanswered] = [choices + 1, unanswered + 1];
   for (const what of orders) {
     try {
       await order(what);
     } catch (error) {
-      mistake ??= `The address has ${decodeURIComponent(location.hash)}: ${error.message}`;
+      mistake ??= `The address has ${decodeURIComponent(address)}: ${error.message}`;
     }
   }
-  if (orders.length) await readSheet();
+  unanswered -= 1;
+  await readSheet();
   if (mistake) complain(mistake);
 };
 addEventListener("hashchange", followAddress);

@@ -36,9 +36,10 @@ let [choices, unanswered] = [0, 0];
 /** Sends an order that changes what can be chosen, shows a refusal, and reads the sheet again either way. */
 const choose = async (what) => {
   [choices, unanswered] = [choices + 1, unanswered + 1];
+  const made = choices;
   try {
     await order(what);
-    complain(null);
+    if (made === choices) complain(null);
   } catch (error) {
     complain(error);
   }
