@@ -174,6 +174,9 @@ pub struct CompareYours {
     pub chapter: Option<String>,
     /// The picture.ppm that your program wrote
     pub picture: Option<PathBuf>,
+    /// Your program, in which the mistake is looked for; src/main.rs or main.rs beside the picture unless said
+    #[arg(long, value_name = "FILE", requires = "picture")]
+    pub source: Option<PathBuf>,
     /// Where to write pinhole's picture of the scene, as a PNG
     #[arg(short, long, value_name = "FILE", conflicts_with = "picture")]
     pub output: Option<PathBuf>,

@@ -1,7 +1,8 @@
 //! What `yours` says of the reader's program with mistakes, and of right ones that look unlike the book's.
 //!
 //! `cargo bench --bench yours`; a few minutes. `-- --latest` tries a set that was written before anybody looked at what
-//! was known by then, `-- --right` all that are right; two numbers behind them, from which chapter to which.
+//! was known by then, `-- --right` all that are right; two numbers behind them, from which chapter to which. With
+//! `-- --among`, mistakes stand among all that is right and looks unlike the book's.
 //! `-- --times` measures the program beside pinhole instead, both on one thread with the same number of samples, and
 //! `-- --write` keeps that beside chapter 25.
 #![allow(clippy::print_stdout, reason = "a bench prints what it found")]
@@ -19,7 +20,7 @@ use pinhole::film::srgb_from_linear;
 use pinhole::scene::Sampling;
 use pinhole_lab::report::provenance::Provenance;
 use pinhole_lab::yours::{Compiled, Expected, Picture, picture_of, program_after, scene_after, steps};
-use programs::{Edit, MISTAKES, NOT_NAMED, RIGHT, picture_of_edited, said};
+use programs::{Edit, Found, MISTAKES, RIGHT, edited, found_of};
 use std::time::Instant;
 
 /// Pictures of each, of which the fastest counts.
@@ -50,39 +51,53 @@ fn main() {
     };
     let of = |edits: &[Edit]| edits.iter().copied().filter(|edit| chapters.contains(&edit.0)).collect::<Vec<_>>();
     let (tried, right) = (of(mistakes), of(right));
-    let (mut told, mut named, mut refused, mut without) = (0, 0, 0, 0);
+    let (among, all_right) = (asks("--among"), [&RIGHT[..], &latest::RIGHT[..]].concat());
+    let (mut told, mut named, mut refused, mut without, mut slowest) = (0, 0, 0, 0, 0.0);
     for chapter in steps().into_iter().map(|step| step.number).filter(|chapter| chapters.contains(chapter)) {
         let of_chapter = |edits: &[Edit]| edits.iter().copied().filter(|edit| edit.0 == chapter).collect::<Vec<_>>();
         let expected = Expected::after(chapter).expect("renders");
+        let right_here = of_chapter(&all_right);
         let wrong = of_chapter(&tried).into_iter().map(|edit| (edit, true));
         for (edit @ (_, old, new), is_wrong) in wrong.chain(of_chapter(&right).into_iter().map(|edit| (edit, false))) {
             let line = format!("{chapter:>2}  {:<50}  {:<40}", old.trim(), new.trim());
-            let picture = match picture_of_edited(edit) {
-                Ok(picture) => picture,
+            // All that is right and unlike the book's, where the mistake finds its words.
+            let mut around = edited(chapter, &[]).expect("applies");
+            for (_, find, other) in right_here.iter().filter(|_| among && is_wrong) {
+                let unlike = around.replace(find, other);
+                around = if unlike.contains(old) { unlike } else { around };
+            }
+            let program = around.replace(old, new);
+            if program == around {
+                println!("{line}  nothing to change");
+                continue;
+            }
+            let began = Instant::now();
+            let found = match found_of(&expected, &program) {
+                Ok(found) => found,
                 Err(why) => {
                     without += 1;
-                    println!("{line}  no picture: {why}");
+                    println!("{line}  no picture: {}", why.lines().next().unwrap_or_default());
                     continue;
                 }
             };
-            let found = expected.compare(&picture, &mut || ()).expect("of its size");
-            match (said(&found), is_wrong) {
-                (None, false) => {}
-                (Some(_), false) => {
-                    refused += 1;
-                    println!("{line}  IS RIGHT: {found:?}");
-                }
-                (said, true) => {
-                    told += usize::from(said.is_some());
-                    named += usize::from(said.is_some_and(|said| said != NOT_NAMED));
-                    println!("{line}  {}", said.unwrap_or("not told"));
-                }
+            let seconds = began.elapsed().as_secs_f64();
+            slowest = f64::max(slowest, seconds);
+            let Found { comparison, program: said } = &found;
+            if is_wrong {
+                told += usize::from(found.is_wrong());
+                let is_named = found.names(&around, &program);
+                named += usize::from(is_named);
+                let mark = if is_named { "named" } else { "NOT NAMED" };
+                println!("{line}  {mark}, {seconds:.1} s: {comparison:?} {said:?}");
+            } else if found.is_wrong() {
+                refused += 1;
+                println!("{line}  IS RIGHT: {comparison:?} {said:?}");
             }
         }
     }
     println!("mistakes: {} tried, {told} told, {named} named", tried.len());
     println!("right programs: {} tried, {refused} called wrong", right.len());
-    println!("without a picture: {without}");
+    println!("without a picture: {without}; the slowest took {slowest:.1} s");
 }
 
 /// Seconds and errors of the reader's program and of pinhole, for each step from the first with samples.

@@ -1,6 +1,6 @@
 //! The reader's program after each step, compiled and run, and with mistakes put into it.
 
-use pinhole_lab::yours::{Comparison, Expected, Picture, picture_of_program, program_after};
+use pinhole_lab::yours::{Comparison, Expected, Program, picture_of_program, program_after};
 
 /// A chapter, what its program says there, and what is put in its place.
 pub type Edit = (u32, &'static str, &'static str);
@@ -90,37 +90,55 @@ pub const RIGHT: [Edit; 15] = [
     (33, "chain(&ground)", "chain(&ground).collect::<Vec<_>>().into_iter().rev()"),
 ];
 
-/// What is said of a picture that is not pinhole's; none of one that is.
-pub fn said(found: &Comparison) -> Option<&str> {
-    match found {
-        Comparison::Same { .. } => None,
-        Comparison::Shifted { .. } => Some("it is shifted"),
-        Comparison::Differs { looks_like, .. } => Some(looks_like.as_deref().unwrap_or(NOT_NAMED)),
+/// What is found of a program and of its picture.
+pub struct Found {
+    pub comparison: Comparison,
+    pub program: Program,
+}
+
+impl Found {
+    /// Whether anything is said to be wrong.
+    pub fn is_wrong(&self) -> bool {
+        !matches!(self.comparison, Comparison::Same { .. }) || matches!(self.program, Program::Wrong(..))
+    }
+
+    /// Whether the lines in which a program is not as a right one are said to be wrong, with at most two others.
+    pub fn names(&self, right: &str, program: &str) -> bool {
+        let Program::Wrong(_, places) = &self.program else { return false };
+        let same = right.lines().zip(program.lines()).take_while(|(one, other)| one == other).count();
+        let behind = right.lines().rev().zip(program.lines().rev()).take_while(|(one, other)| one == other).count();
+        // A statement may begin on the line before; what is taken out is missed in the one that follows.
+        let lines = same..program.lines().count().saturating_sub(behind).max(same) + 2;
+        places.len() <= 3 && places.iter().any(|place| lines.contains(&place.line))
     }
 }
 
-/// What is said of a picture that differs for a reason that is not known.
-pub const NOT_NAMED: &str = "told, not named";
+/// A chapter's program with some edits; none where one finds nothing to change.
+pub fn edited(chapter: u32, edits: &[Edit]) -> Option<String> {
+    let program = program_after(chapter).expect("applies");
+    edits.iter().try_fold(program, |program, (_, old, new)| program.contains(old).then(|| program.replace(old, new)))
+}
 
-/// What a chapter's program, edited, makes.
+/// What is found of a program and of the picture that it writes.
 ///
 /// Errors: a program that does not compile, or makes no picture.
-pub fn picture_of_edited((chapter, old, new): Edit) -> Result<Picture, String> {
-    let program = program_after(chapter).expect("applies");
-    if !program.contains(old) {
-        return Err(format!("the program of {chapter} has no {old}"));
-    }
-    picture_of_program(&program.replace(old, new))
+pub fn found_of(expected: &Expected, program: &str) -> Result<Found, String> {
+    let picture = picture_of_program(program)?;
+    let mut comparison = expected.compare(&picture).map_err(|told| told.to_string())?;
+    let into = expected.look_into(program, &picture, &mut comparison, &mut || ());
+    Ok(Found { comparison, program: into.map_err(|told| told.to_string())? })
 }
 
-/// Edits with what is found of their pictures, chapter by chapter.
-pub fn found(edits: &[Edit]) -> Vec<(Edit, Comparison)> {
+/// Edits, each with its program and what is found of it, chapter by chapter.
+pub fn found(edits: &[Edit]) -> Vec<(Edit, String, Found)> {
     let mut edits = edits.to_vec();
     edits.sort_by_key(|edit| edit.0);
     let of_chapter = |edits: &[Edit]| {
         let expected = Expected::after(edits[0].0).expect("renders");
         let found = |edit: &Edit| {
-            (*edit, expected.compare(&picture_of_edited(*edit).expect("a picture"), &mut || ()).expect("of its size"))
+            let program = edited(edit.0, &[*edit]).unwrap_or_else(|| panic!("{edit:?} changes nothing"));
+            let found = found_of(&expected, &program).expect("a picture");
+            (*edit, program, found)
         };
         edits.iter().map(found).collect::<Vec<_>>()
     };

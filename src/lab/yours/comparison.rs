@@ -1,12 +1,13 @@
 //! Whether a picture of bytes shows what another one of light shows, block by block.
 
-use super::known::{Mistaken, Picture, few};
+use super::known::{Picture, few, known_of, picture_of_program, pictures_of};
+use super::located::{Beside, Wrong};
+use super::program::program_after;
 use super::scene::{SIZE, film_after, picture_of, sample_at_most, scene_after, variants};
 use pinhole::Error;
 use pinhole::extract::linear_from_srgb;
 use pinhole::film::{Film, srgb_from_linear};
 use std::cell::OnceCell;
-use std::time::{Duration, Instant};
 
 /// The sides of a block, in pixels.
 const BLOCK: [usize; 2] = [16, 10];
@@ -23,16 +24,17 @@ const EXPLAINED: f64 = 0.15;
 /// The part of a block that noise makes white in one picture only, at most; there, light beyond white was lost, and nobody
 /// knows how much.
 const SPECKLED: f64 = 0.5;
-/// How many small mistakes that make the same picture are told, at most.
-const MANY: usize = 3;
 /// The part of the pixels that differ that a mistake must make as they are.
 const SAME: f64 = 0.97;
-/// How much less that may be where two mistakes are taken to make the same picture.
-const ALIKE: f64 = 2e-3;
-/// Of how many mistakes that come nearest the whole picture is made.
-const NEAR: usize = 12;
-/// How long one may take.
-const LATE: Duration = Duration::from_secs(30);
+/// Samples a pixel with which two programs are compared whose pictures are the same within noise.
+const MORE: usize = 256;
+/// What rounding may change in the mean of a block of two such programs, in bytes: each byte is a third of one off, by
+/// chance.
+const BOTH_ROUNDED: f64 = 0.2;
+/// How many bytes two pictures without noise may differ by in a pixel, and in what part of their pixels by more.
+const ROUNDED: (u8, f64) = (2, 1e-3);
+/// How many times the squared error of the book's program one may have that is as good.
+const NOISIER: f64 = 4.0;
 /// Light that counts as none, where parts of it are told.
 const DARK: f64 = 1e-3;
 
@@ -62,6 +64,33 @@ pub enum Comparison {
         /// What it looks like, where that is known.
         looks_like: Option<String>,
     },
+}
+
+/// What is found of the program that wrote a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Program {
+    /// It is the book's, but for spaces, comments and names.
+    Books,
+    /// It is not the book's, and nothing shows that it is worse.
+    Right,
+    /// It is the book's as it was after an earlier chapter.
+    Earlier(u32),
+    /// It does not write the picture, by the end of a sentence.
+    Another(String),
+    /// With these places as in the book it is right.
+    Wrong(Mistake, Vec<Wrong>),
+}
+
+/// What a mistake does to the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mistake {
+    /// It shows in the picture as it is.
+    Shows,
+    /// It shows beside the book's program alone, with more samples, or pixel by pixel where there is no noise: in so much
+    /// of the picture.
+    Hides(f64),
+    /// The light is right, and the squared error so many times that of the book's program with as many samples.
+    MakesNoise(f64),
 }
 
 /// The light of a picture, pixel by pixel from its upper left corner, none of it beyond white.
@@ -118,43 +147,11 @@ pub struct Expected {
     curve: Curve,
     right: Pixels,
     rewritten_or_changed: OnceCell<Vec<LooksLike>>,
-    mistaken: OnceCell<Option<Tried>>,
+    known: OnceCell<Vec<(String, Picture)>>,
 }
-
-/// What is said of mistakes that make a picture, and in how many other lines there are such.
-type Made = Option<(String, usize)>;
 
 /// What a picture looks like, the picture, and in how many blocks it is not as the right one.
 type LooksLike = (String, Pixels, usize);
-
-/// The mistakes that were put into the program: they, how few of the pixels were rendered, the right program's picture of
-/// those, and that of each mistake.
-struct Tried {
-    mistaken: Mistaken,
-    every: usize,
-    right: Picture,
-    pictures: Vec<(usize, Picture)>,
-}
-
-impl Tried {
-    fn after(chapter: u32) -> Option<Self> {
-        let mistaken = Mistaken::after(chapter)?;
-        // One pixel of so many in both directions; its random numbers are its own, so that it is as in the whole picture.
-        let every = match chapter {
-            ..17 | 33.. => 4,
-            28..30 => 24,
-            30.. => 12,
-            _ => 8,
-        };
-        let began = Instant::now();
-        let right = mistaken.right(every)?;
-        // Some mistakes make it slow, and with some it never ends.
-        let patience = 8 * began.elapsed() + Duration::from_millis(200);
-        let all: Vec<usize> = (0..mistaken.told.len()).collect();
-        let pictures = mistaken.pictures(&all, every, patience);
-        Some(Self { mistaken, every, right, pictures })
-    }
-}
 
 /// Of the pixels in which one of two pictures is not as the right one, the part in which they are the same.
 fn agreement((_, one): &Picture, (_, other): &Picture, (_, right): &Picture) -> f64 {
@@ -175,15 +172,14 @@ impl Expected {
     /// Errors: those of a render.
     pub fn after(chapter: u32) -> Result<Self, Error> {
         let right = light_of(&film_after(chapter, u32::MAX)?);
-        let (rewritten_or_changed, mistaken) = <(OnceCell<_>, OnceCell<_>)>::default();
-        Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, mistaken })
+        let (rewritten_or_changed, known) = <(OnceCell<_>, OnceCell<_>)>::default();
+        Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known })
     }
 
-    /// Compares the picture that a reader's program wrote; `waits` is called before known mistakes are made in the program,
-    /// which takes a while.
+    /// Compares the picture that a reader's program wrote.
     ///
-    /// Errors: a picture of another size; those of a render.
-    pub fn compare(&self, picture: &Picture, waits: &mut dyn FnMut()) -> Result<Comparison, Error> {
+    /// Errors: a picture of another size.
+    pub fn compare(&self, picture: &Picture) -> Result<Comparison, Error> {
         let ([width, height], bytes) = picture;
         if [*width, *height] != SIZE {
             let told =
@@ -191,7 +187,7 @@ impl Expected {
             return Err(Error::Usage(told));
         }
         let (readers, right) = (pixels_of(bytes, &self.curve), &self.right);
-        let found = blocks(&readers, right, &self.curve);
+        let found = blocks(&readers, right, &self.curve, ROUNDING);
         let apart: Vec<&Block> = found.iter().filter(|block| block.differs()).collect();
         let Some(most) = apart.iter().max_by(|a, b| a.off.total_cmp(&b.off)) else {
             let mut resolved: Vec<f64> = found.iter().map(|block| block.resolved).collect();
@@ -199,105 +195,150 @@ impl Expected {
             let same = Comparison::Same { resolved: resolved[resolved.len() / 2] };
             return Ok(shift(&readers, right, 0.0).map_or(same, |by| Comparison::Shifted { by }));
         };
-        waits();
-        let looks_like = match self.made(picture) {
-            Some((told, 0)) => Some(told),
-            // What everything looks like says more than one of many lines.
-            made => {
-                let of_all = self.closest(&readers, apart.len(), self.rewritten_or_changed()?);
-                let brighter = [self.brighter(&readers)];
-                let brighter = self.closest(&readers, apart.len(), &brighter);
-                let likest = [of_all, brighter].into_iter().flatten().min_by_key(|found| found.0);
-                let likest = likest.and_then(|(left, all)| Some((left, (*all.first()?).to_owned())));
-                let is_exact = |likest: &Option<(usize, String)>| likest.as_ref().is_some_and(|(left, _)| *left == 0);
-                let near =
-                    if made.is_some() || is_exact(&likest) { None } else { self.near(picture, &readers, apart.len()) };
-                let likest = [likest, near].into_iter().flatten().min_by_key(|found| found.0);
-                likest.map(|found| found.1).or(made.map(|(told, _)| told))
-            }
-        };
-        if looks_like.is_none()
-            && let Some(by) = shift(&readers, right, EXPLAINED)
-        {
-            return Ok(Comparison::Shifted { by });
-        }
         let light = |pixels: &Pixels| pixels.iter().flatten().sum::<f64>();
         let brightness = light(&readers) / light(right) - 1.0;
-        Ok(Comparison::Differs { blocks: apart.len(), of: found.len(), brightness, most: most.middle, looks_like })
+        let most = most.middle;
+        Ok(Comparison::Differs { blocks: apart.len(), of: found.len(), brightness, most, looks_like: None })
     }
 
-    /// The mistakes that were put into the program, once.
-    fn tried(&self) -> Option<&Tried> {
-        self.mistaken.get_or_init(|| Tried::after(self.chapter)).as_ref()
-    }
-
-    /// What is said of the mistakes in the program that make this very picture, as those with the same random numbers do.
-    fn made(&self, picture: &Picture) -> Made {
-        let Tried { mistaken, every, right, pictures } = self.tried()?;
-        let agreeing = |pictures: &[(usize, Picture)], every: usize, right: &Picture, least: f64| {
-            let readers = few(picture, every);
-            let those = pictures.iter().filter(|(_, own)| own.0 == right.0);
-            let mut all: Vec<(f64, usize)> =
-                those.map(|(mistake, wrong)| (agreement(&readers, wrong, right), *mistake)).collect();
-            all.sort_by(|one, other| other.0.total_cmp(&one.0));
-            let best = all.first().map_or(1.0, |best| best.0);
-            all.retain(|(part, _)| *part >= least && *part >= best - ALIKE);
-            all.into_iter().map(|(_, mistake)| mistake).collect::<Vec<_>>()
-        };
-        let mut same = agreeing(pictures, *every, right, 0.9 * SAME);
-        if !same.is_empty() {
-            same.truncate(NEAR);
-            let more = (*every / 4).max(2);
-            same = agreeing(&mistaken.pictures(&same, more, LATE), more, &mistaken.right(more)?, SAME);
+    /// Looks for what a picture looks like that differs; `waits` is called before known mistakes are made in the program,
+    /// which takes a while.
+    ///
+    /// Errors: those of a render.
+    pub fn look_for_known(
+        &self,
+        picture: &Picture,
+        found: &mut Comparison,
+        waits: &mut dyn FnMut(),
+    ) -> Result<(), Error> {
+        let Comparison::Differs { blocks: apart, looks_like, .. } = found else { return Ok(()) };
+        let readers = pixels_of(&picture.1, &self.curve);
+        *looks_like = self.known_to_make(picture, waits)?;
+        if looks_like.is_none() {
+            let of_all = self.closest(&readers, *apart, self.rewritten_or_changed()?);
+            let brighter = [self.brighter(&readers)];
+            let brighter = self.closest(&readers, *apart, &brighter);
+            let likest = [of_all, brighter].into_iter().flatten().min_by_key(|found| found.0);
+            *looks_like = likest.and_then(|(_, all)| Some((*all.first()?).to_owned()));
         }
-        self.told(&same)
+        if looks_like.is_none()
+            && let Some(by) = shift(&readers, &self.right, EXPLAINED)
+        {
+            *found = Comparison::Shifted { by };
+        }
+        Ok(())
     }
 
-    /// What is said of the mistakes that come near the picture, as those with other random numbers do, and in how many blocks
-    /// that differs.
-    fn near(&self, picture: &Picture, readers: &Pixels, apart: usize) -> Option<(usize, String)> {
-        let Tried { mistaken, every, right, pictures } = self.tried()?;
-        let readers_few = few(picture, *every);
-        let distance = |(_, (_, wrong)): &&(usize, Picture)| -> u64 {
-            let parts = readers_few.1.as_flattened().iter().zip(wrong.as_flattened());
-            parts.map(|(one, other)| u64::from(one.abs_diff(*other)).pow(2)).sum()
+    /// What is said of the known mistake that makes this very picture, as one with the same random numbers does.
+    fn known_to_make(&self, picture: &Picture, waits: &mut dyn FnMut()) -> Result<Option<String>, Error> {
+        // One pixel of so many in both directions; its random numbers are its own, so that it is as in the whole picture.
+        let every = match self.chapter {
+            ..17 | 33.. => 4,
+            28..30 => 24,
+            30.. => 12,
+            _ => 8,
         };
-        let mut near: Vec<&(usize, Picture)> = pictures.iter().filter(|(_, own)| own.0 == right.0).collect();
-        near.sort_by_cached_key(distance);
-        near.truncate(if *every > 12 { 0 } else { NEAR });
-        let near: Vec<usize> = near.into_iter().map(|(mistake, _)| *mistake).collect();
-        let pictures: Vec<LooksLike> = mistaken
-            .pictures(&near, 1, LATE)
-            .into_iter()
-            .filter(|(_, (size, _))| *size == SIZE)
-            .map(|(mistake, (_, bytes))| self.looks_like(mistake.to_string(), pixels_of(&bytes, &self.curve)))
-            .collect();
-        let (left, all) = self.closest(readers, apart, &pictures)?;
-        let all: Vec<usize> = all.into_iter().filter_map(|mistake| mistake.parse().ok()).collect();
-        self.told(&all).filter(|(_, others)| *others == 0).map(|(told, _)| (left, told))
-    }
-
-    /// What is said of mistakes that make the same picture, the likely ones first: what is known, or the lines.
-    fn told(&self, mistakes: &[usize]) -> Made {
-        let told = &self.tried()?.mistaken.told;
-        let mut mistakes = mistakes.to_vec();
-        mistakes.sort_unstable();
-        let mut lines: Vec<(usize, &str)> = Vec::new();
-        for (told, line) in mistakes.iter().filter_map(|&at| told.get(at)) {
-            match line {
-                None => return Some((told.clone(), 0)),
-                Some(line) if lines.iter().any(|(other, _)| other == line) => {}
-                Some(line) => lines.push((*line, told)),
+        let known = match self.known.get() {
+            Some(known) => known,
+            None => {
+                waits();
+                let all = known_of(self.chapter).map_err(Error::Usage)?;
+                let book = program_after(self.chapter).map_err(Error::Usage)?;
+                let programs: Vec<&str> = [&*book].into_iter().chain(all.iter().map(|known| &*known.program)).collect();
+                let told = |at: usize| at.checked_sub(1).map_or(String::new(), |at| all[at].looks_like.clone());
+                let made = pictures_of(&programs, every).into_iter().map(|(at, picture)| (told(at), picture)).collect();
+                self.known.get_or_init(|| made)
             }
-        }
-        let others = lines.len().saturating_sub(MANY);
-        let all: Vec<&str> = lines.into_iter().take(MANY).map(|(_, told)| told).collect();
-        let more = if others > 0 {
-            format!("; {others} other lines with a mistake make the same picture")
-        } else {
-            String::new()
         };
-        (!all.is_empty()).then(|| (format!("as if {}{more}.", all.join("; or as if ")), others))
+        let Some(((told, right), known)) = known.split_first() else { return Ok(None) };
+        let readers = few(picture, every);
+        let those = known.iter().filter(|(_, own)| told.is_empty() && own.0 == right.0);
+        let agreeing = those.map(|(told, wrong)| (agreement(&readers, wrong, right), told));
+        let best = agreeing.max_by(|one, other| one.0.total_cmp(&other.0));
+        Ok(best.filter(|(part, _)| *part >= SAME).map(|(_, told)| told.clone()))
+    }
+
+    /// What is found of the program that wrote a picture, of which this was found; programs are compiled and run for it,
+    /// and `waits` is called before they take many samples.
+    ///
+    /// Errors: a chapter whose steps do not fit.
+    pub fn look_into(
+        &self,
+        program: &str,
+        picture: &Picture,
+        found: &mut Comparison,
+        waits: &mut dyn FnMut(),
+    ) -> Result<Program, Error> {
+        let beside = Beside::new(program, self.chapter).map_err(Error::Usage)?;
+        if beside.is_the_books() {
+            return Ok(Program::Books);
+        }
+        if let Some(earlier) = beside.earlier(self.chapter) {
+            return Ok(Program::Earlier(earlier));
+        }
+        let own = match picture_of_program(program) {
+            Ok(own) => own,
+            Err(why) => return Ok(Program::Another(ending(&why))),
+        };
+        let is_same = |(size, bytes): &Picture| {
+            let readers = pixels_of(bytes, &self.curve);
+            size == &SIZE
+                && !blocks(&readers, &self.right, &self.curve, ROUNDING).iter().any(Block::differs)
+                && shift(&readers, &self.right, 0.0).is_none()
+        };
+        let [own, readers] = [&own, picture].map(|(_, bytes)| pixels_of(bytes, &self.curve));
+        if own.len() != readers.len() || self.differing(&own, &readers) > 0 {
+            return Ok(Program::Another("writes another picture than this one now".into()));
+        }
+        if !matches!(found, Comparison::Same { .. }) {
+            let places = beside.wrong(&|program| picture_of_program(program).is_ok_and(|picture| is_same(&picture)));
+            let places = places.unwrap_or_default();
+            if let Comparison::Differs { looks_like, .. } = found
+                && let Some(known) = known_of(self.chapter)
+                    .map_err(Error::Usage)?
+                    .into_iter()
+                    .find(|known| beside.has_only(&places, &known.program))
+            {
+                *looks_like = Some(known.looks_like);
+            }
+            return Ok(Program::Wrong(Mistake::Shows, places));
+        }
+        waits();
+        let shown = |program: &str| picture_of_program(&with_samples(program)).ok();
+        let (book, mine) = std::thread::scope(|scope| {
+            let book = scope.spawn(|| shown(beside.books()));
+            let mine = shown(program);
+            (book.join().ok().flatten(), mine)
+        });
+        let (Some(book), Some(mine)) = (book, mine) else { return Ok(Program::Right) };
+        let Some(mistake) = self.worse(&mine, &book) else { return Ok(Program::Right) };
+        let is_right = |program: &str| shown(program).is_some_and(|picture| self.worse(&picture, &book).is_none());
+        Ok(beside.wrong(&is_right).map_or(Program::Right, |places| Program::Wrong(mistake, places)))
+    }
+
+    /// What is worse in a program's picture than in that of the book's program, both of as many samples.
+    fn worse(&self, (size, bytes): &Picture, (_, books): &Picture) -> Option<Mistake> {
+        if *size != SIZE {
+            return Some(Mistake::Hides(1.0));
+        }
+        if !(17..33).contains(&self.chapter) {
+            let (by, part) = ROUNDED;
+            let is_apart = |(one, other): &(&[u8; 3], &[u8; 3])| (0..3).any(|at| one[at].abs_diff(other[at]) > by);
+            let apart = bytes.iter().zip(books).filter(is_apart).count() as f64 / bytes.len() as f64;
+            return (apart > part).then_some(Mistake::Hides(apart));
+        }
+        let [own, book] = [bytes, books].map(|bytes| pixels_of(bytes, &self.curve));
+        let blocks = blocks(&own, &book, &self.curve, BOTH_ROUNDED);
+        let apart = blocks.iter().filter(|block| block.differs()).count();
+        if apart > 0 {
+            return Some(Mistake::Hides(apart as f64 / blocks.len() as f64));
+        }
+        let error = |pixels: &Pixels| {
+            let pairs = pixels.iter().flatten().zip(self.right.iter().flatten());
+            pairs.map(|(one, other)| (one - other) * (one - other)).sum::<f64>()
+        };
+        let noisier = error(&own) / error(&book);
+        (noisier > NOISIER).then_some(Mistake::MakesNoise(noisier))
     }
 
     /// What the picture looks like that leaves the fewest blocks apart, if those are few; it must itself be apart from the
@@ -313,7 +354,7 @@ impl Expected {
     }
 
     fn differing(&self, one: &Pixels, other: &Pixels) -> usize {
-        blocks(one, other, &self.curve).iter().filter(|block| block.differs()).count()
+        blocks(one, other, &self.curve, ROUNDING).iter().filter(|block| block.differs()).count()
     }
 
     fn looks_like(&self, told: String, wrong: Pixels) -> LooksLike {
@@ -353,6 +394,20 @@ impl Expected {
         let all = rewritten.chain(changed).collect::<Result<_, Error>>()?;
         Ok(self.rewritten_or_changed.get_or_init(|| all))
     }
+}
+
+/// A program with many samples a pixel, if it takes any.
+fn with_samples(program: &str) -> String {
+    const SAMPLES: &str = "SAMPLES: usize = ";
+    let Some((before, rest)) = program.split_once(SAMPLES) else { return program.into() };
+    let Some((_, after)) = rest.split_once(';') else { return program.into() };
+    format!("{before}{SAMPLES}{MORE};{after}")
+}
+
+/// The first line of what a compiler or a program says, as the end of a sentence.
+fn ending(why: &str) -> String {
+    let first = why.lines().find(|line| line.contains("error")).or(why.lines().next()).unwrap_or_default();
+    format!("cannot be compiled and run by itself: {}", first.trim())
 }
 
 /// The light of a picture of bytes.
@@ -406,7 +461,9 @@ impl Block {
 }
 
 /// Compares two pictures block by block; the scatter of the differences within a block is their noise.
-fn blocks(readers: &Pixels, right: &Pixels, curve: &Curve) -> Vec<Block> {
+///
+/// Rounding may change so many bytes of a block's mean.
+fn blocks(readers: &Pixels, right: &Pixels, curve: &Curve, rounding: f64) -> Vec<Block> {
     let [width, height] = SIZE;
     let mut blocks = Vec::new();
     for top in (0..height).step_by(BLOCK[1]) {
@@ -426,7 +483,7 @@ fn blocks(readers: &Pixels, right: &Pixels, curve: &Curve) -> Vec<Block> {
                 let white = |at: &&usize| (readers[**at][channel] >= 1.0) != (right[**at][channel] >= 1.0);
                 let speckled = places.iter().filter(white).count() as f64 / count;
                 let lost = if speckled < SPECKLED { speckled } else { 0.0 };
-                let allowed = ROUNDING * step + SIGNIFICANT * (squares / (count - 1.0) / count).sqrt() + lost;
+                let allowed = rounding * step + SIGNIFICANT * (squares / (count - 1.0) / count).sqrt() + lost;
                 block.off = block.off.max(mean.abs() / allowed);
                 block.resolved = block.resolved.max(allowed / light.max(DARK));
             }

@@ -1,8 +1,6 @@
 //! Mistakes that no change of the scene makes: each is put into the program, which is compiled and run, to see whether a
 //! picture looks like it.
 
-use super::altered::small_mistakes;
-use super::joined::{Mistake, WHICH, joined};
 use super::program::{program_after, steps};
 use pinhole::scene::{FileKind, read_file};
 use std::fs;
@@ -12,6 +10,8 @@ use std::time::{Duration, Instant};
 
 /// How long a program may run.
 const PATIENCE: Duration = Duration::from_secs(60);
+/// How long one with a known mistake may run.
+const LATE: Duration = Duration::from_secs(12);
 /// How long mistakes are tried, one after the other; a reader waits for it.
 const LONG: Duration = Duration::from_secs(90);
 
@@ -30,69 +30,44 @@ fn known() -> impl Iterator<Item = [String; 3]> {
 /// A picture of bytes: its width, its height and its pixels.
 pub type Picture = ([usize; 2], Vec<[u8; 3]>);
 
-/// Programs that each make one mistake: all that fit are one program, which is told which of them to make.
-pub struct Mistaken {
-    joined: Compiled,
-    apart: Vec<Compiled>,
-    /// What is said of each; of the small ones that nobody wrote down, with the line in which it is.
-    pub told: Vec<(String, Option<usize>)>,
+/// A mistake that the program of a chapter can have: what the picture then looks like, and the program with it.
+pub struct Known {
+    pub looks_like: String,
+    pub program: String,
 }
 
-impl Mistaken {
-    /// Those that the program of a chapter can have, known ones first; none where there is no compiler.
-    pub fn after(chapter: u32) -> Option<Self> {
-        let program = program_after(chapter).ok()?;
-        let before = steps().iter().map(|step| step.number).filter(|&number| number < chapter).max();
-        let before = before.and_then(|number| program_after(number).ok());
-        let (mut within, mut beside): (Vec<Mistake>, Vec<(String, String)>) = (Vec::new(), Vec::new());
-        for [right, wrong, looks_like] in known().filter(|[right, ..]| program.contains(right)) {
-            match Mistake::of_text(&program, (&right, &wrong), &looks_like) {
-                Some(mistake) => within.push(mistake),
-                None => beside.push((looks_like, program.replace(&right, &wrong))),
-            }
-        }
-        if let Some(before) = &before {
-            beside.push(("it is the picture of your program as it was before this step.".into(), before.clone()));
-        }
-        let count = within.len();
-        within.extend(small_mistakes(&program, &before.unwrap_or_default()));
-        let known: Vec<String> = within[..count].iter().map(|mistake| mistake.told.clone()).collect();
-        let (joined_program, within) = joined(&program, within)?;
-        let mut told: Vec<(String, Option<usize>)> = Vec::new();
-        for mistake in within {
-            let line = mistake.changes.first().map(|(at, _)| at.start).filter(|_| !known.contains(&mistake.told));
-            told.push((mistake.told, line));
-        }
-        let mut apart = Vec::new();
-        for (looks_like, program) in beside {
-            if let Some((compiled, _)) = joined(&program, Vec::new()) {
-                apart.push(compiled);
-                told.push((looks_like, None));
-            }
-        }
-        Some(Self { joined: joined_program, apart, told })
+/// Those of a chapter's program; the last is that it has not been changed by the chapter's step.
+pub fn known_of(chapter: u32) -> Result<Vec<Known>, String> {
+    let program = program_after(chapter)?;
+    let fitting = known().filter(|[right, ..]| program.contains(right));
+    let mut all: Vec<Known> = fitting
+        .map(|[right, wrong, looks_like]| Known { looks_like, program: program.replace(&right, &wrong) })
+        .collect();
+    if let Some(before) = steps().iter().map(|step| step.number).filter(|&number| number < chapter).max() {
+        let looks_like = "it is the picture of your program as it was before this step.".into();
+        all.push(Known { looks_like, program: program_after(before)? });
     }
+    Ok(all)
+}
 
-    /// The right program's picture with one pixel of so many in each direction, as [`few`] has it.
-    pub fn right(&self, every: usize) -> Option<Picture> {
-        self.joined.picture_with([0, every], PATIENCE).ok()
-    }
+/// The pictures of programs with one pixel of so many in each direction, as [`few`] has it, each with its place among
+/// them, as far as they come to an end.
+pub fn pictures_of(programs: &[&str], every: usize) -> Vec<(usize, Picture)> {
+    let began = Instant::now();
+    in_parallel(programs.iter().enumerate(), |(at, program)| {
+        let picture = || Compiled::of(&with_few(program, every)).ok()?.picture_within(LATE).ok();
+        let picture = if began.elapsed() < LONG { picture() } else { None };
+        Some((at, few(&picture?, every)))
+    })
+}
 
-    /// The pictures of these mistakes, as [`Self::right`] has it, where the program comes to an end.
-    pub fn pictures(&self, of: &[usize], every: usize, patience: Duration) -> Vec<(usize, Picture)> {
-        let began = Instant::now();
-        in_parallel(of.iter().copied(), |mistake| {
-            if began.elapsed() > LONG {
-                return None;
-            }
-            let inside = self.told.len() - self.apart.len();
-            let (program, number) = match mistake.checked_sub(inside) {
-                Some(at) => (&self.apart[at], 0),
-                None => (&self.joined, mistake + 1),
-            };
-            Some((mistake, program.picture_with([number, every], patience).ok()?))
-        })
-    }
+/// The program without the light of the pixels that are left out, if it has a function that finds that of a pixel.
+fn with_few(program: &str, every: usize) -> String {
+    const PIXEL: &str = "fn pixel(x: usize, y: usize) -> V {\n";
+    let half = every / 2;
+    let skips =
+        format!("    if x % {every} != {half} || y % {every} != {half} {{\n        return V(0.0, 0.0, 0.0);\n    }}\n");
+    program.replace(PIXEL, &format!("{PIXEL}{skips}"))
 }
 
 /// A picture with one pixel of so many in each direction, from the middle of the first so many on.
@@ -151,16 +126,14 @@ impl Compiled {
     ///
     /// Errors: a program that does not end, or ends without a picture.
     pub fn picture(&self) -> Result<Picture, String> {
-        self.picture_with([0, 1], PATIENCE)
+        self.picture_within(PATIENCE)
     }
 
-    /// The same, where it is told which mistake to make, and of how many pixels to render one.
-    fn picture_with(&self, which: [usize; 2], patience: Duration) -> Result<Picture, String> {
+    fn picture_within(&self, patience: Duration) -> Result<Picture, String> {
         let failed = |error: std::io::Error| error.to_string();
         let folder = tempfile::tempdir().map_err(failed)?;
         let mut run = Command::new(self.0.path().join("program"));
         let run = run.current_dir(folder.path()).stdout(Stdio::null()).stderr(Stdio::null());
-        let run = run.envs(WHICH.into_iter().zip(which.map(|number| number.to_string())));
         let mut run = run.spawn().map_err(failed)?;
         let began = Instant::now();
         while run.try_wait().map_err(failed)?.is_none() {
