@@ -6,7 +6,7 @@ use super::streams::Streams;
 use pinhole::film::{Curve, png_bytes};
 use pinhole::scene::{FileKind, printable_path, read_file};
 use pinhole_lab::yours::{
-    Comparison, Expected, Mistake, Picture, Program, Wrong, film_after, picture_in, program_after, steps,
+    Comparison, Expected, Mistake, Picture, Place, Program, film_after, picture_in, program_after, steps,
 };
 use serde_json::{Value, json};
 use std::io::Write;
@@ -134,7 +134,11 @@ const PLACES: usize = 4;
 fn tell_program(program: &Program, out: &mut dyn Write) -> Result {
     let (mistake, places) = match program {
         Program::Books => return Ok(writeln!(out, "Your program is the book's, but for spaces, comments and names.")?),
-        Program::Right => return Ok(writeln!(out, "Beside the book's program, yours is as good.")?),
+        Program::Right(places) => {
+            let (number, places_are) = (places.len(), if places.len() == 1 { "place" } else { "places" });
+            writeln!(out, "Beside the book's program, yours is as good; it is not the same in {number} {places_are}:")?;
+            return tell_places(places, out);
+        }
         Program::Earlier(chapter) => {
             return Ok(writeln!(
                 out,
@@ -157,7 +161,11 @@ fn tell_program(program: &Program, out: &mut dyn Write) -> Result {
     }
     let is = if places.len() == 1 { "this" } else { "these together" };
     writeln!(out, "As in the book, {is} would make it right:")?;
-    for Wrong { line, within, readers, books } in places.iter().take(PLACES) {
+    tell_places(places, out)
+}
+
+fn tell_places(places: &[Place], out: &mut dyn Write) -> Result {
+    for Place { line, within, readers, books } in places.iter().take(PLACES) {
         let within = within.as_ref().map_or(String::new(), |name| format!(", in `{name}`"));
         writeln!(out, "  line {line}{within}")?;
         let nothing = |text: &str| if text.is_empty() { "nothing".to_owned() } else { format!("`{text}`") };
@@ -181,21 +189,24 @@ fn json_of(found: &Comparison, program: Option<&Program>) -> Value {
     told["program"] = match program {
         None => Value::Null,
         Some(Program::Books) => json!({ "is": "the book's" }),
-        Some(Program::Right) => json!({ "is": "right" }),
+        Some(Program::Right(places)) => json!({ "is": "right", "places": json_of_places(places) }),
         Some(Program::Earlier(chapter)) => json!({ "is": "earlier", "chapter": chapter }),
         Some(Program::Another(why)) => json!({ "is": "another", "why": why }),
         Some(Program::Wrong(mistake, places)) => {
-            let place = |Wrong { line, within, readers, books }: &Wrong| json!({ "line": line, "within": within, "yours": readers, "books": books });
             let [hides, noise] = match mistake {
                 Mistake::Shows => [None; 2],
                 Mistake::Hides(part) => [Some(part), None],
                 Mistake::MakesNoise(times) => [None, Some(times)],
             };
-            let places: Vec<Value> = places.iter().map(place).collect();
-            json!({ "is": "wrong", "places": places, "differing": hides, "squared_error": noise })
+            json!({ "is": "wrong", "places": json_of_places(places), "differing": hides, "squared_error": noise })
         }
     };
     told
+}
+
+fn json_of_places(places: &[Place]) -> Vec<Value> {
+    let one = |Place { line, within, readers, books }: &Place| json!({ "line": line, "within": within, "yours": readers, "books": books });
+    places.iter().map(one).collect()
 }
 
 /// The size and the bytes of a picture in the text format PPM.

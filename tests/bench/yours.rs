@@ -58,7 +58,7 @@ fn main() {
         let expected = Expected::after(chapter).expect("renders");
         let right_here = of_chapter(&all_right);
         let wrong = of_chapter(&tried).into_iter().map(|edit| (edit, true));
-        for (edit @ (_, old, new), is_wrong) in wrong.chain(of_chapter(&right).into_iter().map(|edit| (edit, false))) {
+        for ((_, old, new), is_wrong) in wrong.chain(of_chapter(&right).into_iter().map(|edit| (edit, false))) {
             let line = format!("{chapter:>2}  {:<50}  {:<40}", old.trim(), new.trim());
             // All that is right and unlike the book's, where the mistake finds its words.
             let mut around = edited(chapter, &[]).expect("applies");

@@ -1,7 +1,7 @@
 //! Whether a picture of bytes shows what another one of light shows, block by block.
 
 use super::known::{Picture, few, known_of, picture_of_program, pictures_of};
-use super::located::{Beside, Wrong};
+use super::located::{Beside, Place};
 use super::program::program_after;
 use super::scene::{SIZE, film_after, picture_of, sample_at_most, scene_after, variants};
 use pinhole::Error;
@@ -28,9 +28,9 @@ const SPECKLED: f64 = 0.5;
 const SAME: f64 = 0.97;
 /// Samples a pixel with which two programs are compared whose pictures are the same within noise.
 const MORE: usize = 256;
-/// What rounding may change in the mean of a block of two such programs, in bytes: each byte is a third of one off, by
-/// chance.
-const BOTH_ROUNDED: f64 = 0.2;
+/// Blocks of two such pictures; what rounding may change in their mean, in bytes, where each byte is a third of one off by
+/// chance; and how many may differ, since paths that bring much light make a few do by chance.
+const SCALES: [([usize; 2], f64, usize); 3] = [(BLOCK, 0.2, 4), ([96, 54], 0.1, 0), (SIZE, 0.05, 0)];
 /// How many bytes two pictures without noise may differ by in a pixel, and in what part of their pixels by more.
 const ROUNDED: (u8, f64) = (2, 1e-3);
 /// How many times the squared error of the book's program one may have that is as good.
@@ -71,14 +71,14 @@ pub enum Comparison {
 pub enum Program {
     /// It is the book's, but for spaces, comments and names.
     Books,
-    /// It is not the book's, and nothing shows that it is worse.
-    Right,
+    /// It is not the book's in these places, and nothing shows that it is worse.
+    Right(Vec<Place>),
     /// It is the book's as it was after an earlier chapter.
     Earlier(u32),
     /// It does not write the picture, by the end of a sentence.
     Another(String),
     /// With these places as in the book it is right.
-    Wrong(Mistake, Vec<Wrong>),
+    Wrong(Mistake, Vec<Place>),
 }
 
 /// What a mistake does to the picture.
@@ -187,7 +187,7 @@ impl Expected {
             return Err(Error::Usage(told));
         }
         let (readers, right) = (pixels_of(bytes, &self.curve), &self.right);
-        let found = blocks(&readers, right, &self.curve, ROUNDING);
+        let found = blocks(&readers, right, &self.curve, BLOCK, ROUNDING);
         let apart: Vec<&Block> = found.iter().filter(|block| block.differs()).collect();
         let Some(most) = apart.iter().max_by(|a, b| a.off.total_cmp(&b.off)) else {
             let mut resolved: Vec<f64> = found.iter().map(|block| block.resolved).collect();
@@ -283,7 +283,7 @@ impl Expected {
         let is_same = |(size, bytes): &Picture| {
             let readers = pixels_of(bytes, &self.curve);
             size == &SIZE
-                && !blocks(&readers, &self.right, &self.curve, ROUNDING).iter().any(Block::differs)
+                && !blocks(&readers, &self.right, &self.curve, BLOCK, ROUNDING).iter().any(Block::differs)
                 && shift(&readers, &self.right, 0.0).is_none()
         };
         let [own, readers] = [&own, picture].map(|(_, bytes)| pixels_of(bytes, &self.curve));
@@ -310,10 +310,11 @@ impl Expected {
             let mine = shown(program);
             (book.join().ok().flatten(), mine)
         });
-        let (Some(book), Some(mine)) = (book, mine) else { return Ok(Program::Right) };
-        let Some(mistake) = self.worse(&mine, &book) else { return Ok(Program::Right) };
+        let (Some(book), Some(mine)) = (book, mine) else { return Ok(Program::Right(beside.places())) };
+        let Some(mistake) = self.worse(&mine, &book) else { return Ok(Program::Right(beside.places())) };
         let is_right = |program: &str| shown(program).is_some_and(|picture| self.worse(&picture, &book).is_none());
-        Ok(beside.wrong(&is_right).map_or(Program::Right, |places| Program::Wrong(mistake, places)))
+        let wrong = beside.wrong(&is_right).map(|places| Program::Wrong(mistake, places));
+        Ok(wrong.unwrap_or_else(|| Program::Right(beside.places())))
     }
 
     /// What is worse in a program's picture than in that of the book's program, both of as many samples.
@@ -328,10 +329,12 @@ impl Expected {
             return (apart > part).then_some(Mistake::Hides(apart));
         }
         let [own, book] = [bytes, books].map(|bytes| pixels_of(bytes, &self.curve));
-        let blocks = blocks(&own, &book, &self.curve, BOTH_ROUNDED);
-        let apart = blocks.iter().filter(|block| block.differs()).count();
-        if apart > 0 {
-            return Some(Mistake::Hides(apart as f64 / blocks.len() as f64));
+        for (size, rounding, most) in SCALES {
+            let blocks = blocks(&own, &book, &self.curve, size, rounding);
+            let apart = blocks.iter().filter(|block| block.differs()).count();
+            if apart > most {
+                return Some(Mistake::Hides(apart as f64 / blocks.len() as f64));
+            }
         }
         let error = |pixels: &Pixels| {
             let pairs = pixels.iter().flatten().zip(self.right.iter().flatten());
@@ -354,7 +357,7 @@ impl Expected {
     }
 
     fn differing(&self, one: &Pixels, other: &Pixels) -> usize {
-        blocks(one, other, &self.curve, ROUNDING).iter().filter(|block| block.differs()).count()
+        blocks(one, other, &self.curve, BLOCK, ROUNDING).iter().filter(|block| block.differs()).count()
     }
 
     fn looks_like(&self, told: String, wrong: Pixels) -> LooksLike {
@@ -460,19 +463,18 @@ impl Block {
     }
 }
 
-/// Compares two pictures block by block; the scatter of the differences within a block is their noise.
-///
-/// Rounding may change so many bytes of a block's mean.
-fn blocks(readers: &Pixels, right: &Pixels, curve: &Curve, rounding: f64) -> Vec<Block> {
+/// Compares two pictures in blocks of a size, in whose means rounding may change so many bytes; the scatter of the
+/// differences within a block is their noise.
+fn blocks(readers: &Pixels, right: &Pixels, curve: &Curve, size: [usize; 2], rounding: f64) -> Vec<Block> {
     let [width, height] = SIZE;
     let mut blocks = Vec::new();
-    for top in (0..height).step_by(BLOCK[1]) {
-        for left in (0..width).step_by(BLOCK[0]) {
-            let lines = top..(top + BLOCK[1]).min(height);
+    for top in (0..height).step_by(size[1]) {
+        for left in (0..width).step_by(size[0]) {
+            let lines = top..(top + size[1]).min(height);
             let places: Vec<usize> =
-                lines.flat_map(|y| (left..(left + BLOCK[0]).min(width)).map(move |x| y * width + x)).collect();
+                lines.flat_map(|y| (left..(left + size[0]).min(width)).map(move |x| y * width + x)).collect();
             let count = places.len() as f64;
-            let mut block = Block { middle: [left + BLOCK[0] / 2, top + BLOCK[1] / 2], off: 0.0, resolved: 0.0 };
+            let mut block = Block { middle: [left + size[0] / 2, top + size[1] / 2], off: 0.0, resolved: 0.0 };
             for channel in 0..3 {
                 let apart = |at: &usize| readers[*at][channel] - right[*at][channel];
                 let mean = places.iter().map(apart).sum::<f64>() / count;

@@ -15,9 +15,9 @@ const LONG: Duration = Duration::from_secs(90);
 /// How often names are made as in the book; one may bring others to light.
 const ROUNDS: usize = 4;
 
-/// A place where a reader's program is not as the book's, and its picture is wrong for it.
+/// A place where a reader's program is not as the book's.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Wrong {
+pub struct Place {
     /// The reader's line, from 1; where something is missing, the line before which it is.
     pub line: usize,
     /// The function in which it is.
@@ -39,7 +39,7 @@ pub struct Beside {
 struct Difference {
     at: Range<usize>,
     books: String,
-    told: Wrong,
+    told: Place,
 }
 
 /// A statement, a head or an arm: its words, and its bytes.
@@ -86,6 +86,11 @@ impl Beside {
         self.differences.is_empty()
     }
 
+    /// All differences.
+    pub fn places(&self) -> Vec<Place> {
+        self.differences.iter().map(|difference| difference.told.clone()).collect()
+    }
+
     /// The book's program.
     pub fn books(&self) -> &str {
         &self.books
@@ -103,7 +108,7 @@ impl Beside {
 
     /// The fewest places found without which the picture is right, as `is_right` judges the picture of a program; none
     /// where it is not right with all of them as in the book.
-    pub fn wrong(&self, is_right: &dyn Fn(&str) -> bool) -> Option<Vec<Wrong>> {
+    pub fn wrong(&self, is_right: &dyn Fn(&str) -> bool) -> Option<Vec<Place>> {
         let began = Instant::now();
         let mut undone: Vec<usize> = (0..self.differences.len()).collect();
         if undone.len() > 1 && !is_right(&self.with(&undone)) {
@@ -138,7 +143,7 @@ impl Beside {
     }
 
     /// The book's program with these places as the reader has them, without spaces and comments.
-    pub fn has_only(&self, wrong: &[Wrong], program: &str) -> bool {
+    pub fn has_only(&self, wrong: &[Place], program: &str) -> bool {
         let others: Vec<usize> =
             (0..self.differences.len()).filter(|&at| !wrong.contains(&self.differences[at].told)).collect();
         words(&self.with(&others)).map(|(word, _)| word).eq(words(program).map(|(word, _)| word))
@@ -160,7 +165,7 @@ fn differences(readers: &str, books: &str) -> Vec<Difference> {
         let place = own.get(old.start).or(own.last());
         let start = place.map_or(0, |part| if old.start < own.len() { part.at.start } else { part.at.end });
         let at = start..if old.is_empty() { start } else { own[old.end - 1].at.end };
-        let told = Wrong {
+        let told = Place {
             line: readers[..start].matches('\n').count() + 1,
             within: place.and_then(|part| part.within).map(String::from),
             readers: one_line(&text_of(&own[old], readers)),
@@ -344,7 +349,7 @@ mod tests {
             let other = book.replace("to_light", "toward_lamp").replace("    ", "\t").replace("half_b", "b2");
             let other = format!("// mine\n{}", other.replace(" {\n", "\n{ // so\n"));
             let beside = Beside::new(&other, step.number).expect("applies");
-            let told: Vec<&Wrong> = beside.differences.iter().map(|difference| &difference.told).collect();
+            let told: Vec<&Place> = beside.differences.iter().map(|difference| &difference.told).collect();
             assert!(beside.is_the_books(), "{}: {told:?}", step.chapter);
         }
     }

@@ -11,6 +11,6 @@ mod scene;
 
 pub use comparison::{Comparison, Expected, Mistake, Program};
 pub use known::{Compiled, Picture, picture_in, picture_of_program};
-pub use located::Wrong;
+pub use located::Place;
 pub use program::{Step, program_after, program_of, steps};
 pub use scene::{Variant, film_after, picture_of, scene_after, variants};
