@@ -48,6 +48,11 @@ fn question() -> Question<Input, f64> {
     }
 }
 
+/// The sum of two numbers that are made of the first and of the other digits of one.
+fn by_digits((u, radius): Input, base: f64) -> f64 {
+    radius * ((u * base).floor() / base + (u * base).fract() - 1.0)
+}
+
 fn mistakes() -> Mistakes<Input, f64> {
     let low = Part::<Input, f64>::new(|i| left(i.0))
         .say("the left half is not the mirror image of the right one: there u takes the place of 1 − u")
@@ -100,6 +105,10 @@ fn mistakes() -> Mistakes<Input, f64> {
     Mistakes::<Input, f64>::new()
         .say("the root of what is left to 1 is subtracted from that of u; each half of the tent has a root of its own")
         .when(|&(u, radius)| radius * (u.sqrt() - (1.0 - u).sqrt()))
+        .say("the digits of u are taken for two numbers; their sum is as frequent as a tent is high, but does not grow with u")
+        .when(|&i| by_digits(i, 1024.0))
+        .when(|&i| by_digits(i, 1000.0))
+        .when(|&i| by_digits(i, 65536.0))
         .say("a step of u is a step of the place: that is a box")
         .when(|&(u, r)| (2.0 * u - 1.0) * r)
         .when(|&(u, r)| (u - 0.5) * r)

@@ -50,6 +50,11 @@ fn question() -> Question<Input, Answer> {
             .when(|&(o, d, c, r, v, time)| {
                 nearest(o.into(), (DVec3::from(d) - time * DVec3::from(v)).normalize(), c.into(), r)
             })
+            .say("the sphere counts wherever it has been until then; at the time of the ray it is in one place")
+            .when(|input| swept(input, 8))
+            .when(|input| swept(input, 10))
+            .when(|input| swept(input, 16))
+            .when(|input| swept(input, 100))
             .say("the sphere stands still: its motion is left out")
             .when(|input| moved(input, 0.0))
             .say(
@@ -127,6 +132,12 @@ fn nearest(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64) -> Answe
 }
 
 /// With this component of the velocity alone.
+/// The nearest hit with the sphere at any of so many places on its way, and where it set out.
+fn swept(input: &Input, places: u32) -> Answer {
+    let hits = (0..=places).filter_map(|at| moved(input, input.5 * f64::from(at) / f64::from(places)));
+    hits.min_by(f64::total_cmp)
+}
+
 fn only(&(o, d, c, r, v, time): &Input, axis: usize) -> Input {
     (o, d, c, r, [0, 1, 2].map(|at| if at == axis { v[at] } else { 0.0 }), time)
 }

@@ -13,6 +13,7 @@ use pinhole::shade::{Radiance, area_light_pdf};
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, Setting, Shown, StandIn, extremes, probes};
 use pinhole_lab::measure::draws::Draws;
+use std::cmp::Ordering;
 
 type Input = (f64, f64);
 
@@ -81,6 +82,11 @@ fn question() -> Question<Input, f64> {
             .say("the larger pdf has all the weight: that is the maximum heuristic")
             .when(|&(own, other)| if own > other { 1.0 } else { 0.0 })
             .when(|&(own, other)| if own >= other { 1.0 } else { 0.0 })
+            .when(|&(own, other)| match own.partial_cmp(&other) {
+                Some(Ordering::Greater) => 1.0,
+                Some(Ordering::Equal) if own > 0.0 => 0.5,
+                _ => 0.0,
+            })
             .say("each pdf is cubed instead of squared")
             .when(|&(own, other)| if own == 0.0 { 0.0 } else { 1.0 / (1.0 + (other / own).powi(3)) })
             .say("the roots of the pdfs are taken instead of their squares")

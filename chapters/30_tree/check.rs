@@ -48,6 +48,11 @@ fn question() -> Question<Input, Answer> {
             .when(|&(enters, closest)| [in_order((enters, closest))[0], None])
             .say("a child that begins behind the closest hit is visited: it cannot hold a closer one")
             .when(|&(enters, _)| to_visit(enters, f64::INFINITY))
+            .say("`closest` is compared with the farther child alone; the nearer one, too, may begin behind the closest hit")
+            .when(|&(enters, closest)| {
+                let [near, far] = to_visit(enters, f64::INFINITY);
+                [near, far.filter(|_| to_visit(enters, closest)[1].is_some())]
+            })
             .say("both are visited if the nearer one begins before the closest hit; the farther one must do so, too")
             .when(|&(enters, closest)| both_or_none(enters, closest))
             .say("child 0 first, whichever is nearer: the picture is right, and takes longer")

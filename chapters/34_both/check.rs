@@ -79,6 +79,9 @@ fn mistakes() -> Mistakes<Input, [f64; 2]> {
         .when(|i| sphere_interval(-i[0], i[1], i[2], i[3]))
         .say("`right` and `ahead` are exchanged: the tangent is right over ahead")
         .when(|i| sphere_interval(i[1], i[0], i[2], i[3]))
+        .say("the two crossings are sorted; one that lies behind the eye is no end: there the image's edge is")
+        .when(|i| all_if(i, distance(i) <= i[2], |i| cut(i, crossings(i))))
+        .when(|i| cut(i, crossings(i)))
         .say("the ends are swapped: the left one is first")
         .when(|i| [right(i)[1], right(i)[0]])
         .say("the radius over the distance is the sine of the angle between centre and outline, not its tangent")
@@ -175,6 +178,14 @@ fn by_angle(&[right, ahead, radius, half]: &Input, beside: f64, end: fn(f64) -> 
 }
 
 /// The direction to the centre, turned by the angle whose tangent is radius over this length.
+/// Where the two tangents cross the image plane, on whichever side of the eye, the smaller first.
+fn crossings(&[right, ahead, radius, _]: &Input) -> [f64; 2] {
+    let a = ahead * ahead - radius * radius;
+    let root = radius * (right * right + a).max(0.0).sqrt();
+    let [one, other] = [-root, root].map(|root| (ahead * right + root) / a);
+    [one.min(other), one.max(other)]
+}
+
 fn turned(&[right, ahead, radius, _]: &Input, tangent: f64) -> [f64; 2] {
     [-1.0, 1.0].map(|side| (right * tangent + side * ahead * radius) / (ahead * tangent - side * right * radius))
 }

@@ -60,6 +60,8 @@ fn mistakes() -> Mistakes<Input, f64> {
             let (_, v, _) = i;
             hermite(i, [(v[2] - v[0]) / 2.0, (v[3] - v[1]) / 2.0])
         })
+        .say("that is the one cubic through all four keys; asked for is the one whose slopes at the two keys are the chords'")
+        .when(through_all)
         .say("the slopes count per unit of u; times the distance of the two keys they count per unit of time")
         .when(|i| hermite(i, slopes(i).map(|slope| slope / step(i))))
         .say("the slopes are multiplied by the distance of the two keys twice")
@@ -114,6 +116,15 @@ fn fraction(input: &Input) -> f64 {
 fn line(input: &Input) -> f64 {
     let [a, b] = [input.1[1], input.1[2]];
     a + (b - a) * fraction(input)
+}
+
+/// The cubic through all four keys (Lagrange).
+fn through_all((times, values, time): &Input) -> f64 {
+    let part = |key: usize| {
+        let others = (0..4).filter(|&other| other != key);
+        values[key] * others.map(|other| (time - times[other]) / (times[key] - times[other])).product::<f64>()
+    };
+    (0..4).map(part).sum()
 }
 
 /// The slope of the line between two keys.

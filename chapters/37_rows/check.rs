@@ -108,6 +108,14 @@ fn question() -> Question<f64, [f64; 2]> {
             })
             .say("a parabola through the right places: its values between them are off by up to 0.06")
             .when(|&turn| [parabola((turn + 0.25).fract()), parabola(turn)])
+            .say("a parabola with the usual correction is near the circle, but off by up to 10⁻³")
+            .when(|&turn| [corrected((turn + 0.25).fract()), corrected(turn)])
+            .say("straight lines between eight places of the circle are off by up to 0.08")
+            .when(|&turn| {
+                let corner = |at: f64| circle_point(at / 8.0);
+                let ([a, b], [c, d], part) = (corner((8.0 * turn).floor()), corner((8.0 * turn).floor() + 1.0), (8.0 * turn).fract());
+                [a + (c - a) * part, b + (d - b) * part]
+            })
             .say("y is computed from x by √(1 − x²), which loses its sign, and its places where x is near 1")
             .when(|&turn| {
                 let [x, _] = circle_point(turn);
@@ -156,6 +164,11 @@ fn in_halves(turn: f64, terms: u32) -> [f64; 2] {
 fn parabola(turn: f64) -> f64 {
     let (x, sign) = if turn < 0.5 { (TAU * turn, 1.0) } else { (TAU * turn - PI, -1.0) };
     sign * 4.0 * x * (PI - x) / (PI * PI)
+}
+
+fn corrected(turn: f64) -> f64 {
+    let y = parabola(turn);
+    0.775 * y + 0.225 * y * y.abs()
 }
 
 fn asked() -> Vec<Probe<f64>> {

@@ -33,6 +33,8 @@ const MORE: usize = 256;
 const SCALES: [([usize; 2], f64, usize); 3] = [(BLOCK, 0.2, 4), ([96, 54], 0.1, 0), (SIZE, 0.05, 0)];
 /// How many bytes two pictures without noise may differ by in a pixel, and in what part of their pixels by more.
 const ROUNDED: (u8, f64) = (2, 1e-3);
+/// Light that noise may carry beyond white, in two such pictures.
+const BRIGHT: f64 = 0.75;
 /// How many times the squared error of the book's program one may have that is as good.
 const NOISIER: f64 = 4.0;
 /// Light that counts as none, where parts of it are told.
@@ -229,6 +231,13 @@ impl Expected {
         Ok(())
     }
 
+    /// A picture with pinhole's light where that is bright: more noise is cut off at white there, and its mean is lower.
+    fn without_bright(&self, mut pixels: Pixels) -> Pixels {
+        let pairs = pixels.as_flattened_mut().iter_mut().zip(self.right.as_flattened());
+        pairs.filter(|(_, right)| **right > BRIGHT).for_each(|(own, right)| *own = *right);
+        pixels
+    }
+
     /// What is said of the known mistake that makes this very picture, as one with the same random numbers does.
     fn known_to_make(&self, picture: &Picture, waits: &mut dyn FnMut()) -> Result<Option<String>, Error> {
         // One pixel of so many in both directions; its random numbers are its own, so that it is as in the whole picture.
@@ -311,7 +320,12 @@ impl Expected {
             (book.join().ok().flatten(), mine)
         });
         let (Some(book), Some(mine)) = (book, mine) else { return Ok(Program::Right(beside.places())) };
-        let Some(mistake) = self.worse(&mine, &book) else { return Ok(Program::Right(beside.places())) };
+        // What is laid out for one number of samples shows another picture with another.
+        let light = |(_, bytes): &Picture| self.without_bright(pixels_of(bytes, &self.curve));
+        let is_laid_out = mine.0 == SIZE && self.differing(&light(&mine), &self.without_bright(own)) > 0;
+        let Some(mistake) = self.worse(&mine, &book).filter(|_| !is_laid_out) else {
+            return Ok(Program::Right(beside.places()));
+        };
         let is_right = |program: &str| shown(program).is_some_and(|picture| self.worse(&picture, &book).is_none());
         let wrong = beside.wrong(&is_right).map(|places| Program::Wrong(mistake, places));
         Ok(wrong.unwrap_or_else(|| Program::Right(beside.places())))
@@ -328,7 +342,7 @@ impl Expected {
             let apart = bytes.iter().zip(books).filter(is_apart).count() as f64 / bytes.len() as f64;
             return (apart > part).then_some(Mistake::Hides(apart));
         }
-        let [own, book] = [bytes, books].map(|bytes| pixels_of(bytes, &self.curve));
+        let [own, book] = [bytes, books].map(|bytes| self.without_bright(pixels_of(bytes, &self.curve)));
         for (size, rounding, most) in SCALES {
             let blocks = blocks(&own, &book, &self.curve, size, rounding);
             let apart = blocks.iter().filter(|block| block.differs()).count();
