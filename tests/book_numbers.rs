@@ -230,3 +230,54 @@ fn lamps_without_shadows_drop_what_page_10_says() {
     let three = vec!["Clear shadow hits", "Trace shadow rays: spheres", "Trace shadow rays: planes"];
     assert_eq!(changed, [vec![], three]);
 }
+
+/// Numbers of five digits and more that a worked example computes with stand in a trace of its page, where it has any.
+#[test]
+fn what_a_worked_example_computes_with_stands_in_its_trace() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src");
+    let all = chapters::all();
+    let (mut pages, mut numbers) = (0, 0);
+    for file in std::fs::read_dir(folder).expect("the book") {
+        let path = file.expect("a page").path();
+        let Ok(text) = std::fs::read_to_string(&path) else { continue };
+        let Some(example) = text.split("## A worked example").nth(1).and_then(|rest| rest.split("\n## ").next()) else {
+            continue;
+        };
+        let between = |text: &str, open: &str| {
+            let parts = text.split(open).skip(1).filter_map(|rest| rest.split("}}").next());
+            parts.map(String::from).collect::<Vec<_>>()
+        };
+        let mut traced = Vec::new();
+        for words in between(&text, "{{#pinhole trace ") {
+            let words: Vec<String> = ["trace"].into_iter().chain(words.split_whitespace()).map(String::from).collect();
+            pinhole_cli::command::run(&all, &words, &mut traced).expect("a trace");
+        }
+        let traced = String::from_utf8(traced).expect("a text");
+        if traced.is_empty() {
+            continue;
+        }
+        let traced: Vec<f64> = numbers_in(&traced).filter_map(|number| number.parse().ok()).collect();
+        pages += 1;
+        for expression in between(example, "{{= ") {
+            let digits = |number: &&str| number.trim_start_matches(['0', '.']).replace('.', "").len() >= 5;
+            for number in numbers_in(&expression).filter(digits) {
+                let decimals = number.split('.').nth(1).unwrap_or_default().len();
+                let value: f64 = number.parse().expect("a number");
+                let is_it = |traced: &f64| (traced.abs() - value).abs() < 0.5001 * 0.1_f64.powi(decimals as i32);
+                let page = path.display();
+                assert!(
+                    traced.iter().any(is_it),
+                    "{page} computes with {number}, which no trace of it has: {expression}"
+                );
+                numbers += 1;
+            }
+        }
+    }
+    eprintln!("numbers of {pages} pages that stand in their traces: {numbers}");
+    assert!(pages >= 4 && numbers >= 12);
+}
+
+fn numbers_in(text: &str) -> impl Iterator<Item = &str> {
+    let parts = text.split(|letter: char| !(letter.is_ascii_digit() || letter == '.'));
+    parts.filter(|part| part.contains('.') && part.parse::<f64>().is_ok())
+}

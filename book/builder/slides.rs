@@ -14,6 +14,8 @@ const SCRIPT: &str = include_str!("slides.js");
 /// Sections that are no part of the derivation: each has slides of its own, or none.
 const APART: [&str; 4] = ["A worked example", "Your turn", "Exercises", "Further reading"];
 
+/// How many letters a line of large code has room for.
+const WIDE: usize = 72;
 /// The most lines of code that are shown in large letters, and in those of middle size.
 const LARGE: usize = 12;
 const MIDDLE: usize = 20;
@@ -165,13 +167,31 @@ fn drawn(printer: &mut Printer<'_>, page: &Page, slide: &Slide, at: usize) -> Re
 fn size(html: &str) -> &'static str {
     let code = html.split("<pre>").nth(1).and_then(|rest| rest.split("</pre>").next());
     let lines = code.map_or(0, |code| code.lines().count());
+    let is_wide = code.is_some_and(|code| code.lines().any(|line| letters(line) > WIDE));
     let words = html.split("<p>").skip(1).filter_map(|rest| rest.split("</p>").next());
     let words: usize = words.map(|words| words.split_whitespace().count()).sum();
     match (lines, words) {
-        (0..=LARGE, 0..=90) => "large",
+        (0..=LARGE, 0..=90) if !is_wide => "large",
         (0..=MIDDLE, 0..=180) => "middle",
         _ => "small",
     }
+}
+
+/// How many letters a line shows, of which entities stand for one and tags for none.
+fn letters(line: &str) -> usize {
+    let mut open: Option<char> = None;
+    let shown = line.chars().filter(|&letter| match (open, letter) {
+        (None, '<' | '&') => {
+            open = Some(if letter == '<' { '>' } else { ';' });
+            letter == '&'
+        }
+        (Some(end), _) => {
+            open = open.filter(|_| letter != end);
+            false
+        }
+        (None, _) => true,
+    });
+    shown.count()
 }
 
 #[cfg(test)]

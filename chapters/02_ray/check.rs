@@ -150,7 +150,7 @@ fn question() -> Question<Vector, Option<Vector>> {
             .when(|&v| unit(v).map(|_| scaled(v, v.iter().fold(f64::MAX, |min, part| part.abs().min(min)))))
             .say("the vector is handed back as it is")
             .when(|&v| unit(v).map(|_| v))
-            .say("the direction is turned about")
+            .say("the direction points the opposite way")
             .when(|&v| unit(v).map(|v| v.map(|part| -part)))
             .say("only a vector longer than 1 is made shorter; a shorter one is to be made longer")
             .when(|&v| unit(v).map(|unit| if length(v) > 1.0 { unit } else { v }))

@@ -91,7 +91,7 @@ fn mistakes() -> Mistakes<Input, Ray> {
         .when(|&([x, y], h)| at([x, -y], h / 2.0))
         .say("x points left; on the screen and in camera space it points right")
         .when(|&([x, y], h)| at([-x, y], h / 2.0))
-        .say("x and y are turned about; nothing crosses over without a hole")
+        .say("x and y have the opposite signs; nothing crosses over without a hole")
         .when(|&([x, y], h)| at([-x, -y], h / 2.0))
         .say("x and y are swapped")
         .when(|&([x, y], h)| at([y, x], h / 2.0))

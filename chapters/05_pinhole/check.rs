@@ -159,7 +159,7 @@ fn divided(of: &[f64; 4], by: fn([f64; 3]) -> f64) -> [f64; 3] {
     through(of).map(|part| part / by(through(of)))
 }
 
-const TURNED: &str = "x and y are turned about, as on the film of a box with a hole";
+const TURNED: &str = "x and y have the opposite signs, as on the film of a box with a hole";
 
 const CORNER: &str = "the screen point is counted from a corner; the screen has its centre at the origin";
 

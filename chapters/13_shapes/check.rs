@@ -15,7 +15,7 @@ use pinhole_lab::exercise::{
 use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::oracle_cuboid::cuboid_hit;
 
-/// Origin, direction, least and most; all with few digits, so that quotients that are equal come out equal.
+/// Origin, direction, min and max; all with few digits, so that quotients that are equal come out equal.
 type Input = ([f64; 3], [f64; 3], [f64; 3], [f64; 3]);
 
 type Answer = Option<f64>;
@@ -37,7 +37,7 @@ fn question() -> Question<Input, Answer> {
         probes: asked(),
         tell: |(origin, direction, min, max)| {
             let [origin, direction, min, max] = [origin, direction, min, max].map(Shown::shown);
-            format!("origin {origin}, direction {direction}, least {min}, most {max}")
+            format!("origin {origin}, direction {direction}, min {min}, max {max}")
         },
         right: |&(o, d, min, max)| cuboid_hit(single(o), single(d), &slabs(min, max)).map(|(t, _)| t.to_f64()),
         apart: |yours, right| option(yours, right, |yours, right| relative(&[*yours], &[*right])),
@@ -45,8 +45,8 @@ fn question() -> Question<Input, Answer> {
         measured: "of t",
         mistakes: mistakes(),
         hints: &[
-            "a box is what three slabs have in common: least ≤ x ≤ most for each coordinate by itself",
-            "the ray crosses the two faces of a slab at (least − o) / d and (most − o) / d; it enters at the smaller of \
+            "a box is what three slabs have in common: min ≤ x ≤ max for each coordinate by itself",
+            "the ray crosses the two faces of a slab at (min − o) / d and (max − o) / d; it enters at the smaller of \
              the two and leaves at the larger",
             "it is inside the box from the largest of the three entries to the smallest of the three exits, if the one \
              is not beyond the other",

@@ -89,7 +89,7 @@ fn mistakes() -> Mistakes<Input, f64> {
             let normals = i.1.map(|normal| to_side(normal.into(), i.3).to_array());
             mixed(&(i.0, normals, i.2, i.3, i.4)).normalize()
         })
-        .say("the mixed normal is turned about where the triangle's own is, but it may be on the other side already")
+        .say("the mixed normal is reversed where the triangle's own is, but it may be on the other side already")
         .when(|i| if DVec3::from(i.0).dot(i.3.into()) < 0.0 { -mixed(i).normalize() } else { mixed(i).normalize() })
         .say("one corner's normal is taken; all three are to be mixed by their weights")
         .when(|i| {

@@ -5,6 +5,7 @@ use pinhole::film::{Curve, byte_from_linear};
 use pinhole_lab::naive::path::{
     light_of_capped_path, uniform_direction, uniform_weight, weight_without_cosine, weight_without_pi,
 };
+use std::path::Path;
 
 /// Slices of the hemisphere, or rings of the disk.
 const SLICES: u32 = 1_000_000;
@@ -65,4 +66,31 @@ fn factors_too_many_are_what_page_25_says() {
     let once = byte_from_linear(0.5, Curve::Srgb);
     let twice = byte_from_linear(f32::from(once) / 255.0, Curve::Srgb);
     page_says(page, &format!("half the light is byte {once}, and twice encoded {twice}"));
+}
+
+/// The errors at 256 samples are those of the report that is kept beside the chapter.
+#[test]
+fn the_table_of_page_26_is_its_report() {
+    let kept =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("chapters/26_choosing_samples/report.json"));
+    let report: serde_json::Value = serde_json::from_str(&kept.expect("a report")).expect("JSON");
+    let of = |variant: usize| {
+        let level = &report["variants"][variant]["levels"][4];
+        assert_eq!(level["samples"], 256);
+        [&level["mse"]["value"][1], &level["rel_mse"]].map(|error| four_digits(error.as_f64().expect("a number")))
+    };
+    let [mse, relative] = of(0);
+    for (variant, (name, decimals)) in [("MIS", 0), ("BSDF sampling", 1), ("light sampling", 0)].into_iter().enumerate()
+    {
+        let [own, own_relative] = of(variant);
+        let times =
+            format!("{{{{= {own}/{mse} : {decimals}}}}} | {own_relative} | {{{{= {own_relative}/{relative} : 0}}}}");
+        page_says("26_choosing_samples.md", &format!("| {name} | {own} | {times} |"));
+    }
+}
+
+/// A number as reports print it.
+fn four_digits(number: f64) -> String {
+    let decimals = (3 - number.log10().floor() as i32).max(0) as usize;
+    format!("{number:.decimals$}")
 }

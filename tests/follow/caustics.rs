@@ -395,7 +395,7 @@ fn what_only_light_tracing_finds_is_said_before() {
         preflight(census, (&plan, &tables), asked).expect("looks").join("\n")
     };
     let (mut plain, mut asking) = (caustics(false), traced(|| caustics(false))());
-    assert!(told(&plain).contains("LightTracing on the camera, beside paths, finds it"), "{}", told(&plain));
+    assert!(told(&plain).contains("with LightTracing on the camera it is found"), "{}", told(&plain));
     assert!(!told(&asking).contains("missing"), "{}", told(&asking));
     for world in [&mut plain, &mut asking] {
         world.spawn((Name::new("sun"), DirectionalLight::default()));

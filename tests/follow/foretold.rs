@@ -285,7 +285,7 @@ fn light_tracing_is_advised_where_it_helps() {
     for (is_tank, traced, words) in [
         (true, false, Some("first hit a mirror or glass; a small sphere or disk")),
         (true, true, Some("is still missing on what the camera sees through glass")),
-        (false, false, Some("LightTracing on the camera, beside paths, finds it from the light")),
+        (false, false, Some("with LightTracing on the camera it is found from the light")),
         (false, true, None),
     ] {
         let told = tank(is_tank, traced);

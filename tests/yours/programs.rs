@@ -32,7 +32,7 @@ pub const MISTAKES: [Edit; 58] = [
     (10, "light.powf(1.0 / 2.4)", "light"),
     (13, "(height - normal.dot(origin))", "(normal.dot(origin) - height)"),
     (13, "    Thing(Block { low: V(-2.8, -1.0, -4.5), high: V(-1.4, 0.8, -3.1) }, V(0.3, 0.4, 0.8)),\n", ""),
-    (13, "match along > 0.0", "match along < 0.0"),
+    (13, "match along.is_sign_positive()", "match along.is_sign_negative()"),
     (13, "V(0.0, 1.0, 0.0)),\n                (low.2", "V(1.0, 0.0, 0.0)),\n                (low.2"),
     (17, "sum.times(1.0 / SAMPLES as f64)", "sum.times(2.0 / SAMPLES as f64)"),
     (17, "1_u64 << 53", "1_u64 << 50"),

@@ -278,7 +278,7 @@ pub fn draw_paths(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         exhibit(Picture::of(chapter, SMALL, None, change), ["right", &format!("{MAX_DEPTH} segments")]),
         by(uniform, |albedo, _| weight_without_cosine(albedo), ["the missing cosine", "twice what it may"]),
         by(cosine_direction, |albedo, _| weight_without_pi(albedo), ["the forgotten π", "π times too much"]),
-        by(uniform, |albedo, _| albedo, ["the wrong pdf", "uniform directions, counted as cosine-weighted"]),
+        by(uniform, |albedo, _| albedo, ["the wrong pdf", "uniform, counted as cosine-weighted"]),
         by(cosine_direction, |albedo, cosine| albedo * cosine, ["the cosine twice", "a third is lost"]),
         exhibit(Picture::encoded_twice(chapter, SMALL, change), ["gamma twice", "light is right, bytes are not"]),
     ];

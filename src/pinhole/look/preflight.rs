@@ -351,11 +351,11 @@ pub fn missing_paths(scene: &Census<'_>, pilot: &Pilot) -> Vec<String> {
             )
         } else if pilot.specular_first as f64 >= MANY_SPECULAR * pilot.rays as f64 && pilot.rays > 0 {
             format!(
-                "LightTracing on the camera, beside paths, finds it from the light on what the camera sees directly, but \
+                "with LightTracing on the camera it is found from the light on what the camera sees directly, but \
                  {seen} test rays first hit a mirror or glass; {area}"
             )
         } else {
-            "LightTracing on the camera, beside paths, finds it from the light".into()
+            "with LightTracing on the camera it is found from the light".into()
         };
         warnings.push(format!("{missing}; {advice}"));
     }

@@ -79,7 +79,10 @@ fn ray() -> Fresh {
                 let l = v[0].hypot(v[1]);
                 if l > 0.0 { Some(over(v, l)) } else { None }
             }),
-            ("the direction is turned about", |v| if length(v) > 0.0 { Some(over(v, -length(v))) } else { None }),
+            (
+                "the direction points the opposite way",
+                |v| if length(v) > 0.0 { Some(over(v, -length(v))) } else { None },
+            ),
             ("the signs are lost", |v| {
                 let l = length(v);
                 if l > 0.0 { Some(v.map(|part| part.abs() / l)) } else { None }

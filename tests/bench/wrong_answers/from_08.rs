@@ -317,7 +317,7 @@ fn conventions() -> Fresh {
             ("y is turned where it points up, as it does in pinhole's", |[x, y, z], r, u, a| {
                 [x * s(r), y * s(!u), z * s(!a)]
             }),
-            ("the whole direction is turned about where one flag asks for it", |v, r, u, a| {
+            ("the whole direction is reversed where one flag asks for it", |v, r, u, a| {
                 if r && u && !a { v } else { times(v, -1.0) }
             }),
             ("a flag is asked for only where another one is set", |[x, y, z], r, u, a| {
