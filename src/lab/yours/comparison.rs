@@ -28,9 +28,10 @@ const SPECKLED: f64 = 0.5;
 const SAME: f64 = 0.97;
 /// Samples a pixel with which two programs are compared whose pictures are the same within noise.
 const MORE: usize = 256;
-/// Blocks of two such pictures; what rounding may change in their mean, in bytes, where each byte is a third of one off by
-/// chance; and how many may differ, since paths that bring much light make a few do by chance.
-const SCALES: [([usize; 2], f64, usize); 3] = [(BLOCK, 0.2, 4), ([96, 54], 0.1, 0), (SIZE, 0.05, 0)];
+/// Blocks of two such pictures, and how many may differ, since paths that bring much light make a few do by chance.
+const SCALES: [([usize; 2], usize); 3] = [(BLOCK, 4), ([96, 54], 0), (SIZE, 0)];
+/// What rounding may change in their mean, in bytes: where one picture has no noise and the other has, half of one.
+const HALF: f64 = 0.55;
 /// How many bytes two pictures without noise may differ by in a pixel, and in what part of their pixels by more.
 const ROUNDED: (u8, f64) = (2, 1e-3);
 /// Light that noise may carry beyond white, in two such pictures.
@@ -343,8 +344,8 @@ impl Expected {
             return (apart > part).then_some(Mistake::Hides(apart));
         }
         let [own, book] = [bytes, books].map(|bytes| self.without_bright(pixels_of(bytes, &self.curve)));
-        for (size, rounding, most) in SCALES {
-            let blocks = blocks(&own, &book, &self.curve, size, rounding);
+        for (size, most) in SCALES {
+            let blocks = blocks(&own, &book, &self.curve, size, HALF);
             let apart = blocks.iter().filter(|block| block.differs()).count();
             if apart > most {
                 return Some(Mistake::Hides(apart as f64 / blocks.len() as f64));
