@@ -124,8 +124,9 @@ pub fn draw_wagon_wheel(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 pub fn draw_angles(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let shown = |angle: f64| {
         let close = format!("camera.shutter.close={}", angle / 360.0 / RATE);
-        let file = film(chapter, SQUARE, 64, &[&AT_THE_WHEEL[..], &[close.as_str()]].concat())?;
-        exhibit(&frame(&file, 1.0, 64)?, format!("{angle}°"))
+        let file = film(chapter, SQUARE, 32, &[&AT_THE_WHEEL[..], &[close.as_str()]].concat())?;
+        let moments = if angle > 0.0 { 32 } else { 1 };
+        exhibit(&frame(&file, 1.0, moments)?, format!("{angle}°"))
     };
     let exhibits = [0.0, 90.0, 180.0, 360.0].map(shown).into_iter().collect::<Result<Vec<_>>>()?;
     Ok(hang(figure, &exhibits, 4, &gallery_foot(chapter, figure, SQUARE)))
