@@ -165,11 +165,13 @@ fn differences(readers: &str, books: &str) -> Vec<Difference> {
         let place = own.get(old.start).or(own.last());
         let start = place.map_or(0, |part| if old.start < own.len() { part.at.start } else { part.at.end });
         let at = start..if old.is_empty() { start } else { own[old.end - 1].at.end };
+        let [own_text, book_text] = [text_of(&own[old], readers), text_of(&book[new.clone()], books)];
+        let [shown, books_shown] = where_apart([&own_text, &book_text]);
         let told = Place {
-            line: readers[..start].matches('\n').count() + 1,
+            line: readers[..start + shown.start].matches('\n').count() + 1,
             within: place.and_then(|part| part.within).map(String::from),
-            readers: one_line(&text_of(&own[old], readers)),
-            books: one_line(&text_of(&book[new.clone()], books)),
+            readers: one_line(&own_text[shown]),
+            books: one_line(&book_text[books_shown]),
         };
         found.push(Difference { at, books: text_of(&book[new], books), told });
     };
@@ -193,14 +195,16 @@ fn renamed(own: &[Part<'_>], book: &[Part<'_>]) -> HashMap<String, String> {
         parts.iter().flat_map(|part| part.words.iter().map(|word| (*word).to_owned())).collect::<HashSet<_>>()
     };
     let (in_own, in_book) = (all(own), all(book));
-    let is_name = |word: &str| word.starts_with(|c: char| c.is_alphabetic() || c == '_');
+    let (of_own, of_book) = (bound(own), bound(book));
+    let is_own = |word: &str| of_own.contains(word) && !in_book.contains(word);
+    let is_books = |word: &str| of_book.contains(word) && !in_own.contains(word);
     // What a part looks like whatever its new names are.
-    let shape = |part: &Part<'_>, others: &HashSet<String>| {
-        let shown = |word: &&str| if is_name(word) && !others.contains(*word) { "?" } else { *word }.to_owned();
+    let shape = |part: &Part<'_>, is_new: &dyn Fn(&str) -> bool| {
+        let shown = |word: &&str| if is_new(word) { "?" } else { *word }.to_owned();
         part.words.iter().map(shown).collect::<Vec<_>>().join(" ")
     };
-    let own_shapes: Vec<String> = own.iter().map(|part| shape(part, &in_book)).collect();
-    let book_shapes: Vec<String> = book.iter().map(|part| shape(part, &in_own)).collect();
+    let own_shapes: Vec<String> = own.iter().map(|part| shape(part, &is_own)).collect();
+    let book_shapes: Vec<String> = book.iter().map(|part| shape(part, &is_books)).collect();
     let mut names: HashMap<String, Option<String>> = HashMap::new();
     let mut taken: HashMap<String, String> = HashMap::new();
     for op in capture_diff_slices(Algorithm::Patience, &own_shapes, &book_shapes) {
@@ -209,7 +213,7 @@ fn renamed(own: &[Part<'_>], book: &[Part<'_>]) -> HashMap<String, String> {
             continue;
         }
         for (word, other) in old.zip(new).flat_map(|(old, new)| own[old].words.iter().zip(&book[new].words)) {
-            if word == other || !is_name(word) || !is_name(other) {
+            if word == other || !is_own(word) || !is_books(other) {
                 continue;
             }
             let known = names.entry((*word).into()).or_insert_with(|| Some((*other).into()));
@@ -220,6 +224,34 @@ fn renamed(own: &[Part<'_>], book: &[Part<'_>]) -> HashMap<String, String> {
         }
     }
     names.into_iter().filter_map(|(word, other)| Some((word, other?))).collect()
+}
+
+/// The names that a program binds itself, as functions, constants, parameters and variables; not those of a library.
+fn bound<'t>(parts: &[Part<'t>]) -> HashSet<&'t str> {
+    const DEFINE: [&str; 7] = ["fn", "const", "static", "struct", "enum", "type", "mut"];
+    let mut all = HashSet::new();
+    for Part { words, .. } in parts {
+        // Patterns stand between these words.
+        let arm = words.windows(2).position(|pair| pair == ["=", ">"]);
+        let [mut in_pattern, mut in_closure] = [arm.is_some(), false];
+        for (at, &word) in words.iter().enumerate() {
+            let previous = at.checked_sub(1).map_or("", |before| words[before]);
+            let [next, after] = [1, 2].map(|on| words.get(at + on).copied().unwrap_or_default());
+            match word {
+                "let" | "for" => in_pattern = true,
+                "=" | "in" => in_pattern = false,
+                "|" => in_closure = !in_closure && matches!(previous, "(" | "," | "=" | "move"),
+                _ => {
+                    let has_type = next == ":" && after != ":" && previous != ":";
+                    let is_bound = in_pattern || in_closure || has_type || DEFINE.contains(&previous);
+                    if is_bound && word.starts_with(|c: char| c.is_alphabetic()) {
+                        all.insert(word);
+                    }
+                }
+            }
+        }
+    }
+    all
 }
 
 /// A text with other names.
@@ -321,10 +353,36 @@ fn number_length(text: &str) -> usize {
     end
 }
 
+/// The lines of two texts from the first word that is not the same to the last.
+fn where_apart(texts: [&str; 2]) -> [Range<usize>; 2] {
+    let all = texts.map(|text| words(text).collect::<Vec<_>>());
+    let same = |pairs: &mut dyn Iterator<Item = (&str, &str)>| pairs.take_while(|(one, other)| one == other).count();
+    let of = |which: usize| all[which].iter().map(|(word, _)| *word);
+    let before = same(&mut of(0).zip(of(1)));
+    let behind = same(&mut of(0).rev().zip(of(1).rev()));
+    [0, 1].map(|which| {
+        let (text, words) = (texts[which], &all[which]);
+        let Some(last) = words.len().checked_sub(1) else { return 0..0 };
+        let (first, last) = (words[before.min(last)], words[last.saturating_sub(behind).max(before.min(last))]);
+        // From the word itself on its first line: indentation says nothing.
+        let from = text[..first.1].rfind('\n').map_or(0, |end| end + 1);
+        let from = from + text[from..].len() - text[from..].trim_start().len();
+        let end = last.1 + last.0.len();
+        from.min(first.1)..text[end..].find('\n').map_or(text.len(), |line| end + line)
+    })
+}
+
 /// A text on one line, without comments.
 fn one_line(text: &str) -> String {
-    let lines = text.lines().map(|line| line.split("//").next().unwrap_or_default().trim());
-    lines.filter(|line| !line.is_empty()).collect::<Vec<_>>().join(" ")
+    let (mut line, mut end) = (String::new(), 0);
+    for (word, at) in words(text) {
+        if at > end && !line.is_empty() {
+            line.push(' ');
+        }
+        line += word;
+        end = at + word.len();
+    }
+    line
 }
 
 #[cfg(test)]
@@ -351,6 +409,11 @@ mod tests {
             let beside = Beside::new(&other, step.number).expect("applies");
             let told: Vec<&Place> = beside.differences.iter().map(|difference| &difference.told).collect();
             assert!(beside.is_the_books(), "{}: {told:?}", step.chapter);
+            // Names of the library are none of the reader's.
+            for (right, wrong) in [(".max(0.0)", ".min(0.0)"), ("PI", "TAU"), (".sqrt()", ".cbrt()")] {
+                let beside = Beside::new(&book.replace(right, wrong), step.number).expect("applies");
+                assert!(!beside.is_the_books() || !book.contains(right), "{}: {wrong}", step.chapter);
+            }
         }
     }
 
