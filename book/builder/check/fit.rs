@@ -1,5 +1,7 @@
 //! Listings and printed lines made to fit the book's column: what is wider is broken between words.
 
+use std::cmp::Reverse;
+
 /// The characters of a monospaced line that fit the column at a window 1,280 pixels wide.
 pub const COLUMNS: usize = 84;
 
@@ -80,7 +82,14 @@ fn broken(line: &str, further: usize, has_strings: bool) -> Vec<String> {
         // Code parts best behind what ends a part of it, and not so that brackets alone are left.
         let is_end = |at: usize| rest[..at].ends_with([',', ';', '{', '=', '&', '|']) && rest[at..].trim().len() > 4;
         let is_good = |at: usize| has_strings && at > COLUMNS / 2 && is_outside(at) && !is_comment(at) && is_end(at);
-        let outside = place(&|at| fits(at, 0) && is_good(at)).or_else(|| place(&|at| fits(at, 0) && is_outside(at)));
+        // Of several such places the one within the fewest brackets, so that no call in it is torn apart.
+        let depth = |at: usize| -> i32 {
+            let sign = |byte| i32::from(b"([{".contains(byte)) - i32::from(b")]}".contains(byte));
+            rest.as_bytes()[..at].iter().map(sign).sum()
+        };
+        let good = rest.match_indices(' ').map(|(at, _)| at).filter(|&at| fits(at, 0) && is_good(at));
+        let good = good.min_by_key(|&at| (depth(at), Reverse(at)));
+        let outside = good.or_else(|| place(&|at| fits(at, 0) && is_outside(at)));
         let Some(at) = outside.or_else(|| place(&|at| fits(at, MARK.len()))) else { break };
         let mark = if outside.is_some() { "" } else { MARK };
         let again = if is_comment(at) { COMMENT } else { "" };
@@ -116,6 +125,12 @@ mod tests {
         let listing = "/// A comment.\n/// Another.\nfn one() {\n    two(\"three\");\n}";
         assert_eq!(source(listing), listing);
         assert_eq!(printed(listing), listing);
+    }
+
+    #[test]
+    fn no_call_is_torn_apart_where_another_place_is_as_good() {
+        let text = source("    Thing(Plane { normal: V(0.0, 1.0, 0.0), height: -1.0 }, Matte(V(0.5, 0.6, 0.5, 0.5))),");
+        assert_eq!(text.lines().last().map(str::trim), Some("Matte(V(0.5, 0.6, 0.5, 0.5))),"), "{text}");
     }
 
     #[test]

@@ -28,7 +28,7 @@ const SPECKLED: f64 = 0.5;
 const SAME: f64 = 0.97;
 /// Samples a pixel with which two programs are compared whose pictures are the same within noise.
 const MORE: usize = 256;
-/// Blocks of two such pictures, and how many may differ, since paths that bring much light make a few do by chance.
+/// Blocks of two such pictures, and how many may differ, since a path that brings much light makes one do so now and then.
 const SCALES: [([usize; 2], usize); 3] = [(BLOCK, 4), ([96, 54], 0), (SIZE, 0)];
 /// What rounding may change in their mean, in bytes: where one picture has no noise and the other has, half of one.
 const HALF: f64 = 0.55;

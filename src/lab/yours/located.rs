@@ -106,7 +106,7 @@ impl Beside {
         })
     }
 
-    /// The fewest places found without which the picture is right, as `is_right` judges the picture of a program; none
+    /// The fewest places found without which the picture is right, as `is_right` says of a program; none
     /// where it is not right with all of them as in the book.
     pub fn wrong(&self, is_right: &dyn Fn(&str) -> bool) -> Option<Vec<Place>> {
         let began = Instant::now();
@@ -417,7 +417,7 @@ mod tests {
         }
     }
 
-    /// What is wrong is found by a judge who looks at the text alone, however much else is different.
+    /// What is wrong is found, however much else is different; here what is right is asked of the text alone.
     #[test]
     fn only_what_matters_is_told() {
         let book = program_after(13).expect("applies");
