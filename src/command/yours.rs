@@ -53,7 +53,7 @@ pub fn yours(asked: &CompareYours, format: Format, streams: &mut Streams<'_>) ->
     let mut found = expected.compare(&picture)?;
     let program = match &source {
         Some(source) => {
-            let told = "note: your program and the book's are compiled and run with more samples, to compare them";
+            let told = "note: your program is compared with the book's, place by place or with more samples, for a minute or two";
             Some(expected.look_into(source, &picture, &mut found, &mut || _ = writeln!(notes, "{told}"))?)
         }
         None => None,

@@ -7,7 +7,7 @@ use super::scene::{SIZE, film_after, picture_of, sample_at_most, scene_after, va
 use pinhole::Error;
 use pinhole::extract::linear_from_srgb;
 use pinhole::film::{Film, srgb_from_linear};
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 /// The sides of a block, in pixels.
 const BLOCK: [usize; 2] = [16, 10];
@@ -149,8 +149,8 @@ pub struct Expected {
     chapter: u32,
     curve: Curve,
     right: Pixels,
-    rewritten_or_changed: OnceCell<Vec<LooksLike>>,
-    known: OnceCell<Vec<(String, Picture)>>,
+    rewritten_or_changed: OnceLock<Vec<LooksLike>>,
+    known: OnceLock<Vec<(String, Picture)>>,
 }
 
 /// What a picture looks like, the picture, and in how many blocks it is not as the right one.
@@ -175,7 +175,7 @@ impl Expected {
     /// Errors: those of a render.
     pub fn after(chapter: u32) -> Result<Self, Error> {
         let right = light_of(&film_after(chapter, u32::MAX)?);
-        let (rewritten_or_changed, known) = <(OnceCell<_>, OnceCell<_>)>::default();
+        let (rewritten_or_changed, known) = <(OnceLock<_>, OnceLock<_>)>::default();
         Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known })
     }
 
@@ -269,7 +269,7 @@ impl Expected {
     }
 
     /// What is found of the program that wrote a picture, of which this was found; programs are compiled and run for it,
-    /// and `waits` is called before they take many samples.
+    /// and `waits` is called where that takes long.
     ///
     /// Errors: a chapter whose steps do not fit.
     pub fn look_into(
@@ -301,7 +301,11 @@ impl Expected {
             return Ok(Program::Another("writes another picture than this one now".into()));
         }
         if !matches!(found, Comparison::Same { .. }) {
-            let places = beside.wrong(&|program| picture_of_program(program).is_ok_and(|picture| is_same(&picture)));
+            if !beside.is_one_place() {
+                waits();
+            }
+            let places =
+                beside.wrong(&|program: &str| picture_of_program(program).is_ok_and(|picture| is_same(&picture)));
             let places = places.unwrap_or_default();
             if let Comparison::Differs { looks_like, .. } = found
                 && let Some(known) = known_of(self.chapter)

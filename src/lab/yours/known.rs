@@ -78,7 +78,7 @@ pub fn few(([width, height], pixels): &Picture, every: usize) -> Picture {
 }
 
 /// What work makes of each, in their order.
-fn in_parallel<T, U: Send>(all: impl Iterator<Item = T> + Send, work: impl Fn(T) -> Option<U> + Sync) -> Vec<U> {
+pub fn in_parallel<T, U: Send>(all: impl Iterator<Item = T> + Send, work: impl Fn(T) -> Option<U> + Sync) -> Vec<U> {
     let (all, found) = (Mutex::new(all.enumerate()), Mutex::new(Vec::new()));
     let next = || all.lock().ok()?.next();
     let share = || {

@@ -4,14 +4,18 @@
 //! book's are undone but those that, put back, make the picture wrong again; what does not matter, as another formula of
 //! the same, falls out by itself, however much of it there is.
 
+use super::known::in_parallel;
 use super::program::{program_of, steps};
 use similar::{Algorithm, DiffTag, capture_diff_slices};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// How long programs are tried.
 const LONG: Duration = Duration::from_secs(90);
+/// Of how many differences each is tried by itself.
+const FEW: usize = 16;
 /// How often names are made as in the book; one may bring others to light.
 const ROUNDS: usize = 4;
 
@@ -42,11 +46,23 @@ struct Difference {
     told: Place,
 }
 
-/// A statement, a head or an arm: its words, and its bytes.
+/// A statement, a head or an arm: its words, each with its first byte, the function in which it is, and in how many
+/// brackets it begins.
 struct Part<'t> {
     words: Vec<&'t str>,
-    at: Range<usize>,
+    starts: Vec<usize>,
     within: Option<&'t str>,
+    depth: usize,
+}
+
+impl Part<'_> {
+    fn start(&self) -> usize {
+        self.starts[0]
+    }
+
+    fn end(&self) -> usize {
+        self.starts[self.starts.len() - 1] + self.words[self.words.len() - 1].len()
+    }
 }
 
 impl Beside {
@@ -69,7 +85,7 @@ impl Beside {
     }
 
     fn of(readers: &str, books: String) -> Self {
-        let mut readers = readers.to_owned();
+        let (original, mut readers) = (readers, readers.to_owned());
         for _ in 0..ROUNDS {
             let names = renamed(&parts(&readers), &parts(&books));
             if names.is_empty() {
@@ -77,7 +93,7 @@ impl Beside {
             }
             readers = with_names(&readers, &names);
         }
-        let differences = differences(&readers, &books);
+        let differences = differences([&readers, &books], original);
         Self { readers, books, differences }
     }
 
@@ -86,9 +102,21 @@ impl Beside {
         self.differences.is_empty()
     }
 
+    /// Whether there is one difference, which then needs no search.
+    pub fn is_one_place(&self) -> bool {
+        self.differences.len() == 1
+    }
+
     /// All differences.
     pub fn places(&self) -> Vec<Place> {
-        self.differences.iter().map(|difference| difference.told.clone()).collect()
+        self.told(0..self.differences.len())
+    }
+
+    /// Some differences in words; two of one line are one.
+    fn told(&self, which: impl IntoIterator<Item = usize>) -> Vec<Place> {
+        let mut all: Vec<Place> = which.into_iter().map(|at| self.differences[at].told.clone()).collect();
+        all.dedup();
+        all
     }
 
     /// The book's program.
@@ -108,11 +136,23 @@ impl Beside {
 
     /// The fewest places found without which the picture is right, as `is_right` says of a program; none
     /// where it is not right with all of them as in the book.
-    pub fn wrong(&self, is_right: &dyn Fn(&str) -> bool) -> Option<Vec<Place>> {
+    pub fn wrong(&self, is_right: &(dyn Fn(&str) -> bool + Sync)) -> Option<Vec<Place>> {
         let began = Instant::now();
         let mut undone: Vec<usize> = (0..self.differences.len()).collect();
         if undone.len() > 1 && !is_right(&self.with(&undone)) {
             return None;
+        }
+        // One by itself, where there are few.
+        if (2..=FEW).contains(&undone.len()) {
+            let is_found = AtomicBool::new(false);
+            let alone = in_parallel(undone.iter().copied(), |one| {
+                let makes_right = !is_found.load(Ordering::Relaxed) && is_right(&self.with(&[one]));
+                is_found.fetch_or(makes_right, Ordering::Relaxed);
+                makes_right.then_some(one)
+            });
+            if let Some(one) = alone.first() {
+                return Some(self.told([*one]));
+            }
         }
         // Halves, then quarters, then each.
         let mut size = undone.len().div_ceil(2);
@@ -129,7 +169,7 @@ impl Beside {
             }
             size = if size == 1 { 0 } else { size.div_ceil(2) };
         }
-        Some(undone.into_iter().map(|at| self.differences[at].told.clone()).collect())
+        Some(self.told(undone))
     }
 
     /// The reader's program with these differences made as in the book.
@@ -150,43 +190,103 @@ impl Beside {
     }
 }
 
-/// The differences between two programs, in the order of the first.
-fn differences(readers: &str, books: &str) -> Vec<Difference> {
+/// The differences between two programs, in the order of the first, which is quoted as it was with its own names.
+fn differences([readers, books]: [&str; 2], original: &str) -> Vec<Difference> {
     let (own, book) = (parts(readers), parts(books));
-    let words_of = |parts: &[Part<'_>]| parts.iter().map(|part| part.words.join(" ")).collect::<Vec<_>>();
-    let (own_words, book_words) = (words_of(&own), words_of(&book));
-    let text_of = |parts: &[Part<'_>], text: &str| match parts {
-        [first, .., last] => text[first.at.start..last.at.end].to_owned(),
-        [one] => text[one.at.clone()].to_owned(),
-        [] => String::new(),
-    };
     let mut found = Vec::new();
-    let mut push = |old: Range<usize>, new: Range<usize>| {
-        let place = own.get(old.start).or(own.last());
-        let start = place.map_or(0, |part| if old.start < own.len() { part.at.start } else { part.at.end });
-        let at = start..if old.is_empty() { start } else { own[old.end - 1].at.end };
-        let [own_text, book_text] = [text_of(&own[old], readers), text_of(&book[new.clone()], books)];
-        let [shown, books_shown] = where_apart([&own_text, &book_text]);
-        let told = Place {
-            line: readers[..start + shown.start].matches('\n').count() + 1,
-            within: place.and_then(|part| part.within).map(String::from),
-            readers: one_line(&own_text[shown]),
-            books: one_line(&book_text[books_shown]),
+    for (own_item, book_item) in paired(&items(&own), &items(&book), [own.len(), book.len()]) {
+        let words_of = |parts: &[Part<'_>]| parts.iter().map(|part| part.words.join(" ")).collect::<Vec<_>>();
+        let words = [words_of(&own[own_item.clone()]), words_of(&book[book_item.clone()])];
+        let mut push = |old: Range<usize>, new: Range<usize>| {
+            let old = own_item.start + old.start..own_item.start + old.end;
+            let new = book_item.start + new.start..book_item.start + new.end;
+            let start = own.get(old.start).map_or(readers.len(), Part::start);
+            let at = start..if old.is_empty() { start } else { own[old.end - 1].end() };
+            let text = if new.is_empty() { "" } else { &books[book[new.start].start()..book[new.end - 1].end()] };
+            let [lines, books_lines] = lines_apart([&own[old.clone()], &book[new]], [readers, books]);
+            let first = readers[..start].matches('\n').count();
+            let told = Place {
+                line: lines.as_ref().map_or(first, |lines| lines.start) + 1,
+                within: own.get(old.start).and_then(|part| part.within).map(String::from),
+                readers: lines.map_or(String::new(), |lines| quoted(original, lines)),
+                books: books_lines.map_or(String::new(), |lines| quoted(books, lines)),
+            };
+            found.push(Difference { at, books: text.to_owned(), told });
         };
-        found.push(Difference { at, books: text_of(&book[new], books), told });
-    };
-    for op in capture_diff_slices(Algorithm::Patience, &own_words, &book_words) {
-        let (tag, old, new) = op.as_tag_tuple();
-        match tag {
-            DiffTag::Equal => {}
-            // Line by line, where as many stand for as many.
-            DiffTag::Replace if old.len() == new.len() => {
-                old.zip(new).for_each(|(old, new)| push(old..old + 1, new..new + 1));
+        for op in capture_diff_slices(Algorithm::Patience, &words[0], &words[1]) {
+            let (tag, old, new) = op.as_tag_tuple();
+            match tag {
+                DiffTag::Equal => {}
+                // Line by line, where as many stand for as many.
+                DiffTag::Replace if old.len() == new.len() => {
+                    old.zip(new).for_each(|(old, new)| push(old..old + 1, new..new + 1));
+                }
+                _ => push(old, new),
             }
-            _ => push(old, new),
         }
     }
+    found.sort_by_key(|difference| difference.at.start);
     found
+}
+
+/// The functions, constants and types of a program: what each is called, and its parts.
+fn items<'t>(parts: &[Part<'t>]) -> Vec<Item<'t>> {
+    const KINDS: [&str; 8] = ["fn", "impl", "const", "static", "struct", "enum", "type", "use"];
+    let mut all: Vec<Item<'_>> = Vec::new();
+    for (at, part) in parts.iter().enumerate() {
+        match all.last_mut().filter(|_| part.depth > 0) {
+            Some((_, item)) => item.end = at + 1,
+            None => {
+                let kind = part.words.iter().position(|word| KINDS.contains(word)).unwrap_or(0);
+                let word = |at: usize| part.words.get(at).copied().unwrap_or_default();
+                // Of several `impl V` each is known by its first function.
+                let method = parts.get(at + 1).and_then(|next| next.words.get(1)).filter(|_| word(kind) == "impl");
+                let name = [word(kind), word(kind + 1), method.copied().unwrap_or_default()];
+                all.push((name, at..at + 1));
+            }
+        }
+    }
+    all
+}
+
+/// What an item is called, and its parts.
+type Item<'t> = ([&'t str; 3], Range<usize>);
+
+/// The items of two programs that are called the same, wherever they stand, and each that is called as no other, beside
+/// nothing.
+fn paired(own: &[Item<'_>], book: &[Item<'_>], ends: [usize; 2]) -> Vec<(Range<usize>, Range<usize>)> {
+    let mut left: Vec<&Item<'_>> = book.iter().collect();
+    let mut all = Vec::new();
+    for (name, item) in own {
+        let other = left.iter().position(|(other, _)| other == name).map(|at| left.remove(at).1.clone());
+        all.push((item.clone(), other.unwrap_or(ends[1]..ends[1])));
+    }
+    all.extend(left.into_iter().map(|(_, item)| (ends[0]..ends[0], item.clone())));
+    all
+}
+
+/// The lines of two texts, from 0, from the first word that is not the same in these parts to the last; none of no parts.
+fn lines_apart(parts: [&[Part<'_>]; 2], texts: [&str; 2]) -> [Option<Range<usize>>; 2] {
+    let all = parts.map(|parts| {
+        let words = parts.iter().flat_map(|part| part.words.iter().copied().zip(part.starts.iter().copied()));
+        words.collect::<Vec<(&str, usize)>>()
+    });
+    let of = |which: usize| all[which].iter().map(|(word, _)| *word);
+    let before = of(0).zip(of(1)).take_while(|(one, other)| one == other).count();
+    let behind = of(0).rev().zip(of(1).rev()).take_while(|(one, other)| one == other).count();
+    [0, 1].map(|which| {
+        let words = &all[which];
+        let last = words.len().checked_sub(1)?;
+        let first = before.min(last);
+        let line = |at: usize| texts[which][..words[at].1].matches('\n').count();
+        Some(line(first)..line(last.saturating_sub(behind).max(first)) + 1)
+    })
+}
+
+/// Lines of a text in one, without comments.
+fn quoted(text: &str, lines: Range<usize>) -> String {
+    let lines: Vec<&str> = text.lines().skip(lines.start).take(lines.len()).collect();
+    one_line(&lines.join("\n"))
 }
 
 /// Names of the reader's that stand where the book has others, and nowhere else: each with the book's.
@@ -275,6 +375,7 @@ fn parts(text: &str) -> Vec<Part<'_>> {
     let (mut begins, mut within) = (true, None);
     let mut previous = "";
     for (word, at) in words(text) {
+        within = within.filter(|_| !open.is_empty() || !begins);
         if previous == "fn" {
             within = Some(word);
         }
@@ -282,9 +383,10 @@ fn parts(text: &str) -> Vec<Part<'_>> {
         match (&mut all[..], begins || word == "}") {
             ([.., last], false) => {
                 last.words.push(word);
-                last.at.end = at + word.len();
+                last.starts.push(at);
+                last.within = within;
             }
-            _ => all.push(Part { words: vec![word], at: at..at + word.len(), within }),
+            _ => all.push(Part { words: vec![word], starts: vec![at], within, depth: open.len() }),
         }
         match word {
             "(" | "[" | "{" => open.push(word),
@@ -353,25 +455,6 @@ fn number_length(text: &str) -> usize {
     end
 }
 
-/// The lines of two texts from the first word that is not the same to the last.
-fn where_apart(texts: [&str; 2]) -> [Range<usize>; 2] {
-    let all = texts.map(|text| words(text).collect::<Vec<_>>());
-    let same = |pairs: &mut dyn Iterator<Item = (&str, &str)>| pairs.take_while(|(one, other)| one == other).count();
-    let of = |which: usize| all[which].iter().map(|(word, _)| *word);
-    let before = same(&mut of(0).zip(of(1)));
-    let behind = same(&mut of(0).rev().zip(of(1).rev()));
-    [0, 1].map(|which| {
-        let (text, words) = (texts[which], &all[which]);
-        let Some(last) = words.len().checked_sub(1) else { return 0..0 };
-        let (first, last) = (words[before.min(last)], words[last.saturating_sub(behind).max(before.min(last))]);
-        // From the word itself on its first line: indentation says nothing.
-        let from = text[..first.1].rfind('\n').map_or(0, |end| end + 1);
-        let from = from + text[from..].len() - text[from..].trim_start().len();
-        let end = last.1 + last.0.len();
-        from.min(first.1)..text[end..].find('\n').map_or(text.len(), |line| end + line)
-    })
-}
-
 /// A text on one line, without comments.
 fn one_line(text: &str) -> String {
     let (mut line, mut end) = (String::new(), 0);
@@ -396,7 +479,7 @@ mod tests {
         let own: Vec<&str> = words(text).map(|(word, _)| word).collect();
         let book = "let a = 1e-9 + b . 0 ; match c { V ( x , \"} //\" ) = > 2.0_f64 , _ = > 0 }";
         assert_eq!(own.join(" "), book);
-        let own: Vec<String> = parts(text).iter().map(|part| one_line(&text[part.at.clone()])).collect();
+        let own: Vec<String> = parts(text).iter().map(|part| one_line(&text[part.start()..part.end()])).collect();
         assert_eq!(own, ["let a = 1e-9 + b.0;", "match c {", "V(x, \"} //\") => 2.0_f64,", "_ => 0", "}"]);
     }
 
@@ -409,6 +492,11 @@ mod tests {
             let beside = Beside::new(&other, step.number).expect("applies");
             let told: Vec<&Place> = beside.differences.iter().map(|difference| &difference.told).collect();
             assert!(beside.is_the_books(), "{}: {told:?}", step.chapter);
+            // Nor is the order of functions.
+            let mut items: Vec<&str> = book.split("\n\n").collect();
+            items.reverse();
+            let beside = Beside::new(&items.join("\n\n"), step.number).expect("applies");
+            assert!(beside.is_the_books(), "{}: {:?}", step.chapter, beside.places());
             // Names of the library are none of the reader's.
             for (right, wrong) in [(".max(0.0)", ".min(0.0)"), ("PI", "TAU"), (".sqrt()", ".cbrt()")] {
                 let beside = Beside::new(&book.replace(right, wrong), step.number).expect("applies");
