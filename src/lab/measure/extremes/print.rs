@@ -111,7 +111,7 @@ impl fmt::Display for Outcome {
         // A long name takes room from the next number but one: a line of a page of the book has no more.
         let beyond = name.chars().count().saturating_sub(NAME);
         let room = 21_usize.saturating_sub(beyond);
-        write!(f, "  {name:<NAME$}{wrong:>7} {worst:>room$}  {result:<8} {asked:>9}")
+        write!(f, "  {name:<NAME$}{wrong:>6}  {worst:>room$}  {result:<8} {asked:>9}")
     }
 }
 
