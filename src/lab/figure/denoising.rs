@@ -14,7 +14,7 @@ const MAX: u32 = 4;
 /// Samples a pixel, how many renders of them, each of another seed, and the colours of their curves.
 const SAMPLES: [(u32, u32, &str); 4] = [(1, 8, "#d9822b"), (4, 6, "#4a90c9"), (16, 3, "#4f9d5d"), (64, 2, "#8a6bb1")];
 /// Renders whose mean is the reference, and the samples of each.
-const BATCHES: u32 = 6;
+const BATCHES: u32 = 4;
 const BATCH: u32 = 12;
 /// Where the axes are: left, top, right, bottom.
 const FRAME: [f64; 4] = [72.0, 40.0, 500.0, 350.0];

@@ -15,7 +15,7 @@ use std::path::Path;
 
 const SIZE: [u32; 2] = [276, 184];
 /// The size of a picture in which the wheel alone is seen.
-const SQUARE: [u32; 2] = [200, 200];
+const SQUARE: [u32; 2] = [180, 180];
 /// The frames in a unit of time.
 const RATE: f64 = 24.0;
 /// Where the camera stands that looks at the wheel alone.
