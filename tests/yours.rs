@@ -144,6 +144,27 @@ fn a_step_that_grows_is_right_in_every_size() {
     assert!(differ(&[], BOUND) > 0.2, "the bound of a hit that is exact before it is rounded");
 }
 
+/// What was written by another program than the one beside it is not explained by that one.
+#[test]
+fn a_picture_of_another_program_is_told() {
+    let (expected, book) = (Expected::after(5).expect("renders"), program_after(5).expect("applies"));
+    let dark = book.replace("INTENSITY * cosine", "0.5 * INTENSITY * cosine");
+    let blue = book.replace("byte(r), byte(g), byte(b)", "byte(b), byte(g), byte(r)");
+    let picture = picture_of_program(&dark).expect("a picture");
+    for (program, told) in [
+        (&book, "run it again"),
+        (&blue, "another picture than this one"),
+        (&"fn main() {".to_owned(), "cannot be compiled"),
+    ] {
+        let mut found = expected.compare(&picture).expect("of its size");
+        let into = expected.look_into(program, &picture, &mut found, &mut || ()).expect("applies");
+        assert!(matches!(&into, Program::Another(why) if why.contains(told)), "{told}: {into:?}");
+    }
+    let mut found = expected.compare(&picture).expect("of its size");
+    let earlier = expected.look_into(&program_after(1).expect("applies"), &picture, &mut found, &mut || ());
+    assert_eq!(earlier.expect("applies"), Program::Earlier(1));
+}
+
 #[test]
 fn what_is_no_picture_of_the_program_is_refused_in_one_sentence() {
     let folder = tempfile::tempdir().expect("a temporary folder");

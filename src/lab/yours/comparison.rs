@@ -280,8 +280,10 @@ impl Expected {
         waits: &mut dyn FnMut(),
     ) -> Result<Program, Error> {
         let beside = Beside::new(program, self.chapter).map_err(Error::Usage)?;
+        let is_same_picture = matches!(found, Comparison::Same { .. });
         if beside.is_the_books() {
-            return Ok(Program::Books);
+            let another = "is the book's by now, and writes the right picture: run it again";
+            return Ok(if is_same_picture { Program::Books } else { Program::Another(another.into()) });
         }
         if let Some(earlier) = beside.earlier(self.chapter) {
             return Ok(Program::Earlier(earlier));
@@ -300,13 +302,17 @@ impl Expected {
         if own.len() != readers.len() || self.differing(&own, &readers) > 0 {
             return Ok(Program::Another("writes another picture than this one now".into()));
         }
-        if !matches!(found, Comparison::Same { .. }) {
+        if !is_same_picture {
             if !beside.is_one_place() {
                 waits();
             }
             let places =
                 beside.wrong(&|program: &str| picture_of_program(program).is_ok_and(|picture| is_same(&picture)));
-            let places = places.unwrap_or_default();
+            let Some(places) = places else {
+                return Ok(Program::Another(
+                    "is wrong even with all that differs from the book's as it is there".into(),
+                ));
+            };
             if let Comparison::Differs { looks_like, .. } = found
                 && let Some(known) = known_of(self.chapter)
                     .map_err(Error::Usage)?

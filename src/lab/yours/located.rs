@@ -34,6 +34,8 @@ pub struct Place {
 
 /// A reader's program beside the book's.
 pub struct Beside {
+    original: String,
+    /// With the book's names.
     readers: String,
     books: String,
     differences: Vec<Difference>,
@@ -85,7 +87,7 @@ impl Beside {
     }
 
     fn of(readers: &str, books: String) -> Self {
-        let (original, mut readers) = (readers, readers.to_owned());
+        let (original, mut readers) = (readers.to_owned(), readers.to_owned());
         for _ in 0..ROUNDS {
             let names = renamed(&parts(&readers), &parts(&books));
             if names.is_empty() {
@@ -93,8 +95,8 @@ impl Beside {
             }
             readers = with_names(&readers, &names);
         }
-        let differences = differences([&readers, &books], original);
-        Self { readers, books, differences }
+        let differences = differences([&readers, &books], &original);
+        Self { original, readers, books, differences }
     }
 
     /// Whether there is no difference but of spaces, comments and names.
@@ -127,10 +129,8 @@ impl Beside {
     /// The chapter whose program the reader's is, of those before this one.
     pub fn earlier(&self, chapter: u32) -> Option<u32> {
         let mut earlier = steps().into_iter().map(|step| step.number).filter(|&number| number < chapter);
-        let own: Vec<Vec<&str>> = parts(&self.readers).into_iter().map(|part| part.words).collect();
         earlier.find(|&number| {
-            program_of(|step| step <= number)
-                .is_ok_and(|program| parts(&program).into_iter().map(|part| part.words).eq(own.iter().cloned()))
+            program_of(|step| step <= number).is_ok_and(|books| Self::of(&self.original, books).is_the_books())
         })
     }
 
