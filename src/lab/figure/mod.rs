@@ -37,6 +37,7 @@ pub mod offset;
 pub mod orthographic;
 mod patch;
 mod pen;
+pub mod penumbra;
 mod picture;
 pub mod pinhole;
 mod pixel_ray;
