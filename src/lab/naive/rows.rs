@@ -138,10 +138,8 @@ pub fn in_columns(columns: &mut Columns) {
 /// All steps of sixteen rows, and then the next sixteen: what lies between the steps stays in registers.
 #[inline(always)]
 pub fn fused([u, v, x, y]: [&[f64]; 4], t: &mut [f64]) {
-    let mut blocks = t.chunks_mut(BLOCK);
-    for (((u, v), (x, y)), t) in
-        (u.chunks(BLOCK).zip(v.chunks(BLOCK))).zip(x.chunks(BLOCK).zip(y.chunks(BLOCK))).zip(&mut blocks)
-    {
+    let (numbers, places) = (u.chunks(BLOCK).zip(v.chunks(BLOCK)), x.chunks(BLOCK).zip(y.chunks(BLOCK)));
+    for (((u, v), (x, y)), t) in numbers.zip(places).zip(t.chunks_mut(BLOCK)) {
         let (mut lens, mut direction) = ([[0.0; BLOCK]; 2], [[0.0; BLOCK]; 3]);
         lens_points([u, v], lens.each_mut().map(|column| &mut column[..]));
         let lens = lens.each_ref().map(|column| &column[..]);
