@@ -15,7 +15,7 @@ use std::path::Path;
 /// What is read of a reader's picture.
 const PICTURE: FileKind = FileKind { name: "a picture", max: 16 << 20 };
 /// What is read of a reader's program.
-const PROGRAM: FileKind = FileKind { name: "a program", max: 1 << 20 };
+const PROGRAM: FileKind = FileKind { name: "a program", max: 1 << 17 };
 
 /// Lists the steps of the reader's program; prints it after one; draws pinhole's picture of its scene; or compares the
 /// picture that the reader's program wrote with that, and looks for a mistake in the program.
