@@ -144,6 +144,25 @@ fn a_step_that_grows_is_right_in_every_size() {
     assert!(differ(&[], BOUND) > 0.2, "the bound of a hit that is exact before it is rounded");
 }
 
+/// Of a picture alone, without the program, the known mistakes are said that make it.
+#[test]
+fn a_picture_alone_names_a_known_mistake() {
+    let expected = Expected::after(5).expect("renders");
+    let (mut tried, mut named) = (0, 0);
+    for edit in MISTAKES.iter().filter(|edit| edit.0 == 5) {
+        let program = edited(5, &[*edit]).expect("applies");
+        let picture = picture_of_program(&program).expect("a picture");
+        let mut found = expected.compare(&picture).expect("of its size");
+        expected.look_for_known(&picture, &mut found, &mut || ()).expect("renders");
+        assert!(!matches!(found, Comparison::Same { .. }), "{edit:?}");
+        let is_named = !matches!(found, Comparison::Differs { looks_like: None, .. });
+        (tried, named) = (tried + 1, named + usize::from(is_named));
+        eprintln!("{:<45} {found:?}", edit.1);
+    }
+    eprintln!("pictures of mistakes, without the program: {tried}, named {named}");
+    assert!(tried >= 10 && 10 * named >= 7 * tried);
+}
+
 /// What was written by another program than the one beside it is not explained by that one.
 #[test]
 fn a_picture_of_another_program_is_told() {
