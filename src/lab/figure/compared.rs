@@ -17,8 +17,8 @@ use pinhole::material::cosine_direction;
 use pinhole::models::TriangleMesh;
 use pinhole::plan::Stage;
 use pinhole::scene::{
-    Glass, Integrator, LightStrategy, LightTracing, MeshGeometry, MeshInstance, Metal, Mirror, NormalMap, Placement,
-    Principled, Rgb, RoughGlass, Sampler, Sampling,
+    Exposure, Glass, Integrator, LightStrategy, LightTracing, MeshGeometry, MeshInstance, Metal, Mirror, NormalMap,
+    Placement, Principled, Rgb, RoughGlass, Sampler, Sampling,
 };
 use pinhole::{Chapter, Result};
 
@@ -93,14 +93,14 @@ pub fn draw_segments(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 pub fn draw_strategies(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let of = |lights, lines| {
         let integrator = Integrator::Path { max_depth: 2, lights, roulette: 0 };
-        integrated(chapter, SMALL, 16, integrator, lines)
+        integrated(chapter, LARGE, 16, integrator, lines)
     };
     let exhibits = [
         of(LightStrategy::Bsdf, ["BSDF sampling", "as the metal sends light on"]),
         of(LightStrategy::Light, ["light sampling", "points on the lights"]),
         of(LightStrategy::Mis, ["MIS", "both, each where its pdf is high"]),
     ];
-    rows(chapter, figure, SMALL, exhibits)
+    rows(chapter, figure, LARGE, exhibits)
 }
 
 /// The camera's rays alone and with rays from the lights, at the same number of samples.
@@ -200,16 +200,17 @@ pub fn draw_relief(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 pub fn draw_jacobian(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     const SIZE: [u32; 2] = [276, 184];
     let change = Sampling { samples: 16, seed: 21, sampler: Sampler::Sobol, ..Sampling::default() };
-    let of = |forget: Option<Stage>, lines| {
+    let of = |forget: Option<Stage>, stops, lines| {
         let picture = Picture::beside(chapter, SIZE, forget, |camera| {
-            camera.insert(change);
+            camera.insert((change, Exposure { stops, automatic: false }));
         });
         exhibit(picture, lines)
     };
+    // Without the distance the floor is some thirty times too bright.
     let exhibits = [
-        of(None, ["*d*² / (*A* cos *θ*)", "as it should be"]),
-        of(Some(light_without_cosine()), ["*d*² / *A*", "without the cosine"]),
-        of(Some(light_without_jacobian()), ["1 / *A*", "without distance and cosine"]),
+        of(None, 0.0, ["*d*² / (*A* cos *θ*ₗ)", "as it should be"]),
+        of(Some(light_without_cosine()), 0.0, ["*d*² / *A*", "without the cosine"]),
+        of(Some(light_without_jacobian()), -5.0, ["1 / *A*, shown 32 times darker", "without distance and cosine"]),
     ];
     rows(chapter, figure, SIZE, exhibits)
 }

@@ -152,7 +152,7 @@ fn draw(chapter: &Chapter, figure: &Figure, axes: Axes, shown: &[Shown]) -> Resu
     let kept = Kept::of(&text, what).ok_or_else(missing)?;
     let points = || shown.iter().flat_map(|(column, ..)| kept.column(|name| name == *column));
     let xs = decades(points().map(|(count, _)| count));
-    let ys = decades(points().map(|(_, ns)| ns));
+    let (ys, levels) = levels(points().map(|(_, ns)| ns));
     let [left, top, right, bottom] = FRAME;
     let at = |(count, ns): (f64, f64)| {
         let part = |value: f64, [low, high]: [f64; 2]| (libm::log10(value) - low) / (high - low);
@@ -166,11 +166,11 @@ fn draw(chapter: &Chapter, figure: &Figure, axes: Axes, shown: &[Shown]) -> Resu
         svg.quiet_line(foot, head, grid);
         svg.label(Label::near(foot, &power(decade), DVec2::Y, 5.0).title(0.85));
     }
-    for decade in ys[0] as i32..=ys[1] as i32 {
-        let ns = libm::exp10(f64::from(decade));
+    for (step, decade) in levels {
+        let ns = f64::from(step) * libm::exp10(f64::from(decade));
         let [foot, end] = [xs[0], xs[1]].map(|end| at((libm::exp10(end), ns)));
         svg.quiet_line(foot, end, grid);
-        svg.label(Label::near(foot, &time(decade + axes.unit), DVec2::NEG_X, 6.0).title(0.85));
+        svg.label(Label::near(foot, &time(step, decade + axes.unit), DVec2::NEG_X, 6.0).title(0.85));
     }
     let caches = caches(&text);
     for (place, (name, kib)) in caches.iter().enumerate() {
@@ -214,6 +214,26 @@ fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
     if logs.is_empty() { [0.0, 1.0] } else { [low, f64::max(high, low + 1.0)] }
 }
 
+/// The same where whole decades leave room for what lies between: the logarithms of the ends, and the lines, each a
+/// number times a power of ten.
+///
+/// Of values within a decade and a half, the axis begins and ends at 1, 2 or 5 of a decade.
+fn levels(values: impl Iterator<Item = f64> + Clone) -> ([f64; 2], Vec<(i32, i32)>) {
+    let ends = decades(values.clone());
+    let whole = (ends[0] as i32..=ends[1] as i32).map(|decade| (1, decade));
+    let [low, high] = values
+        .filter(|value| *value > 0.0)
+        .fold([f64::INFINITY, 0.0], |[low, high], value| [low.min(value), high.max(value)]);
+    if !(high / low < 30.0) {
+        return (ends, whole.collect());
+    }
+    let steps: Vec<(i32, i32)> = whole.flat_map(|(_, decade)| [1, 2, 5].map(|step| (step, decade))).collect();
+    let value = |&(step, decade): &(i32, i32)| f64::from(step) * libm::exp10(f64::from(decade));
+    let first = steps.iter().rposition(|step| value(step) <= low).unwrap_or(0);
+    let last = steps.iter().position(|step| value(step) >= high).unwrap_or(steps.len() - 1);
+    ([first, last].map(|end| libm::log10(value(&steps[end]))), steps[first..=last].to_vec())
+}
+
 /// 10, 100, 1000, 10⁴ …
 fn power(decade: i32) -> String {
     const RAISED: [&str; 10] = ["⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"];
@@ -224,8 +244,8 @@ fn power(decade: i32) -> String {
     }
 }
 
-/// A power of ten nanoseconds.
-fn time(decade: i32) -> String {
+/// So many times a power of ten nanoseconds.
+fn time(step: i32, decade: i32) -> String {
     let (unit, ns) = if decade < 3 {
         ("ns", decade)
     } else if decade < 6 {
@@ -235,7 +255,7 @@ fn time(decade: i32) -> String {
     } else {
         ("s", decade - 9)
     };
-    format!("{} {unit}", libm::exp10(f64::from(ns)))
+    format!("{} {unit}", f64::from(step) * libm::exp10(f64::from(ns)))
 }
 
 /// The caches that the file names, in KiB.
@@ -282,8 +302,12 @@ mod tests {
         let count = crossing(&kept.sizes(), 80.0).expect("it comes to that");
         assert!((count - 1000.0).abs() < 1e-9 && crossing(&kept.sizes(), 90.0).is_none());
         assert_eq!(
-            [time(0), time(2), time(3), time(7), time(10), power(3), power(7)],
-            ["1 ns", "100 ns", "1 µs", "10 ms", "10 s", "1000", "10⁷"]
+            [time(1, 0), time(1, 2), time(5, 3), time(1, 7), time(1, 10), power(3), power(7)],
+            ["1 ns", "100 ns", "5 µs", "10 ms", "10 s", "1000", "10⁷"]
         );
+        let ([low, high], lines) = levels([1.5, 16.7].into_iter());
+        assert_eq!((low, lines), (0.0, vec![(1, 0), (2, 0), (5, 0), (1, 1), (2, 1)]));
+        assert!((high - libm::log10(20.0)).abs() < 1e-12);
+        assert_eq!(levels([1.5, 167.0].into_iter()), ([0.0, 3.0], vec![(1, 0), (1, 1), (1, 2), (1, 3)]));
     }
 }

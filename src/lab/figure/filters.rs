@@ -45,6 +45,6 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         let radius = format!("to {} pixels", radius_of(filter));
         svg.label(Label::near(at(0.0, -0.36), &radius, DVec2::Y, 8.0).title(0.85));
     }
-    let note = format!("{} is not needed · dashed: the pixel's own square", chapter.name);
-    Ok(svg.finish(figure.about, &format!("scene {note} · cargo run --release -- figure {}", figure.name)))
+    let note = format!("for chapter {} · dashed: the pixel's own square", chapter.name);
+    Ok(svg.finish(figure.about, &format!("{note} · cargo run --release -- figure {}", figure.name)))
 }

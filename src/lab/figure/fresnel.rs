@@ -55,6 +55,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
             svg.label(Label::near(across, "*s*-polarised", DVec2::new(-1.0, -1.0), 8.0));
             let within = named(74.0, |cosine, eta| fresnel_parts(cosine, eta)[1]);
             svg.label(Label::near(within, "*p*-polarised", DVec2::new(1.0, 0.6), 8.0));
+            svg.label(Label::near(named(52.0, schlick), "Schlick", DVec2::new(-0.4, -1.0), 8.0).coloured(IMAGE));
         } else {
             svg.label(Label::near(at(62.0, 0.12), "Schlick", DVec2::new(0.4, 1.0), 6.0).coloured(IMAGE));
             svg.label(Label::near(at(66.0, 1.0), "total reflection", DVec2::Y, 8.0).coloured(RAY));

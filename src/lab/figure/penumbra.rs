@@ -51,6 +51,6 @@ pub fn draw(_: &Chapter, figure: &Figure) -> Result<Drawing> {
     svg.label(Label::near(0.5 * (LIGHT[0] + LIGHT[1]), "light, w wide", DVec2::NEG_Y, 8.0));
     svg.label(Label::near(DVec2::new(0.5 * (left + EDGE.x), EDGE.y), "what hides it", DVec2::NEG_Y, 7.0));
     svg.label(Label::near(0.5 * (first + last), "w b / a", DVec2::NEG_Y, 8.0));
-    let foot = format!("scene {} is not needed · cargo run --release -- figure {}", figure.chapter, figure.name);
+    let foot = format!("for chapter {} · cargo run --release -- figure {}", figure.chapter, figure.name);
     Ok(svg.finish(figure.about, &foot))
 }

@@ -96,7 +96,7 @@ pub fn draw_variance(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         svg.label(Label::near(below, integrand.name, DVec2::Y, 6.0));
     }
     let foot = format!(
-        "scene {} is not needed · {TRIALS} means a dot, slopes with 95 % intervals · cargo run --release -- figure {}",
+        "for chapter {} · {TRIALS} means a dot, slopes with 95 % intervals · cargo run --release -- figure {}",
         chapter.name, figure.name
     );
     Ok(svg.finish(figure.about, &foot))

@@ -93,7 +93,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let place = at(on_disk[2 * SIDE_PARTS as usize]);
     svg.label(Label::near(place, "cos *θ dω*", DVec2::new(1.0, 0.6), 76.0).large().coloured(IMAGE));
     let foot = format!(
-        "scene {} is not needed · dA cos θₗ/d² = {small:.4}, Ω = {subtended:.4} sr · \
+        "for chapter {} · dA cos θₗ/d² = {small:.4}, Ω = {subtended:.4} sr · \
          cargo run --release -- figure {}",
         chapter.name, figure.name
     );

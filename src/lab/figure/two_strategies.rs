@@ -18,8 +18,8 @@ use std::f64::consts::TAU;
 
 /// Samples of each strategy; and of those that the integral is estimated by.
 const SAMPLES: u32 = 32;
-const MANY: u32 = 4096;
-const HEIGHT: f64 = 706.0;
+const MANY: u32 = 1 << 16;
+const HEIGHT: f64 = 760.0;
 /// The angle of the eye to the normal, in degrees, and the distance of the lights, whose middle is in the direction of
 /// specular reflection.
 const EYE: f64 = 35.0;
@@ -29,7 +29,7 @@ const MAP: f64 = 80.0;
 const MAP_TANGENT: f64 = 0.4;
 /// From the top: the points, and the middles of the maps.
 const POINTS: f64 = 186.0;
-const MAPS: [f64; 2] = [320.0, 560.0];
+const MAPS: [f64; 2] = [320.0, 588.0];
 /// A sample that brings less than this fraction of the integral counts as none.
 const MIN: f64 = 0.1;
 
@@ -42,7 +42,7 @@ struct Case {
     radius: f64,
 }
 
-/// A chapter's roughest and its third roughest metal, with its second smallest and its largest spherical light.
+/// A chapter's roughest and its smoothest metal, with its second smallest and its largest spherical light.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let scene = chapter.world(&Overrides::default());
     camera_entity(&scene)?;
@@ -53,8 +53,8 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     rows.sort_by(|&a, &b| metals.alpha[b].total_cmp(&metals.alpha[a]));
     let mut radii: Vec<f64> = SphereTable::extract(census)?.row.iter().map(|sphere| sphere.radius).collect();
     radii.sort_by(f64::total_cmp);
-    let (&[wide, _, narrow, ..], &[_, small, .., large]) = (&rows[..], &radii[..]) else {
-        return Err(figure.unsuited("three rough metals and three spherical lights"));
+    let (&[wide, .., narrow], &[_, small, .., large]) = (&rows[..], &radii[..]) else {
+        return Err(figure.unsuited("two metals and three spherical lights"));
     };
     let angle = EYE.to_radians();
     let to_eye = DVec3::new(-libm::sin(angle), 0.0, libm::cos(angle));
@@ -84,6 +84,13 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
             let told = format!("{count} of {SAMPLES}");
             let below = Label::near(DVec2::new(middle, y + MAP), &told, DVec2::Y, 7.0);
             svg.label(below.large().coloured(colour).title(1.0));
+            let deviation = case.deviation(by_light, integral, pixel);
+            let told = match deviation {
+                ..0.01 => "*σ* < 0.01 *I*".to_owned(),
+                ..1.0 => format!("*σ* = {deviation:.2} *I*"),
+                _ => format!("*σ* = {deviation:.1} *I*"),
+            };
+            svg.label(Label::near(DVec2::new(middle, y + MAP + 26.0), &told, DVec2::Y, 7.0).large());
         }
     }
     let alphas = format!("α = {} and {}", metals.alpha[narrow], metals.alpha[wide]);
@@ -138,6 +145,15 @@ impl Case {
             if brought > 0.0 { brought * if by_light { p } else { q } / (p + q) } else { 0.0 }
         };
         (0..MANY).map(|number| weighted(false, number) + weighted(true, number)).sum::<f64>() / f64::from(MANY)
+    }
+
+    /// The standard deviation of one sample of a strategy over the integral.
+    fn deviation(&self, by_light: bool, integral: f64, pixel: PixelKey) -> f64 {
+        let square = |number: u32| {
+            let apart = self.sample(by_light, number, MANY, pixel).1 / integral - 1.0;
+            apart * apart
+        };
+        ((0..MANY).map(square).sum::<f64>() / f64::from(MANY)).sqrt()
     }
 
     /// The point from the side: the ray to the eye, the lobe in the plane of both, and the light.

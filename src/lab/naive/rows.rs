@@ -157,7 +157,7 @@ pub fn as_they_come(samples: &[Sample], kinds: &[u32], t: &mut [f64]) {
     }
 }
 
-// ANCHOR: listed
+// ANCHOR: list_rows
 /// The rows of a kind, listed without a branch; says how many there are.
 #[inline(always)]
 pub fn list_rows(kinds: &[u32], kind: u32, list: &mut [u32]) -> usize {
@@ -168,7 +168,9 @@ pub fn list_rows(kinds: &[u32], kind: u32, list: &mut [u32]) -> usize {
     }
     count
 }
+// ANCHOR_END: list_rows
 
+// ANCHOR: listed
 /// Rows of two kinds, first those of the one, sixteen at a time, and then those of the other.
 #[inline(always)]
 pub fn listed(given: [&[f64]; 4], kinds: &[u32], list: &mut [u32], t: &mut [f64]) {
