@@ -1,3 +1,11 @@
+// The list of a page's headings leaves out those that are folded away.
+addEventListener("DOMContentLoaded", () => {
+  for (const link of document.querySelectorAll(".header-in-summary")) {
+    const heading = document.getElementById(decodeURIComponent(link.hash.slice(1)));
+    if (heading?.closest("details")) { link.closest("li").remove(); }
+  }
+});
+
 // A picture that is clicked, or chosen with Enter, is shown as large as the window; Escape or a click ends it.
 (() => {
   const dialog = document.createElement("dialog");

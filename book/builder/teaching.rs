@@ -72,11 +72,15 @@ fn paths(syllabi: &[Syllabus], course: &Course) -> Result<String, String> {
         let name = format!("{} ({:.0} hours)", syllabus.name, whole as f64 / 60.0);
         for (at, stretch) in syllabus.stretches.iter().enumerate() {
             let time = match stretch.weeks {
-                Some((first, last)) if at == 0 => format!("{name}, weeks {first} to {last}"),
-                Some((first, last)) => format!("weeks {first} to {last}"),
+                Some((first, last)) if at == 0 => format!("{name}: weeks {first} to {last}"),
+                Some((first, last)) => format!("… weeks {first} to {last}"),
                 None => name.clone(),
             };
-            let sessions: Vec<String> = stretch.sessions.iter().map(|session| course.listed(session)).collect();
+            let mut sessions: Vec<String> = stretch.sessions.iter().map(|session| course.listed(session)).collect();
+            let steps = course.steps_elsewhere(&syllabus.chapters());
+            if at == 0 && !steps.is_empty() {
+                sessions.push(format!("of {} only the step", course.listed(&steps)));
+            }
             let _ = writeln!(table, "| {time} | {} | {} |", sessions.join("; "), cell(&stretch.result)?);
         }
     }

@@ -68,11 +68,16 @@ impl Course {
     /// Minutes to read some chapters and to write what they ask for, with the steps of the reader's program that come
     /// before theirs in other chapters.
     pub fn minutes(&self, chapters: &[usize]) -> usize {
-        let has_step = |at: &usize| self.chapters[*at].work.step > 0;
-        let last = chapters.iter().copied().filter(has_step).max().unwrap_or(0);
-        let others: usize = (0..last).filter(|at| !chapters.contains(at)).map(|at| self.chapters[at].work.step).sum();
+        let others: usize = self.steps_elsewhere(chapters).iter().map(|&at| self.chapters[at].work.step).sum();
         let work = self.work(chapters);
         work.reading + work.writing() + others
+    }
+
+    /// The other chapters whose steps of the reader's program come before the last of theirs.
+    pub fn steps_elsewhere(&self, chapters: &[usize]) -> Vec<usize> {
+        let has_step = |at: &usize| self.chapters[*at].work.step > 0;
+        let last = chapters.iter().copied().filter(has_step).max().unwrap_or(0);
+        (0..last).filter(|at| has_step(at) && !chapters.contains(at)).collect()
     }
 
     /// Everything that a chapter builds on, directly or not.

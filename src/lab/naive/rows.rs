@@ -86,7 +86,7 @@ impl Columns {
     }
 }
 
-// ANCHOR: in_columns
+// ANCHOR: lens_points
 /// Points of the lens.
 #[inline(always)]
 pub fn lens_points([u, v]: [&[f64]; 2], [x, y]: [&mut [f64]; 2]) {
@@ -97,7 +97,9 @@ pub fn lens_points([u, v]: [&[f64]; 2], [x, y]: [&mut [f64]; 2]) {
         (x[row], y[row]) = (radius * cosine, radius * sine);
     }
 }
+// ANCHOR_END: lens_points
 
+// ANCHOR: in_columns
 /// Directions from there to the points in focus, and their lengths.
 #[inline(always)]
 pub fn directions([x0, y0]: [&[f64]; 2], [x, y]: [&[f64]; 2], [dx, dy, length]: [&mut [f64]; 3]) {
