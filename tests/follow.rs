@@ -42,6 +42,8 @@ mod non_opaque;
 mod normal_maps;
 #[path = "follow/numerics.rs"]
 mod numerics;
+#[path = "follow/photons.rs"]
+mod photons;
 #[path = "follow/preflight.rs"]
 mod preflight;
 #[path = "follow/sky.rs"]

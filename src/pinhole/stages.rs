@@ -57,6 +57,7 @@ enum Group {
     AmbientOcclusion,
     Mis,
     LightTracing,
+    PhotonMapping,
     Film,
 }
 use Group::*;
@@ -90,6 +91,7 @@ const LIST: &[Part] = &[Part(&[
     (Radiance, shade::start_stage),
     (DirectLight, shade::start_shadow_rays_stage),
     (Glass, follow::leave_glass_at_start_stage),
+    (PhotonMapping, follow::start_photon_paths_stage),
     (Bounces, follow::start_paths_stage),
     (Bounces, follow::start_scattered_stage),
     (AreaLights, follow::start_previous_surfaces_stage),
@@ -154,6 +156,7 @@ const LIST: &[Part] = &[Part(&[
     (AreaLights, shade::area_light_stage),
 ], || light_samples(false)), Part(&[
     (LightTracing, shade::camera_join_stage),
+    (PhotonMapping, follow::store_photons_stage),
     (AreaLights, shade::environment_light_stage),
     (AmbientOcclusion, follow::sky_rays_stage),
 
@@ -183,6 +186,7 @@ const LIST: &[Part] = &[Part(&[
     (Glass, follow::carry_media_stage),
     (Glass, follow::absorb_at_start_stage),
     (AreaLights, follow::keep_previous_surfaces_stage),
+    (PhotonMapping, follow::mark_photon_paths_stage),
     (Bounces, follow::next_bounce_stage),
     (Bounces, follow::footprints_stage),
     (Bounces, follow::times_stage),
@@ -348,6 +352,13 @@ pub fn mis() -> Vec<Stage> {
 /// Light tracing: paths from the lights to the camera.
 pub fn light_tracing() -> Vec<Stage> {
     of(LightTracing)
+}
+
+/// Photon mapping: paths from the lights that end where paths from the camera find them.
+///
+/// To be offered beside [`light_tracing`], whose paths they are.
+pub fn photon_mapping() -> Vec<Stage> {
+    of(PhotonMapping)
 }
 
 /// The film: sums of samples, and the layers of each pixel.

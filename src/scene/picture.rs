@@ -367,6 +367,30 @@ impl Default for LightTracing {
     }
 }
 
+/// On the camera, beside [`Integrator::Path`](super::Integrator::Path): caustics are found by photons (Jensen 1996), on
+/// whatever a path from the camera meets, and so through glass and in mirrors as well.
+///
+/// Photons start where the paths of [`LightTracing`] do, go through specular surfaces only, and stay where they meet the
+/// first other one.
+/// A path from the camera that comes there counts those within a radius, of which all but the light that they carry is
+/// guessed: the picture is blurred by as much.
+/// Each sample has photons of its own and a smaller radius, so that both the noise and the blur go to 0 (Hachisuka and
+/// Jensen 2009; Knaus and Zwicker 2011).
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PhotonMapping {
+    /// Light paths per camera path, from 1/1024 to 1024.
+    pub paths: f64,
+    /// The radius for the first sample, in scene units; 0 for one that holds about ten photons where photons are.
+    pub radius: f64,
+}
+
+impl Default for PhotonMapping {
+    fn default() -> Self {
+        Self { paths: 1.0, radius: 0.0 }
+    }
+}
+
 /// On the camera: paint this column instead of the picture.
 ///
 /// Stages that the column does not need are left out.

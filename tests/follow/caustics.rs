@@ -58,7 +58,7 @@ pub(super) fn camera(world: &mut World, eye: DVec3, target: DVec3, width: f64, p
 }
 
 /// The mean of a function of the distance from the middle over a square this wide.
-fn over_square(width: f64, function: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn over_square(width: f64, function: impl Fn(f64) -> f64) -> f64 {
     const STEPS: u32 = 120;
     let place = |step: u32| width * ((f64::from(step) + 0.5) / f64::from(STEPS) - 0.5);
     let places = (0..STEPS).flat_map(|y| (0..STEPS).map(move |x| (place(x), place(y))));
@@ -69,7 +69,7 @@ fn over_square(width: f64, function: impl Fn(f64) -> f64) -> f64 {
 /// height and index of refraction, and the transmittance of all faces between together.
 ///
 /// A ring of directions, sin θ dθ, falls on the ring x dx of the ground, where x is the sum of all h tan θᵢ.
-fn through_layers(x: f64, layers: &[(f64, f64)]) -> f64 {
+pub(super) fn through_layers(x: f64, layers: &[(f64, f64)]) -> f64 {
     let place = |sine: f64| -> f64 {
         let tangent = |(height, ior): &(f64, f64)| {
             let inside = sine / ior;
@@ -108,7 +108,7 @@ pub(super) fn white() -> Matte {
     Matte { colour: Rgb::grey(1.0) }
 }
 
-fn point(y: f64) -> (PointLight, Placement) {
+pub(super) fn point(y: f64) -> (PointLight, Placement) {
     (PointLight { intensity: Rgb::grey(PI), casts_shadows: true }, Placement::at(0.0, y, 0.0))
 }
 
@@ -165,7 +165,7 @@ fn into_water(name: &'static str, lamp: fn(&mut World)) -> Form {
     Form { name, truth, make: Box::new(make), samples: 120 }
 }
 
-fn forms() -> Vec<Form> {
+pub(super) fn forms() -> Vec<Form> {
     let mut forms = super::distant::forms();
     forms.extend([
         over_a_mirror(true),

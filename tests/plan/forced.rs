@@ -237,6 +237,24 @@ fn on_the_sea() -> World {
     world
 }
 
+/// Caustics that photons find, on every kind of material.
+fn by_photons() -> World {
+    let mut world = scenes::caustics::caustics(true);
+    for number in 0..4 {
+        let place = Placement::at(-1.0 + 0.45 * f64::from(number), 0.04, 0.4);
+        let mut tile = world.spawn((Cuboid { size: DVec3::new(0.4, 0.06, 0.8) }, place));
+        match number {
+            0 => tile.insert(Phong::default()),
+            1 => tile.insert(BlinnPhong::default()),
+            2 => tile.insert(Principled::default()),
+            _ => tile.insert(RoughGlass::default()),
+        };
+    }
+    let camera = named(&mut world, "camera");
+    world.entity_mut(camera).insert(PhotonMapping { radius: 0.1, ..PhotonMapping::default() });
+    world
+}
+
 /// A ball that is half there, over a floor and its shadow.
 fn half_there() -> World {
     let mut world = toggled(&[Toggle::Sphere, Toggle::Light, Toggle::Shadow, Toggle::Plane]);
@@ -312,6 +330,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("paths, BSDF sampling", followed(INTEGRATORS[4], Setup { size, ..Setup::default() })),
         ("Whitted's rays", followed(Integrator::WHITTED, Setup { size, ..Setup::default() })),
         ("light from lamps", scenes::caustics::traced(|| scenes::caustics::caustics(true))()),
+        ("photons", by_photons()),
         ("light from lamps through a lens", through_a_lens()),
         ("light from an environment", under_an_evening()),
         ("light from lamps on frosted glass", on_frosted_glass()),

@@ -273,6 +273,16 @@ pub struct PixelSteps {
     pub angle: Option<f64>,
 }
 
+/// How wide a pixel is: in scene units, and in scene units for each at which it is seen.
+pub fn pixel_width(scene: &Census<'_>) -> Result<[f64; 2], SceneError> {
+    let pixel = 2.0 / f64::from(scene.table::<ImageFrame>()?.height);
+    Ok(match camera_spread(scene)? {
+        RaySpread::Central(half_height) => [0.0, pixel * half_height],
+        RaySpread::Parallel(half_height) => [pixel * half_height, 0.0],
+        RaySpread::Angular(pixel) => [0.0, pixel],
+    })
+}
+
 impl Table for PixelSteps {
     const NAME: &'static str = "pixel steps";
 

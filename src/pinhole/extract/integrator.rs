@@ -12,7 +12,7 @@ use super::{
     material_evidence, motion_evidence, specular_evidence,
 };
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{Integrator, LightTracing, SceneError, called};
+use crate::scene::{Integrator, LightTracing, PhotonMapping, SceneError, called};
 use bevy_ecs::prelude::*;
 
 /// The integrator of a scene, and the reason for it.
@@ -182,50 +182,76 @@ fn eta_scale_in_glass(scene: &Census<'_>) -> Result<f64, SceneError> {
 /// The greatest number of light paths per camera path.
 const MAX_PATHS: f64 = 1024.0;
 
-/// The number of light paths.
+/// The radii that photons may be gathered within, in scene units.
+const RADII: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
+
+/// The number of light paths, and the radius of photons.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LightTracingTable {
     /// Light paths per sample of every pixel.
     pub paths: f64,
+    /// The radius of photons for the first sample, in scene units; 0 where it follows from them.
+    pub radius: f64,
 }
 
 impl Table for LightTracingTable {
     const NAME: &'static str = "light tracing";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let Some(entity) = at_most_one::<LightTracing>(scene, "light_tracing", "LightTracing")? else {
-            return Ok(Self::default());
+        let tracing = at_most_one::<LightTracing>(scene, "light_tracing", "LightTracing")?;
+        let mapping = at_most_one::<PhotonMapping>(scene, "photon_mapping", "PhotonMapping")?;
+        let (entity, [field, paths_field, kind]) = match (tracing, mapping) {
+            (None, None) => return Ok(Self::default()),
+            (Some(entity), None) => (entity, ["light_tracing", "light_tracing paths", "light tracing"]),
+            (None, Some(entity)) => (entity, ["photon_mapping", "photon_mapping paths", "photon mapping"]),
+            (Some(_), Some(entity)) => {
+                let who = kind_and_name(scene, "photon mapping", entity);
+                let accepted = "either finds the same light: keep one of the two";
+                return Err(SceneError::new(who, "photon_mapping", "beside light_tracing", accepted));
+            }
         };
         let camera = camera_of(scene)?;
         if camera != entity {
-            let who = kind_and_name(scene, "light tracing", entity);
-            return Err(SceneError::new(who, "light_tracing", "on no camera", "it must be on the camera"));
+            let who = kind_and_name(scene, kind, entity);
+            return Err(SceneError::new(who, field, "on no camera", "it must be on the camera"));
         }
-        let paths = scene.get::<LightTracing>(camera).map_or(0.0, |own| own.paths);
+        let photons = scene.get::<PhotonMapping>(camera).copied();
+        let paths = scene.get::<LightTracing>(camera).map(|own| own.paths).or(photons.map(|own| own.paths));
+        let paths = paths.unwrap_or_default();
         let who = kind_and_name(scene, "camera", camera);
         if !(1.0 / MAX_PATHS..=MAX_PATHS).contains(&paths) {
             let accepted = format!("it must be a number from 1/{MAX_PATHS} to {MAX_PATHS}");
-            return Err(SceneError::new(who, "light_tracing paths", number(paths), accepted));
+            return Err(SceneError::new(who, paths_field, number(paths), accepted));
         }
-        let refused = |value: &str, accepted: &str| Err(SceneError::new(who, "light_tracing", value, accepted));
+        let radius = photons.map_or(0.0, |own| own.radius);
+        if !(radius == 0.0 || RADII.contains(&radius)) {
+            let accepted = format!(
+                "it must be a number from {} to {}, or 0 for one that follows from the photons",
+                RADII.start(),
+                RADII.end()
+            );
+            return Err(SceneError::new(who, "photon_mapping radius", number(radius), accepted));
+        }
+        let refused = |value: &str, accepted: &str| Err(SceneError::new(who, field, value, accepted));
         if !integrator_of(scene).integrator.transport().samples_diffuse {
             return refused(
                 "without paths",
-                "light tracing complements the camera's paths: give it the integrator Path()",
+                "paths from the lights complement the camera's: give it the integrator Path()",
             );
         }
-        if !camera_kind(scene)?.has_image_plane {
+        if photons.is_none() && !camera_kind(scene)?.has_image_plane {
             return no_image_plane(scene);
         }
         if motion_evidence(scene).needed {
             return refused("while something moves", "light paths need a scene without motion: remove the Motion");
         }
         if adaptive_of(scene)?.is_some() {
-            let accepted = "a light path may contribute to any pixel, so none can request more: remove the Adaptive";
+            let accepted =
+                "a path from a light may contribute to any pixel, so none can request more: remove the Adaptive";
             return refused("with adaptive sampling", accepted);
         }
         scene.table::<ImageFrame>()?;
-        Ok(Self { paths })
+        Ok(Self { paths, radius })
     }
 
     fn bytes(&self) -> usize {
@@ -246,10 +272,24 @@ pub(super) fn no_image_plane<T>(scene: &Census<'_>) -> Result<T, SceneError> {
 /// mirrors or glass, and non-specular surfaces.
 pub fn traced_evidence(scene: &Census<'_>) -> Evidence {
     let requested = Evidence::of::<LightTracing>(scene, "light-tracing camera");
+    let photons = Evidence::of::<PhotonMapping>(scene, "photon-mapping camera");
+    let requested = if photons.needed { photons } else { requested };
     if !requested.needed {
         return requested;
     }
     requested.and(|| specular_evidence(scene)).and(|| material_evidence(scene)).and(|| started_on_evidence(scene))
+}
+
+/// Evidence that they are connected to the camera by straight lines.
+pub fn joined_evidence(scene: &Census<'_>) -> Evidence {
+    let requested = Evidence::of::<LightTracing>(scene, "light-tracing camera");
+    if requested.needed { traced_evidence(scene) } else { requested }
+}
+
+/// Evidence that they are found by photons.
+pub fn photon_evidence(scene: &Census<'_>) -> Evidence {
+    let requested = Evidence::of::<PhotonMapping>(scene, "photon-mapping camera");
+    if requested.needed { traced_evidence(scene) } else { requested }
 }
 
 /// Evidence of a light on which light paths can start.

@@ -58,7 +58,7 @@ pub use area_lights::{
 pub use camera_join::CameraJoinTable;
 pub use cameras::{
     CAMERA_KINDS, CameraAxes, CameraKind, LensTable, PixelSteps, RayOrigins, camera_entity, camera_kind, camera_spread,
-    eye, lens_evidence, ray_origins_evidence,
+    eye, lens_evidence, pixel_width, ray_origins_evidence,
 };
 pub use contact::{Contact, ContactTable, contact_evidence, glass_contact_evidence, unresolved};
 pub use exposure::exposure_of;
@@ -66,8 +66,9 @@ pub use glass::{GlassBody, GlassBodyTable, GlassTable, absorption_evidence, deep
 pub use image_files::{ImageHead, RemarkedTexels, image_head, image_remarks, one_line, read_exr};
 pub use integrator::{
     ChosenIntegrator, IntegratorTable, LightTracingTable, environment_traced_evidence, followed_evidence,
-    integrator_of, light_sampling_evidence, mis_evidence, needed_if, occlusion_evidence, shadowed_distant_evidence,
-    shadowed_point_evidence, started_on_evidence, traced_evidence, unless_occlusion,
+    integrator_of, joined_evidence, light_sampling_evidence, mis_evidence, needed_if, occlusion_evidence,
+    photon_evidence, shadowed_distant_evidence, shadowed_point_evidence, started_on_evidence, traced_evidence,
+    unless_occlusion,
 };
 pub use light_path::{LightPathTable, LightSource, distant_start_evidence};
 pub use lights_of::{

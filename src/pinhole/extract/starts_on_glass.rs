@@ -2,7 +2,7 @@
 
 use super::cameras::camera_entity;
 use super::lights_of::light_kinds;
-use super::{GlassBodyTable, eye, glass_evidence, traced_evidence};
+use super::{GlassBodyTable, eye, glass_evidence, joined_evidence};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{SceneError, called};
 use crate::shapes::Bounds;
@@ -127,7 +127,7 @@ pub fn start_on_glass_evidence(scene: &Census<'_>) -> Evidence {
 /// Evidence that a light, or the eye where light paths are connected to it, is close to the surface of glass.
 pub fn end_close_to_glass_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
-        let traced = traced_evidence(scene).needed;
+        let traced = joined_evidence(scene).needed;
         evidence(scene, |start| traced || start.position != DVec3::ZERO, "close to the surface")
     })
 }

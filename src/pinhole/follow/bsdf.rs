@@ -2,11 +2,12 @@
 
 use super::interface::{Interface, InterfaceView};
 use super::media::{deeper_media_evidence, media_evidence};
+use super::photons::gather_photons_stage;
 use super::specular::{specular_from_lights_stage, specular_stage, split_stage};
 use super::{DeeperMedia, Media, Scattered, ScatteredRay, power_heuristic};
 use crate::extract::{
     GlassTable, MaterialTable, NO_ROW, SamplingTable, ShapeTable, area_light_evidence, bsdf_evidence,
-    environment_light_evidence, glass_contact_evidence, mis_evidence, needed_if, traced_evidence,
+    environment_light_evidence, glass_contact_evidence, joined_evidence, mis_evidence, needed_if, traced_evidence,
 };
 use crate::intersect::{Contacts, Hits, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces, rows_of_kind};
 use crate::material::{
@@ -215,7 +216,7 @@ pub fn matte_direct_light_stage() -> Stage {
 /// The stage that evaluates a BSDF for connections to the camera.
 pub fn connections_stage<B: Bsdf>() -> Stage {
     let stage = Stage::new(B::NAMES.connections, TileSystems::Shade, add_direct_light::<B, true>);
-    at_interfaces::<B>(stage).on_light_paths().when(|scene| traced_evidence(scene).and(|| bsdf_evidence::<B>(scene)))
+    at_interfaces::<B>(stage).on_light_paths().when(|scene| joined_evidence(scene).and(|| bsdf_evidence::<B>(scene)))
 }
 
 /// Requests what is known of the media at surfaces that transmit light, and of nothing of the kind elsewhere.
@@ -287,6 +288,8 @@ pub enum BsdfRole {
     Evaluate,
     /// The same where light paths are connected to the camera.
     Connections,
+    /// Gathering photons.
+    Gather,
     /// Following all of its specular directions.
     Split,
     /// Sampling it for further rays.
@@ -327,6 +330,7 @@ pub fn stages_of<B: Bsdf>() -> Vec<BsdfStage> {
     stages.push(of(MisWeights, mis_stage::<B>));
     stages.push(of(Sample, sample_stage::<B>));
     stages.push(of(Evaluate, direct_light_stage::<B>));
+    stages.push(of(Gather, gather_photons_stage::<B>));
     if B::TRANSMITS {
         stages.push(of(Connections, connections_stage::<B>));
         stages.push(of(SampleFromLights, sample_from_lights_stage::<B>));

@@ -4,7 +4,7 @@ use super::Scattered;
 use super::specular::mirroring_normal;
 use crate::extract::{
     CameraJoinTable, LightPathTable, LightSource, MaterialTable, SamplingTable, environment_traced_evidence,
-    lens_evidence, normal_map_evidence, traced_evidence,
+    joined_evidence, lens_evidence, normal_map_evidence, traced_evidence,
 };
 use crate::intersect::{Hits, MaterialRows, NO_SHAPE, ShadingNormals, Surfaces, vertex_normal_evidence};
 use crate::lights::{LightStart, MAX_TARGETS_SOLID_ANGLE, StartDraws, direction_to_targets};
@@ -191,7 +191,7 @@ pub fn caustic_paths_stage() -> Stage {
         .on_camera_paths()
         .on_first_bounce()
         .kind(StageKind::Alternative)
-        .when(traced_evidence)
+        .when(joined_evidence)
 }
 
 /// The paths that hit nothing, and the radiance of the environment that they found.
@@ -308,7 +308,7 @@ pub fn splat_stage() -> Stage {
         .on_light_paths()
         .kind(StageKind::Alternative)
         .reads_where::<JoinPoints>(lens_evidence)
-        .when(traced_evidence)
+        .when(joined_evidence)
 }
 
 // ANCHOR: shading_adjoint

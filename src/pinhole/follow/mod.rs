@@ -24,6 +24,7 @@ mod light_paths;
 mod media;
 mod occlusion;
 mod paths;
+mod photons;
 mod previous_surfaces;
 mod specular;
 mod starts_on_glass;
@@ -58,6 +59,11 @@ pub use paths::{
     end_at_max_depth, footprints_stage, is_whole, max_depth_stage, next_bounce_stage, play_roulette,
     remaining_bounces_stage, roulette_stage, start_paths, start_paths_stage, start_scattered, start_scattered_stage,
     sum_bounces, sum_bounces_stage, survival_probability, times_stage, trace_bounces,
+};
+pub use photons::{
+    Photon, PhotonMap, Photons, first_radius, gather_photons, gather_photons_stage, mark_photon_paths,
+    mark_photon_paths_stage, photon_radius, start_photon_paths, start_photon_paths_stage, store_photons,
+    store_photons_stage,
 };
 pub use previous_surfaces::{
     PreviousSurfaces, keep_previous_surfaces, keep_previous_surfaces_stage, start_previous_surfaces,

@@ -2,9 +2,9 @@
 
 use super::media::{deeper_media_evidence, media_evidence};
 use super::previous_surfaces::previous_surface_evidence;
-use super::{DeeperMedia, Media, PreviousSurfaces};
+use super::{CausticPaths, DeeperMedia, Media, PreviousSurfaces};
 use crate::extract::{
-    IntegratorTable, SamplingTable, filtered_evidence, followed_evidence, motion_evidence, needed_if,
+    IntegratorTable, SamplingTable, filtered_evidence, followed_evidence, motion_evidence, needed_if, photon_evidence,
 };
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces};
 use crate::material::{Bsdf, BsdfSample};
@@ -267,6 +267,7 @@ pub fn remaining_bounces_stage() -> Stage {
         .reads_where::<Media>(media_evidence)
         .reads_where::<DeeperMedia>(deeper_media_evidence)
         .reads_where::<PreviousSurfaces>(previous_surface_evidence)
+        .reads_where::<CausticPaths>(photon_evidence)
         .reads_where::<RayTimes>(motion_evidence)
         .reads_where::<Footprints>(filtered_evidence)
         .reads::<PathLight>()

@@ -9,7 +9,7 @@ use crate::extract::{
     AreaLightTable, CameraAxes, EmissiveTable, ImageFrame, IntegratorTable, LightTracingTable, OrthographicWindow,
     PerspectiveProjection, SamplingTable, ShapeTable, area_light_evidence, camera_entity, contact_evidence,
     delta_light_shines, distant_start_evidence, emissive_evidence, environment_light_evidence, exposure_of,
-    followed_evidence, glossy_evidence, integrator_of, listed_kind, matte_evidence, point_evidence,
+    followed_evidence, glossy_evidence, integrator_of, joined_evidence, listed_kind, matte_evidence, point_evidence,
     shadowed_distant_evidence, shadowed_point_evidence, shape_name, sky_evidence, specular_evidence, starts_on_glass,
     traced_evidence, unresolved,
 };
@@ -336,8 +336,9 @@ pub fn missing_paths(scene: &Census<'_>, pilot: &Pilot) -> Vec<String> {
     let started = shadowed_point_evidence(scene);
     let started = if distant.needed && starts_outside { started.or(distant.clone()) } else { started };
     let (is_traced, seen) = (traced_evidence(scene).needed, format!("{} of {}", pilot.specular_first, pilot.rays));
+    let is_joined = joined_evidence(scene).needed;
     let through = "no line from a light path to the camera passes glass or a mirror";
-    let area = "a small sphere or disk that emits, in place of the light, is found by paths there, too";
+    let area = "PhotonMapping in its place finds it there, too";
     let mut warnings = Vec::new();
     if started.needed && !is_traced {
         let missing = format!(
@@ -359,7 +360,7 @@ pub fn missing_paths(scene: &Census<'_>, pilot: &Pilot) -> Vec<String> {
         };
         warnings.push(format!("{missing}; {advice}"));
     }
-    if started.needed && is_traced && pilot.specular_first as f64 >= MANY_SPECULAR * pilot.rays as f64 && pilot.rays > 0
+    if started.needed && is_joined && pilot.specular_first as f64 >= MANY_SPECULAR * pilot.rays as f64 && pilot.rays > 0
     {
         warnings.push(format!(
             "light that arrives through mirrors or glass ({}) from a light without an area ({}) is still missing on what \

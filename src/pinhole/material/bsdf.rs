@@ -126,6 +126,8 @@ pub struct StageNames {
     pub direct_light: &'static str,
     /// The same where light paths are connected to the camera.
     pub connections: &'static str,
+    /// Gathering photons.
+    pub photons: &'static str,
     /// Weighting light samples against sampling it.
     pub mis: &'static str,
     /// Listing the rows that hit it.

@@ -73,6 +73,7 @@ macro_rules! named_bsdf {
                 split: concat!("Split rays at ", $name),
                 direct_light: concat!("Evaluate direct light: ", $name),
                 connections: concat!("Evaluate connections to the camera: ", $name),
+                photons: concat!("Gather photons: ", $name),
                 mis: concat!("Compute MIS weights: ", $name),
                 classify: concat!("List rows: ", $name),
                 rows: concat!($name, " rows"),

@@ -292,7 +292,9 @@ fn collect(scene: &Census<'_>, decided: Vec<Decided<'_>>, view: Option<ColumnKin
     }
     let mut passes = vec![Pass { name: "camera", row: RowKind::Pixel, product: "film" }];
     if stages.iter().any(|stage: &Stage| !stage.runs_in(RowKind::Pixel)) {
-        passes.push(Pass { name: "light", row: RowKind::LightPath, product: "splats on the film" });
+        let are_photons = columns.iter().any(|column| column.name == "photons");
+        let product = if are_photons { "photons for each sample" } else { "splats on the film" };
+        passes.push(Pass { name: "light", row: RowKind::LightPath, product });
     }
     Plan {
         rows,

@@ -42,6 +42,12 @@ impl<T: Table> Shared<T> {
     }
 }
 
+impl<T: Table> From<Arc<T>> for Shared<T> {
+    fn from(table: Arc<T>) -> Self {
+        Self(table)
+    }
+}
+
 impl<T: Table> Deref for Shared<T> {
     type Target = T;
     fn deref(&self) -> &T {

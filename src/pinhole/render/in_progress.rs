@@ -1,22 +1,22 @@
 use super::clock::{Lap, StageClock, laps_of};
 use super::execution::{tile_side, workers};
-use super::light_pass::{LightPass, Means, batches};
+use super::light_pass::{LightPass, Means, PhotonPass, batches};
 use super::memory::check_film_fits;
 use super::moments::Moments;
 use super::render_world::{RenderWorld, prepare};
-use super::steps::{Run, WHOLE, runs, steps_of};
+use super::steps::{Run, WHOLE, runs, samples_after, steps_of};
 use super::{Execution, Rendered, Watch, Worlds};
 use crate::extract::{ImageFrame, LayerTable, SamplingTable, adaptive_of};
 use crate::film::{BLOCK, Curve, FileAttributes, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
-use crate::follow::{Splats, Stop};
-use crate::plan::{Census, ExtractedTable, Plan, Shared, Stage};
+use crate::follow::{PhotonMap, Splats, Stop};
+use crate::plan::{Census, ExtractedTable, Plan, Shared, Stage, Table};
 use crate::rays::{PixelSamples, Tile};
 use crate::scene::check_workers;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use rayon::ThreadPool;
 use std::any::TypeId;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A render that advances step by step; between two calls its film may be displayed, saved, or replaced.
@@ -40,7 +40,9 @@ pub struct RenderInProgress {
     /// One world per worker, or one for all tiles; each is made when and where it is first used.
     pub(super) worlds: Vec<Mutex<Option<RenderWorld>>>,
     /// The pass that traces paths from the lights, where the plan has one.
-    pub(super) light: Option<LightPass>,
+    pub(super) light: Option<LightPass<Splats>>,
+    /// The pass that traces the photons of each sample, where the plan has one.
+    pub(super) photons: Option<PhotonPass>,
     /// The moments of a scene that changes while the shutter is open.
     pub(super) moments: Option<Moments>,
     pub(super) time: Duration,
@@ -81,8 +83,10 @@ impl RenderInProgress {
         };
         let worlds = pool.as_ref().map_or(1, ThreadPool::current_num_threads);
         let light = LightPass::of(scene, &plan, worlds)?;
+        let photons = PhotonPass::of(scene, &plan, worlds)?;
         Ok(Self {
             light,
+            photons,
             moments: None,
             curve: Curve::of(scene, &plan)?,
             attributes: FileAttributes::of(scene)?,
@@ -105,7 +109,11 @@ impl RenderInProgress {
     /// Errors: an invalid scene, or a plan that cannot be made; the render then stays as it was.
     pub fn begin_frame(&mut self, scene: &Census<'_>, offer: &[Stage]) -> Result {
         let (plan, tables) = prepare(scene, offer)?;
-        if self.light.is_some() || plan.rows != self.plan.rows || plan.columns != self.plan.columns {
+        if self.light.is_some()
+            || self.photons.is_some()
+            || plan.rows != self.plan.rows
+            || plan.columns != self.plan.columns
+        {
             *self = Self::begin(scene, offer, &self.execution)?;
             return Ok(());
         }
@@ -169,6 +177,49 @@ impl RenderInProgress {
     /// The same with the scene whose tables the worlds have.
     pub(super) fn advance_scene(&mut self, to: u32, watch: &dyn Watch) -> Result {
         let started = Instant::now();
+        if self.photons.is_none() {
+            self.advance_tiles(to, watch);
+        } else {
+            // Each sample has photons of its own, so that all tiles take it before any takes the next.
+            while self.film.least_done() < to && !watch.stopped() {
+                let done = self.film.least_done();
+                let next = if done < WHOLE { to.min(WHOLE) } else { done + 1 };
+                if !self.trace_photons(samples_after(next).max(1) - 1, watch) {
+                    break;
+                }
+                self.advance_tiles(next, watch);
+            }
+        }
+        if let Some(light) = &self.light {
+            let samples = self.film.samples_between(0, to);
+            let pool = self.pool.as_ref();
+            let means = Means { plan: &self.plan, tables: &self.tables, pool };
+            light.advance(&mut self.film, samples, &means, watch);
+        }
+        self.time += started.elapsed();
+        if watch.stopped() { Err(Error::Interrupted) } else { Ok(()) }
+    }
+
+    /// Gives the worlds the photons of a sample; returns whether they were traced.
+    fn trace_photons(&mut self, sample: u32, watch: &dyn Watch) -> bool {
+        let Some(photons) = &self.photons else { return true };
+        let means = Means { plan: &self.plan, tables: &self.tables, pool: self.pool.as_ref() };
+        let Some(map) = photons.map(sample, &means, watch) else { return false };
+        let map = Arc::new(map);
+        for table in self.tables.iter_mut().filter(|table| table.id == TypeId::of::<PhotonMap>()) {
+            let map = Arc::clone(&map);
+            table.bytes = map.bytes();
+            table.insert = Box::new(move |world| world.insert_resource(Shared::from(Arc::clone(&map))));
+        }
+        for world in &mut self.worlds {
+            if let Some(world) = world.get_mut().unwrap_or_else(PoisonError::into_inner) {
+                world.world.insert_resource(Shared::from(Arc::clone(&map)));
+            }
+        }
+        true
+    }
+
+    fn advance_tiles(&mut self, to: u32, watch: &dyn Watch) {
         let stop = Stop::at_flag(watch.stop_flag());
         match &self.pool {
             Some(pool) => {
@@ -193,14 +244,6 @@ impl RenderInProgress {
                 world.get_or_insert_with(made).run_all(&mut self.film, to);
             }
         }
-        if let Some(light) = &self.light {
-            let samples = self.film.samples_between(0, to);
-            let pool = self.pool.as_ref();
-            let means = Means { plan: &self.plan, tables: &self.tables, pool };
-            light.advance(&mut self.film, samples, &means, watch);
-        }
-        self.time += started.elapsed();
-        if watch.stopped() { Err(Error::Interrupted) } else { Ok(()) }
     }
 
     /// Replaces the film by one for pilot samples, which use other random numbers.
@@ -237,7 +280,8 @@ impl RenderInProgress {
     /// The laps so far: one per kept stage, summed over workers; empty where no statistics were requested.
     pub fn laps(&self) -> Vec<Lap> {
         let of_lights = self.light.iter().flat_map(LightPass::laps);
-        sum_laps(self.worlds.iter().filter_map(laps_of).chain(of_lights).collect())
+        let of_photons = self.photons.iter().flat_map(PhotonPass::laps);
+        sum_laps(self.worlds.iter().filter_map(laps_of).chain(of_lights).chain(of_photons).collect())
     }
 
     /// Ends the render and returns its result.

@@ -45,6 +45,12 @@ impl RenderInProgress {
                 hash = fnv(hash, &number.to_le_bytes());
             }
         }
+        if let Some(photons) = &self.photons {
+            let means = Means { plan: &self.plan, tables: &self.tables, pool: None };
+            for number in photons.first_photons(&means, watch) {
+                hash = fnv(hash, &number.to_le_bytes());
+            }
+        }
         if watch.stopped() { Err(Error::Interrupted) } else { Ok(hash) }
     }
 

@@ -1,8 +1,8 @@
 use super::clock::{Lap, laps_of, thread_time};
 use super::render_world::{Hook, RenderWorld};
-use crate::extract::{FilterTable, ImageFrame, LightTracingTable, SamplingTable};
+use crate::extract::{FilterTable, ImageFrame, LightTracingTable, SamplingTable, pixel_width};
 use crate::film::{Film, SplatFilter};
-use crate::follow::{LIGHT_PATHS, Splats, Stop};
+use crate::follow::{LIGHT_PATHS, Photon, PhotonMap, Photons, Splats, Stop, first_radius, photon_radius};
 use crate::plan::{Census, Column, ExtractedTable, Plan, RowKind, Shared, VectorRows};
 use crate::rays::{SampleNumber, Tile};
 use crate::render::Watch;
@@ -10,21 +10,21 @@ use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use rayon::ThreadPool;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// The number of batches whose splats are added together: a few for every worker, so that memory stays bounded.
 const BATCHES_AT_ONCE: u64 = 64;
 
-/// The pass whose rows are paths from the lights.
+/// The pass whose rows are paths from the lights, and what they leave: splats or photons.
 ///
-/// Its batches are numbered throughout the render, independently of the image's tiles, and their splats are added in
+/// Its batches are numbered throughout the render, independently of the image's tiles, and what they leave is added in
 /// that order.
-pub(super) struct LightPass {
+pub(super) struct LightPass<C> {
     /// One world per worker.
     worlds: Vec<Mutex<Option<RenderWorld>>>,
-    /// The splats of the batches in progress, one list each.
-    lists: Vec<Mutex<Splats>>,
+    /// What the batches in progress have left, one list each.
+    lists: Vec<Mutex<C>>,
     /// The number of light paths per pixel sample.
     paths: f64,
     filter: SplatFilter,
@@ -61,10 +61,10 @@ pub(super) struct Means<'a> {
     pub pool: Option<&'a ThreadPool>,
 }
 
-impl LightPass {
-    /// The pass, where the plan has one.
+impl<C: Column + Default> LightPass<C> {
+    /// The pass, where the plan has one that leaves these.
     pub fn of(scene: &Census<'_>, plan: &Plan, workers: usize) -> Result<Option<Self>, SceneError> {
-        if !has_light_pass(plan) {
+        if !plan.keeps::<C>() {
             return Ok(None);
         }
         Ok(Some(Self {
@@ -81,14 +81,67 @@ impl LightPass {
         batches_for(samples as f64, self.paths)
     }
 
-    /// Whether the film has the light paths that correspond to so many pixel samples.
-    pub fn is_done(&self, film: &Film, samples: u64) -> bool {
-        film.splats.as_ref().is_none_or(|splats| splats.paths / u64::from(LIGHT_PATHS) >= self.batches(samples))
-    }
-
     /// Lets the worlds go, so that the next batches are those of another scene.
     pub fn forget_scene(&mut self) {
         self.worlds.iter_mut().for_each(|world| *world = Mutex::new(None));
+    }
+
+    /// What some batches leave, of at most so many, and how many they are; none if they were abandoned.
+    pub fn lists(&self, first: u64, max: u64, means: &Means<'_>, watch: &dyn Watch) -> Option<(u64, Vec<C>)> {
+        let count = self.run(first, max, means, watch)?;
+        let take = |list: &Mutex<C>| std::mem::take(&mut *list.lock().unwrap_or_else(PoisonError::into_inner));
+        Some((count, self.lists[..count as usize].iter().map(take).collect()))
+    }
+
+    /// Runs some batches, of at most so many, each into its list, and says how many; none if they were abandoned.
+    fn run(&self, first: u64, max: u64, means: &Means<'_>, watch: &dyn Watch) -> Option<u64> {
+        let stop = Stop::at_flag(watch.stop_flag());
+        let count = max.min(BATCHES_AT_ONCE);
+        let (next, given_up) = (AtomicU64::new(0), AtomicBool::new(false));
+        let work = |worker: usize| {
+            let mut world = self.worlds[worker].lock().unwrap_or_else(PoisonError::into_inner);
+            let world = world.get_or_insert_with(|| self.world(means));
+            world.stop_at(stop.clone());
+            loop {
+                let number = next.fetch_add(1, Ordering::Relaxed);
+                if number >= count {
+                    return;
+                }
+                let mut list = self.lists[number as usize].lock().unwrap_or_else(PoisonError::into_inner);
+                if watch.stopped() || !run_batch(world, first + number, &mut *list) {
+                    given_up.store(true, Ordering::Relaxed);
+                    return;
+                }
+            }
+        };
+        match means.pool {
+            Some(pool) => _ = pool.broadcast(|context| work(context.index())),
+            None => work(0),
+        }
+        if given_up.into_inner() {
+            self.lists.iter().for_each(|list| *list.lock().unwrap_or_else(PoisonError::into_inner) = C::default());
+            return None;
+        }
+        Some(count)
+    }
+
+    fn world(&self, means: &Means<'_>) -> RenderWorld {
+        let (plan, tables) = (means.plan, means.tables);
+        let mut made = RenderWorld::of_pass(RowKind::LightPath, plan, tables, 1, &[]);
+        made.world.insert_resource(Shared::new(self.sampling));
+        made
+    }
+
+    /// The laps of each worker so far.
+    pub fn laps(&self) -> impl Iterator<Item = Vec<Lap>> {
+        self.worlds.iter().filter_map(laps_of)
+    }
+}
+
+impl LightPass<Splats> {
+    /// Whether the film has the light paths that correspond to so many pixel samples.
+    pub fn is_done(&self, film: &Film, samples: u64) -> bool {
+        film.splats.as_ref().is_none_or(|splats| splats.paths / u64::from(LIGHT_PATHS) >= self.batches(samples))
     }
 
     /// Advances the light pass to correspond to so many pixel samples, or as far as the observer allows; batches in
@@ -112,52 +165,6 @@ impl LightPass {
         }
     }
 
-    /// The splats of some batches, of at most so many, and how many they are; none if they were abandoned.
-    pub fn lists(&self, first: u64, max: u64, means: &Means<'_>, watch: &dyn Watch) -> Option<(u64, Vec<Splats>)> {
-        let count = self.run(first, max, means, watch)?;
-        let take = |list: &Mutex<Splats>| std::mem::take(&mut *list.lock().unwrap_or_else(PoisonError::into_inner));
-        Some((count, self.lists[..count as usize].iter().map(take).collect()))
-    }
-
-    /// Runs some batches, of at most so many, each into its list, and says how many; none if they were abandoned.
-    fn run(&self, first: u64, max: u64, means: &Means<'_>, watch: &dyn Watch) -> Option<u64> {
-        let stop = Stop::at_flag(watch.stop_flag());
-        let count = max.min(BATCHES_AT_ONCE);
-        let (next, given_up) = (AtomicU64::new(0), AtomicBool::new(false));
-        let work = |worker: usize| {
-            let mut world = self.worlds[worker].lock().unwrap_or_else(PoisonError::into_inner);
-            let world = world.get_or_insert_with(|| self.world(means));
-            world.stop_at(stop.clone());
-            loop {
-                let number = next.fetch_add(1, Ordering::Relaxed);
-                if number >= count {
-                    return;
-                }
-                let mut list = self.lists[number as usize].lock().unwrap_or_else(PoisonError::into_inner);
-                if watch.stopped() || !run_batch(world, first + number, &mut list) {
-                    given_up.store(true, Ordering::Relaxed);
-                    return;
-                }
-            }
-        };
-        match means.pool {
-            Some(pool) => _ = pool.broadcast(|context| work(context.index())),
-            None => work(0),
-        }
-        if given_up.into_inner() {
-            self.lists.iter().for_each(|list| list.lock().unwrap_or_else(PoisonError::into_inner).clear());
-            return None;
-        }
-        Some(count)
-    }
-
-    fn world(&self, means: &Means<'_>) -> RenderWorld {
-        let (plan, tables) = (means.plan, means.tables);
-        let mut made = RenderWorld::of_pass(RowKind::LightPath, plan, tables, 1, &[]);
-        made.world.insert_resource(Shared::new(self.sampling));
-        made
-    }
-
     /// The bits of the splats of the first batch.
     pub fn first_splats(&self, means: &Means<'_>, watch: &dyn Watch) -> Vec<u64> {
         let (mut world, mut list) = (self.world(means), Splats::default());
@@ -165,10 +172,78 @@ impl LightPass {
         run_batch(&mut world, 0, &mut list);
         (0..list.rows()).flat_map(|at| list.raster.at(at).into_iter().chain(list.rgb(at))).map(f64::to_bits).collect()
     }
+}
+
+/// The pass that traces the photons of each sample before its paths from the camera.
+pub(super) struct PhotonPass {
+    pass: LightPass<Photons>,
+    /// The batches of a sample.
+    batches: u64,
+    /// How wide a pixel is, in scene units, and for each at which it is seen.
+    pixel: [f64; 2],
+    /// The radius for the first sample: the one that the scene gives, or that follows from its photons.
+    first_radius: OnceLock<f64>,
+}
+
+impl PhotonPass {
+    /// The pass, where the plan has one.
+    pub fn of(scene: &Census<'_>, plan: &Plan, workers: usize) -> Result<Option<Self>, SceneError> {
+        let Some(pass) = LightPass::of(scene, plan, workers)? else { return Ok(None) };
+        let image = scene.table::<ImageFrame>()?;
+        let batches = batches_for(f64::from(image.width) * f64::from(image.height), pass.paths);
+        let given = scene.table::<LightTracingTable>()?.radius;
+        let first_radius = if given > 0.0 { OnceLock::from(given) } else { OnceLock::new() };
+        Ok(Some(Self { pass, batches, pixel: pixel_width(scene)?, first_radius }))
+    }
+
+    // ANCHOR: photon_map_of_a_sample
+    /// The photons of a sample; none if they were abandoned.
+    pub fn map(&self, sample: u32, means: &Means<'_>, watch: &dyn Watch) -> Option<PhotonMap> {
+        let own = self.photons(sample, means, watch)?;
+        let first = match self.first_radius.get() {
+            Some(&radius) => radius,
+            None if sample == 0 => *self.first_radius.get_or_init(|| first_radius(&own, self.pixel)),
+            None => {
+                let of_first = self.photons(0, means, watch)?;
+                *self.first_radius.get_or_init(|| first_radius(&of_first, self.pixel))
+            }
+        };
+        Some(PhotonMap::new(&own, photon_radius(first, sample)))
+    }
+    // ANCHOR_END: photon_map_of_a_sample
+
+    fn photons(&self, sample: u32, means: &Means<'_>, watch: &dyn Watch) -> Option<Vec<Photon>> {
+        let (mut found, start) = (Vec::new(), u64::from(sample) * self.batches);
+        let each = 1.0 / (self.batches * u64::from(LIGHT_PATHS)) as f64;
+        let mut next = start;
+        while next < start + self.batches {
+            let (count, lists) = self.pass.lists(next, start + self.batches - next, means, watch)?;
+            for list in lists {
+                found.extend((0..list.rows()).map(|row| Photon {
+                    position: list.position(row),
+                    to_light: list.to_light(row),
+                    power: list.power(row).map(|part| (part * each) as f32),
+                    segments: list.segments(row),
+                }));
+            }
+            next += count;
+        }
+        Some(found)
+    }
+
+    /// The bits of the first batch.
+    pub fn first_photons(&self, means: &Means<'_>, watch: &dyn Watch) -> Vec<u64> {
+        let lists = self.pass.lists(0, 1, means, watch).map_or_else(Vec::new, |(_, lists)| lists);
+        let bits = |list: &Photons, row: usize| {
+            let place = list.position(row).to_array().map(|part| u64::from(part.to_bits()));
+            place.into_iter().chain(list.power(row).map(f64::to_bits))
+        };
+        lists.iter().flat_map(|list| (0..list.rows()).flat_map(|row| bits(list, row)).collect::<Vec<_>>()).collect()
+    }
 
     /// The laps of each worker so far.
     pub fn laps(&self) -> impl Iterator<Item = Vec<Lap>> {
-        self.worlds.iter().filter_map(laps_of)
+        self.pass.laps()
     }
 }
 
@@ -191,13 +266,17 @@ pub fn probe_light_paths(
     made.world.insert_resource(Shared::new(sampling));
     let before = thread_time();
     made.stop_at(Stop::at_deadline(Instant::now() + patience));
-    run_batch(&mut made, 0, &mut Splats::default());
+    if plan.keeps::<Photons>() {
+        run_batch(&mut made, 0, &mut Photons::default());
+    } else {
+        run_batch(&mut made, 0, &mut Splats::default());
+    }
     look(&mut made.world, before.and_then(|before| Some(thread_time()?.saturating_sub(before))));
     Ok(true)
 }
 
-/// Runs a batch of light paths and moves their splats to `list`, which is empty; returns whether the run was completed.
-fn run_batch(world: &mut RenderWorld, batch: u64, list: &mut Splats) -> bool {
+/// Runs a batch of light paths and moves what they leave to `list`, which is empty; returns whether the run was completed.
+fn run_batch<C: Column + Default>(world: &mut RenderWorld, batch: u64, list: &mut C) -> bool {
     let tile = world.tiles[0];
     let mut entity = world.world.entity_mut(tile);
     if let Some(mut place) = entity.get_mut::<Tile>() {
@@ -208,7 +287,7 @@ fn run_batch(world: &mut RenderWorld, batch: u64, list: &mut Splats) -> bool {
         *number = SampleNumber(batch as u32);
     }
     let whole = world.run();
-    if let Some(mut own) = world.world.get_mut::<Splats>(tile) {
+    if let Some(mut own) = world.world.get_mut::<C>(tile) {
         std::mem::swap(&mut *own, list);
     }
     whole

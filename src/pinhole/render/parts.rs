@@ -28,6 +28,10 @@ impl RenderInProgress {
         watch: &dyn Watch,
         keep: &mut dyn FnMut(&Film) -> Result,
     ) -> Result<PartFilm> {
+        if self.photons.is_some() {
+            let why = "each sample needs all of its photons, so render on one machine, or use light_tracing";
+            return Err(Error::Usage(format!("cannot render a part of a scene with photon_mapping: {why}")));
+        }
         let (mut samples, _) = self.expected();
         if let Some(adaptive) = adaptive {
             if !self.film.pilot {

@@ -1,7 +1,7 @@
 use super::light::{ShadowRay, shadow_t_max};
 use super::receivers::{LightRay, LightRows, append_sampled};
 use super::{ShadowRays, TransmissiveRows};
-use crate::extract::{CameraJoinTable, LensTable, SamplingTable, lens_evidence, traced_evidence};
+use crate::extract::{CameraJoinTable, LensTable, SamplingTable, joined_evidence, lens_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
 use crate::rays::{Depth, Draws, Paths, SampleNumber, Tile, WorldRays, draws_of_two, join_camera, lens_point};
@@ -60,7 +60,7 @@ pub fn join_point_stage() -> Stage {
     Stage::new("Sample the lens for connections", TileSystems::Join, sample_join_points)
         .on_light_paths()
         .kind(StageKind::Alternative)
-        .when(|scene| traced_evidence(scene).and(|| lens_evidence(scene)))
+        .when(|scene| joined_evidence(scene).and(|| lens_evidence(scene)))
 }
 
 /// The cosine factor of a connection to the camera at a surface with a shading normal: cos θ to the camera by the
@@ -120,5 +120,5 @@ pub fn camera_join_stage() -> Stage {
         .kind(StageKind::Alternative)
         .reads_where::<JoinPoints>(lens_evidence)
         .appends::<ShadowRays>()
-        .when(traced_evidence)
+        .when(joined_evidence)
 }

@@ -1,6 +1,6 @@
 use crate::extract::{
-    area_light_evidence, delta_light_evidence, environment_light_evidence, light_sampling_evidence, material_evidence,
-    occlusion_evidence, traced_evidence, unless_occlusion,
+    area_light_evidence, delta_light_evidence, environment_light_evidence, joined_evidence, light_sampling_evidence,
+    material_evidence, occlusion_evidence, unless_occlusion,
 };
 use crate::intersect::{RayColumn, Surface, falling_cosine};
 use crate::plan::{Census, Evidence, Stage, TileSystems, VectorRows, VectorRowsMut, column};
@@ -133,7 +133,7 @@ pub fn lit_evidence(scene: &Census<'_>) -> Evidence {
 /// Evidence that there is a light of any kind to which shadow rays are traced.
 pub fn light_evidence(scene: &Census<'_>) -> Evidence {
     let sampled = unless_occlusion(scene, or_light(scene, delta_light_evidence(scene, "light", |_| true)));
-    either(sampled, traced_evidence(scene))
+    either(sampled, joined_evidence(scene))
 }
 
 /// The evidence of lights without an area, or else that there are others and they are sampled.

@@ -1,8 +1,8 @@
 use super::ShadowRays;
 use super::light::{either, or_light};
 use crate::extract::{
-    HierarchyOf, delta_light_evidence, hierarchy_evidence, kind_evidence, light_kinds, material_evidence,
-    moving_evidence, occlusion_evidence, traced_evidence, unless_occlusion,
+    HierarchyOf, delta_light_evidence, hierarchy_evidence, joined_evidence, kind_evidence, light_kinds,
+    material_evidence, moving_evidence, occlusion_evidence, unless_occlusion,
 };
 use crate::intersect::{HitColumn, NO_SHAPE, intersect_moving, intersect_shapes};
 use crate::plan::{Census, Column, Evidence, Stage, TileSystems, column};
@@ -99,5 +99,5 @@ pub fn shadow_evidence(scene: &Census<'_>) -> Evidence {
         light_kinds(scene).any(|kind| (kind.casts_shadows)(entity))
     });
     let receiving = or_light(scene, points).and(|| material_evidence(scene));
-    either(either(unless_occlusion(scene, receiving), traced_evidence(scene)), occlusion_evidence(scene))
+    either(either(unless_occlusion(scene, receiving), joined_evidence(scene)), occlusion_evidence(scene))
 }

@@ -55,6 +55,7 @@ pub(super) fn shadow_rays() -> Vec<Grouped> {
 fn of_bsdfs(role: BsdfRole) -> Vec<Grouped> {
     let group = |stage: &BsdfStage| match (role, stage.class) {
         (MisWeights, _) => Mis,
+        (Gather, _) => PhotonMapping,
         (Connections | SampleFromLights, _) => LightTracing,
         (_, _) if stage.transmits => Glass,
         (_, BsdfClass::Specular) => SpecularReflection,
@@ -73,7 +74,7 @@ pub(super) fn bsdf_rows() -> Vec<Grouped> {
 }
 
 pub(super) fn direct_light_of_bsdfs() -> Vec<Grouped> {
-    [MisWeights, Evaluate, Connections].into_iter().flat_map(of_bsdfs).collect()
+    [MisWeights, Evaluate, Connections, Gather].into_iter().flat_map(of_bsdfs).collect()
 }
 
 pub(super) fn bsdf_samples() -> Vec<Grouped> {

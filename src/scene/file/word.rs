@@ -3,8 +3,8 @@ use crate::{
     Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, EmissionMap, Emissive, Environment,
     EquirectangularCamera, Exposure, FisheyeCamera, Gradient, ImageTexture, Integrator, Keys, Layers, Lens,
     LightTracing, LookAt, Mesh, MetallicRoughnessMap, Motion, NormalMap, Opacity, OpacityMap, OrthographicCamera,
-    PerspectiveCamera, Placement, Plane, PointLight, Rasterisation, Rectangle, Resolution, Sampling, Shutter,
-    SingleSided, Sphere, SpotLight, Statistics, Stripes, Tint, ToneMapping, Torus, Triangle, View,
+    PerspectiveCamera, PhotonMapping, Placement, Plane, PointLight, Rasterisation, Rectangle, Resolution, Sampling,
+    Shutter, SingleSided, Sphere, SpotLight, Statistics, Stripes, Tint, ToneMapping, Torus, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -48,6 +48,7 @@ const WORDS: &[Word] = &[
     Word::of::<Rasterisation>("rasterisation"),
     Word::of::<Integrator>("integrator"),
     Word::of::<LightTracing>("light_tracing"),
+    Word::of::<PhotonMapping>("photon_mapping"),
     Word::of::<Exposure>("exposure"),
     Word::of::<ToneMapping>("tone_mapping"),
     Word::of::<Emissive>("emissive"),
