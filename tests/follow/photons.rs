@@ -5,9 +5,10 @@ use super::*;
 use glam::DVec3;
 use pinhole::film::{read_checkpoint, write_checkpoint};
 use pinhole::follow::photon_radius;
+use pinhole::look::{Preflight, preflight};
 use pinhole::material::fresnel;
 use pinhole::plan::Census;
-use pinhole::render::{RenderInProgress, Worlds, steps_of};
+use pinhole::render::{RenderInProgress, Worlds, prepare, steps_of};
 use pinhole::scene::*;
 use scenes::FilmBits;
 use scenes::caustics::{caustics, traced};
@@ -64,7 +65,7 @@ fn seen_in_a_mirror() -> Form {
 
 #[test]
 fn photons_bring_what_closed_forms_say() {
-    const SEEDS: u64 = 40;
+    const SEEDS: u64 = 24;
     let mut all = forms();
     all.extend([seen_through_water(), seen_in_a_mirror()]);
     let mut tried = 0;
@@ -275,6 +276,19 @@ fn refuses(word: &str, change: &dyn Fn(&mut World, Entity)) {
     let said = render(&world, &offer(), &Execution::default(), &()).err().expect("refused").to_string();
     eprintln!("{said}");
     assert!(said.contains(word) && !said.ends_with('.') && said.lines().count() == 1, "{said}");
+}
+
+#[test]
+fn an_odd_radius_is_said_before() {
+    for (radius, word) in [(1e-5, Some("of a pixel's width")), (0.05, None), (50.0, Some("larger than the scene"))] {
+        let scene = mapped(|| caustics(true), radius)();
+        let census = &Census::of(&scene);
+        let (plan, tables) = prepare(census, &offer()).expect("prepared");
+        let asked = Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() };
+        let told = preflight(census, (&plan, &tables), asked).expect("looks").join("\n");
+        assert!(!told.contains("more than white"), "{told}");
+        assert!(word.map_or(!told.contains("radius"), |word| told.contains(word)), "{radius}: {told}");
+    }
 }
 
 /// Radii from nearly none to all of the scene, one photon a pixel in a thousand, and cameras without an image plane.

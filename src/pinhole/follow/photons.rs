@@ -145,9 +145,6 @@ impl PhotonMap {
     /// Visits the photons within the radius of a point, each once.
     #[inline(always)]
     pub fn visit(&self, point: DVec3, mut found: impl FnMut(&Photon)) {
-        if self.photons.is_empty() {
-            return;
-        }
         let reach = DVec3::splat(self.radius);
         let [low, high] = [point - reach, point + reach].map(|corner| cell_of(corner, self.radius));
         // A cell is as wide as the sphere, which so overlaps at most eight; two of them may share a bucket.
@@ -170,6 +167,11 @@ impl PhotonMap {
                 }
             }
         }
+    }
+
+    /// Whether there is nothing to gather.
+    pub fn is_empty(&self) -> bool {
+        self.photons.is_empty()
     }
 
     /// The radius, in scene units.
@@ -269,6 +271,9 @@ pub fn gather_photons<B: Bsdf>(
     (map, integrator): (Res<Shared<PhotonMap>>, Res<Shared<IntegratorTable>>),
     mut tiles: Query<(GatherView, ParameterColumns, InterfaceView)>,
 ) {
+    if map.is_empty() {
+        return;
+    }
     let radius = map.radius();
     for (GatherViewItem { depth, eye, surfaces, shading, list, mut radiance }, columns, interface) in &mut tiles {
         let interface = Interface::new(interface, glass.as_deref());

@@ -6,12 +6,12 @@ use super::pilot::{Pilot, pilot};
 use super::radians::radians;
 use super::slow::{Effort, many_bounces, many_light_bounces, never_done, slow, why_slow};
 use crate::extract::{
-    AreaLightTable, CameraAxes, EmissiveTable, ImageFrame, IntegratorTable, LightTracingTable, OrthographicWindow,
-    PerspectiveProjection, SamplingTable, ShapeTable, area_light_evidence, camera_entity, contact_evidence,
-    delta_light_shines, distant_start_evidence, emissive_evidence, environment_light_evidence, exposure_of,
-    followed_evidence, glossy_evidence, integrator_of, joined_evidence, listed_kind, matte_evidence, point_evidence,
-    shadowed_distant_evidence, shadowed_point_evidence, shape_name, sky_evidence, specular_evidence, starts_on_glass,
-    traced_evidence, unresolved,
+    AreaLightTable, CameraAxes, EmissiveTable, ImageFrame, IntegratorTable, LightPathTable, LightTracingTable,
+    OrthographicWindow, PerspectiveProjection, SamplingTable, ShapeTable, area_light_evidence, camera_entity,
+    contact_evidence, delta_light_shines, distant_start_evidence, emissive_evidence, environment_light_evidence,
+    exposure_of, followed_evidence, glossy_evidence, integrator_of, joined_evidence, listed_kind, matte_evidence,
+    photon_evidence, pixel_width, point_evidence, shadowed_distant_evidence, shadowed_point_evidence, shape_name,
+    sky_evidence, specular_evidence, starts_on_glass, traced_evidence, unresolved,
 };
 use crate::film::srgb_from_linear;
 use crate::plan::{Census, ExtractedTable, Plan, counted};
@@ -95,10 +95,38 @@ pub fn foretell(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), condit
     warnings.extend(unseen(scene));
     warnings.extend(emitters(scene)?);
     warnings.extend(missing_paths(scene, &pilot));
+    warnings.extend(odd_radius(scene)?);
     if let (true, Some(ray), Some(path)) = (pilot.rays > 0, pilot.seconds_a_ray, pilot.seconds_a_light_path) {
         warnings.extend(slow(ray + effort.light_paths * path, pilot.is_least, effort));
     }
     Ok(Foretold { warnings, lit_pixel: pilot.lit_pixel })
+}
+
+/// A radius of photons that is far below a pixel, so that hardly any lies within it, or as large as the scene.
+fn odd_radius(scene: &Census<'_>) -> Result<Option<String>> {
+    const SMALL: f64 = 0.1;
+    let radius = scene.table::<LightTracingTable>()?.radius;
+    if radius == 0.0 || !photon_evidence(scene).needed {
+        return Ok(None);
+    }
+    let ([pixel, by_distance], around) = (pixel_width(scene)?, scene.table::<LightPathTable>()?.targets.scene);
+    let width = pixel + by_distance * around.centre.length().max(around.radius);
+    let advice = "0 lets it follow from the photons";
+    Ok(if around.radius > 0.0 && radius < SMALL * width {
+        Some(format!(
+            "the photons' radius of {radius} is {:.1e} of a pixel's width in the middle of the scene: hardly any photon lies \
+             within it, so what they bring will be missing, or show as specks; {advice}",
+            radius / width
+        ))
+    } else if around.radius > 0.0 && radius > around.radius {
+        Some(format!(
+            "the photons' radius of {radius} is larger than the scene, whose radius is {:.3}: what they bring is spread over all \
+             of it, and each sample asks every photon; {advice}",
+            around.radius
+        ))
+    } else {
+        None
+    })
 }
 
 /// What a few test rays say about the picture.
