@@ -17,5 +17,11 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             about: "a path from the lamp, connected to the camera, and a path from the camera through the same pixel",
             draw: connection::draw,
         },
+        Figure {
+            name: "27_photons",
+            chapter,
+            about: "the ground of a pool by paths from the camera, by light paths that are connected to it, and by photons",
+            draw: compared::draw_photons,
+        },
     ]
 }

@@ -17,8 +17,9 @@ use pinhole::material::cosine_direction;
 use pinhole::models::TriangleMesh;
 use pinhole::plan::Stage;
 use pinhole::scene::{
-    Exposure, Glass, Integrator, LightStrategy, LightTracing, MeshGeometry, MeshInstance, Metal, Mirror, NormalMap,
-    Placement, Principled, Rgb, RoughGlass, Sampler, Sampling,
+    Cuboid, Degrees, Emissive, Exposure, FovAxis, Glass, Integrator, LightStrategy, LightTracing, LookAt, Matte,
+    MeshGeometry, MeshInstance, Metal, Mirror, NormalMap, PerspectiveCamera, PhotonMapping, Placement, Plane,
+    Principled, Rgb, RoughGlass, Sampler, Sampling, Sphere,
 };
 use pinhole::{Chapter, Result};
 
@@ -101,6 +102,48 @@ pub fn draw_strategies(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         of(LightStrategy::Mis, ["MIS", "both, each where its pdf is high"]),
     ];
     rows(chapter, figure, LARGE, exhibits)
+}
+
+/// A pool, with a ball and a buoy in it, and a lamp above.
+fn pool(world: &mut World) {
+    let look = LookAt { eye: DVec3::new(0.0, 4.2, 6.4), target: DVec3::new(0.0, 0.0, 0.2), ..LookAt::default() };
+    let camera = PerspectiveCamera { fov: Degrees(36.0), axis: FovAxis::Vertical };
+    world.spawn((camera, look, Integrator::PATH));
+    let ground = Matte { colour: Rgb::new(0.55, 0.65, 0.7) };
+    world.spawn((Plane::default(), Placement::at(0.0, -1.0, 0.0), ground));
+    let wall = Matte { colour: Rgb::new(0.7, 0.68, 0.65) };
+    for ([x, z], [width, depth]) in
+        [([0.0, -2.15], [5.2, 0.3]), ([0.0, 2.15], [5.2, 0.3]), ([-2.45, 0.0], [0.3, 4.0]), ([2.45, 0.0], [0.3, 4.0])]
+    {
+        world.spawn((Cuboid { size: DVec3::new(width, 1.2, depth) }, Placement::at(x, -0.4, z), wall));
+    }
+    let water = Glass { ior: 1.33, absorption: Rgb::new(0.25, 0.05, 0.03), ..Glass::default() };
+    // It reaches into the walls and into the ground.
+    world.spawn((Cuboid { size: DVec3::new(4.7, 0.9, 4.1) }, Placement::at(0.0, -0.55, 0.0), water));
+    let ball = Glass { priority: 1, ..Glass::default() };
+    world.spawn((Sphere { radius: 0.45 }, Placement::at(0.9, -0.2, 0.1), ball));
+    let buoy = Matte { colour: Rgb::new(0.9, 0.3, 0.1) };
+    world.spawn((Sphere { radius: 0.35 }, Placement::at(-0.9, -0.1, 0.4), buoy));
+    let emissive = Emissive { radiance: Rgb::new(2700.0, 2550.0, 2250.0), ..Emissive::default() };
+    world.spawn((Sphere { radius: 0.12 }, Placement::at(-1.6, 4.0, -1.0), emissive));
+}
+
+/// The ground of a pool by each method for caustics, at the same number of samples.
+pub fn draw_photons(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let pool = chapter.clone().with_scene(pool);
+    let of = |change: &dyn Fn(&mut EntityWorldMut<'_>), lines| {
+        let change = |camera: &mut EntityWorldMut<'_>| {
+            sampled(32, 27)(camera);
+            change(camera);
+        };
+        exhibit(Picture::of(&pool, SMALL, None, change), lines)
+    };
+    let exhibits = [
+        of(&|_| {}, ["path tracing", "few paths hit the lamp"]),
+        of(&|camera| _ = camera.insert(LightTracing::default()), ["light tracing", "no line passes the water"]),
+        of(&|camera| _ = camera.insert(PhotonMapping::default()), ["photon mapping", "paths that end near each other"]),
+    ];
+    rows(chapter, figure, SMALL, exhibits)
 }
 
 /// The camera's rays alone and with rays from the lights, at the same number of samples.
