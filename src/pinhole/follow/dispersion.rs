@@ -23,8 +23,9 @@ pub fn weight_by_wavelength(
         let interface = Interface::new(interface, Some(&glass));
         let (weights, paths) = (&mut *weights, &mut *paths);
         for (row, &shape) in hits.shape.iter().enumerate() {
-            let own = || materials.interior[surfaces.material[row] as usize];
-            if shape != NO_SHAPE && interface.disperses(own(), row) {
+            // What only emits light has no material.
+            let Some(&own) = materials.interior.get(surfaces.material[row] as usize) else { continue };
+            if shape != NO_SHAPE && interface.disperses(own, row) {
                 paths.throughput.scale(row, weights.rgb(row));
                 weights.rgb.put(row, [1.0; 3]);
             }

@@ -86,11 +86,12 @@ pub fn wavelength_sample(number: f64) -> (f64, [f64; 3]) {
 mod tests {
     use super::*;
 
-    /// The integrals of the tabulated functions from 380 to 780 nm in steps of 5 nm are 106.857, 106.857 and 106.892 (CIE
-    /// 15:2004, table T.4, sums times 5 nm); the peaks of the fit have closed forms, √(π/2) · height · (left + right).
+    /// The table of CIE 15:2004 (T.4) from 380 to 780 nm in steps of 5 nm, as cvrl.org's `ciexyz31` prints it, has the sums
+    /// 106.858, 106.857 and 106.858, times 5 nm; the peaks of the fit have integrals in closed form, √(π/2) · height · (left
+    /// + right).
     #[test]
     fn colour_matching_functions_have_the_integrals_of_the_tables() {
-        const TABULATED: [f64; 3] = [106.857, 106.857, 106.892];
+        const TABULATED: [f64; 3] = [106.858, 106.857, 106.858];
         const STEPS: usize = 800_000;
         let step = 800.0 / STEPS as f64;
         let mut sums = [0.0; 3];
@@ -107,14 +108,15 @@ mod tests {
         eprintln!("colour matching: integrals {sums:?}");
         for part in 0..3 {
             assert!((sums[part] / closed[part] - 1.0).abs() < 1e-9, "{part}: {} and {}", sums[part], closed[part]);
-            assert!((sums[part] / TABULATED[part] - 1.0).abs() < 2e-3, "{part}: {}", sums[part]);
+            assert!((sums[part] / TABULATED[part] - 1.0).abs() < 1e-3, "{part}: {}", sums[part]);
         }
     }
 
-    /// Rows of CIE 15:2004, table T.4, which the fit approximates to 0.03 at worst.
+    /// Rows of the same table, which the fit misses by at most 0.024, at 425 nm.
     #[test]
     fn colour_matching_functions_are_near_the_table() {
         let rows = [
+            (425.0, [0.2148, 0.0073, 1.0391]),
             (440.0, [0.3483, 0.0230, 1.7471]),
             (480.0, [0.0956, 0.1390, 0.8130]),
             (520.0, [0.0633, 0.7100, 0.0782]),
@@ -127,7 +129,7 @@ mod tests {
             let own = colour_matching(wavelength);
             (0..3).for_each(|part| worst = worst.max((own[part] - listed[part]).abs()));
         }
-        assert!(worst < 0.04, "{worst}");
+        assert!(worst < 0.025, "{worst}");
         eprintln!("colour matching: {} rows of the table, off by at most {worst:.3}", rows.len());
     }
 
