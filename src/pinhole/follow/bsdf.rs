@@ -6,7 +6,7 @@ use super::specular::{specular_from_lights_stage, specular_stage, split_stage};
 use super::{DeeperMedia, Media, Scattered, ScatteredRay, power_heuristic};
 use crate::extract::{
     GlassTable, MaterialTable, NO_ROW, SamplingTable, ShapeTable, area_light_evidence, bsdf_evidence,
-    environment_light_evidence, glass_contact_evidence, mis_evidence, needed_if, traced_evidence, wavelength_evidence,
+    environment_light_evidence, glass_contact_evidence, mis_evidence, needed_if, traced_evidence,
 };
 use crate::intersect::{Contacts, Hits, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces, rows_of_kind};
 use crate::material::{
@@ -15,7 +15,7 @@ use crate::material::{
 use crate::plan::{
     Census, Column, ColumnArrays, Evidence, Shared, Stage, StageKind, TileSystems, VectorRows, VectorRowsMut,
 };
-use crate::rays::{DrawsView, Paths, Wavelengths, WorldRays, draws_of_one, draws_of_two};
+use crate::rays::{DrawsView, Paths, WorldRays, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
 use crate::shade::{LightPdfs, ParameterColumns, ReflectionView, ReflectionViewItem, ShadowRays, light_evidence};
 use bevy_ecs::prelude::*;
@@ -218,23 +218,26 @@ pub fn connections_stage<B: Bsdf>() -> Stage {
     at_interfaces::<B>(stage).on_light_paths().when(|scene| traced_evidence(scene).and(|| bsdf_evidence::<B>(scene)))
 }
 
-/// Requests what is known of the media at surfaces that transmit light, and of nothing of the kind elsewhere.
+/// Requests what is known of the media at surfaces that transmit light, where the scene gives a reason.
+pub(super) fn at_interfaces_where(stage: Stage, reason: fn(&Census<'_>) -> Evidence) -> Stage {
+    stage
+        .reads_where::<SurfaceSides>(reason)
+        .reads_where::<Media>(media_evidence)
+        .reads_where::<DeeperMedia>(deeper_media_evidence)
+        .reads_where::<Contacts>(glass_contact_evidence)
+}
+
+/// Requests what is known of the media at surfaces of a BSDF that transmits light, and of nothing of the kind elsewhere.
 pub(super) fn at_interfaces<B: Bsdf>(stage: Stage) -> Stage {
     let never = |_: &Census<'_>| Evidence::default();
     if B::TRANSMITS {
-        stage
-            .reads_where::<SurfaceSides>(bsdf_evidence::<B>)
-            .reads_where::<Media>(media_evidence)
-            .reads_where::<DeeperMedia>(deeper_media_evidence)
-            .reads_where::<Contacts>(glass_contact_evidence)
-            .reads_where::<Wavelengths>(wavelength_evidence)
+        at_interfaces_where(stage, bsdf_evidence::<B>)
     } else {
         stage
             .table_where::<GlassTable>(never)
             .reads_where::<SurfaceSides>(never)
             .reads_where::<Media>(never)
             .reads_where::<DeeperMedia>(never)
-            .reads_where::<Wavelengths>(never)
     }
 }
 

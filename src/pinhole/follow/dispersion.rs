@@ -1,10 +1,10 @@
 //! Light that glass parts by its wavelength.
 
+use super::Scattered;
+use super::bsdf::at_interfaces_where;
 use super::interface::{Interface, InterfaceView};
-use super::media::{deeper_media_evidence, media_evidence};
-use super::{DeeperMedia, Media, Scattered};
-use crate::extract::{GlassTable, MaterialTable, glass_contact_evidence, wavelength_evidence};
-use crate::intersect::{Contacts, Hits, NO_SHAPE, SurfaceSides, Surfaces};
+use crate::extract::{GlassTable, MaterialTable, wavelength_evidence};
+use crate::intersect::{Hits, NO_SHAPE, Surfaces};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut};
 use crate::rays::{Paths, WavelengthWeights, Wavelengths};
 use bevy_ecs::prelude::*;
@@ -36,13 +36,8 @@ pub fn weight_by_wavelength(
 
 /// The stage that runs [`weight_by_wavelength`].
 pub fn weight_by_wavelength_stage() -> Stage {
-    Stage::new("Weight paths by wavelength", TileSystems::Absorb, weight_by_wavelength)
-        .kind(StageKind::Estimator)
-        .reads_where::<SurfaceSides>(wavelength_evidence)
-        .reads_where::<Media>(media_evidence)
-        .reads_where::<DeeperMedia>(deeper_media_evidence)
-        .reads_where::<Contacts>(glass_contact_evidence)
-        .when(wavelength_evidence)
+    let stage = Stage::new("Weight paths by wavelength", TileSystems::Absorb, weight_by_wavelength);
+    at_interfaces_where(stage, wavelength_evidence).kind(StageKind::Estimator).when(wavelength_evidence)
 }
 
 /// Gives the rays of the next bounce the wavelengths of the rays that they were scattered from, and their weights.
