@@ -43,35 +43,37 @@ fn rgb_of(wavelength: f64) -> [f64; 3] {
 
 /// The spectrum by intervals of 1 nm.
 struct Spectrum {
+    /// What each interval adds to white: red, green, blue, which sum up to 1 each.
+    share: Vec<[f64; 3]>,
     /// The probability that a wavelength is below the end of an interval.
     below: Vec<f64>,
-    /// What a path in an interval is worth: red, green, blue.
-    weight: Vec<[f64; 3]>,
+    /// The sum of all shares, signs and channels apart.
+    size: f64,
+}
+
+fn size([r, g, b]: [f64; 3]) -> f64 {
+    r.abs() + g.abs() + b.abs()
 }
 
 // ANCHOR: spectrum
 /// Each channel is divided by its own integral, so that light which keeps its spectrum keeps its colour.
 /// Wavelengths are sampled in proportion to what they add to all channels together, signs apart.
 static TABLE: LazyLock<Spectrum> = LazyLock::new(|| {
-    let colours: Vec<[f64; 3]> = (0..INTERVALS).map(|own| rgb_of(f64::from(SPECTRUM[0]) + own as f64 + 0.5)).collect();
+    let middle = |interval: usize| f64::from(SPECTRUM[0]) + interval as f64 + 0.5;
+    let colours: Vec<[f64; 3]> = (0..INTERVALS).map(|interval| rgb_of(middle(interval))).collect();
     let whole = [0, 1, 2].map(|channel| colours.iter().map(|rgb| rgb[channel]).sum::<f64>());
-    let share = |rgb: &[f64; 3]| [0, 1, 2].map(|channel| rgb[channel] / whole[channel]);
-    let size = |rgb: &[f64; 3]| share(rgb).iter().map(|part| part.abs()).sum::<f64>();
-    let all = colours.iter().map(size).sum::<f64>();
+    let share: Vec<_> = colours.iter().map(|rgb| [0, 1, 2].map(|channel| rgb[channel] / whole[channel])).collect();
+    let all: f64 = share.iter().copied().map(size).sum();
     let mut sum = 0.0;
-    let below = colours.iter().map(|rgb| {
-        sum += size(rgb) / all;
+    let below = share.iter().map(|&own| {
+        sum += size(own) / all;
         sum
     });
-    Spectrum {
-        below: below.collect(),
-        weight: colours.iter().map(|rgb| share(rgb).map(|part| part * all / size(rgb))).collect(),
-    }
+    Spectrum { below: below.collect(), size: all, share }
 });
-// ANCHOR_END: spectrum
 
-/// A wavelength in nm by a number in [0, 1), and its weight: for each channel the fraction of white that a nanometre
-/// there adds to it, over the probability of that nanometre.
+/// A wavelength in nm by a number in [0, 1), and its weight: for each channel what the nanometre around it adds to white,
+/// over the probability of that nanometre.
 ///
 /// The mean of the weights of all wavelengths is 1 in each channel; the weight of one of them may be negative.
 pub fn wavelength_sample(number: f64) -> (f64, [f64; 3]) {
@@ -79,7 +81,21 @@ pub fn wavelength_sample(number: f64) -> (f64, [f64; 3]) {
     let interval = table.below.partition_point(|&below| below <= number).min(INTERVALS - 1);
     let from = if interval == 0 { 0.0 } else { table.below[interval - 1] };
     let within = ((number - from) / (table.below[interval] - from)).clamp(0.0, 1.0);
-    (f64::from(SPECTRUM[0]) + interval as f64 + within, table.weight[interval])
+    let (share, probability) = spectrum_at(interval);
+    (f64::from(SPECTRUM[0]) + interval as f64 + within, share.map(|part| part / probability))
+}
+// ANCHOR_END: spectrum
+
+/// What an interval adds to white, and its probability.
+fn spectrum_at(interval: usize) -> ([f64; 3], f64) {
+    let share = TABLE.share[interval];
+    (share, size(share) / TABLE.size)
+}
+
+/// What the nanometre around a wavelength adds to white, red, green and blue, and its probability.
+pub fn white_share(wavelength: f64) -> ([f64; 3], f64) {
+    let interval = (wavelength - f64::from(SPECTRUM[0])).clamp(0.0, INTERVALS as f64 - 1.0);
+    spectrum_at(interval as usize)
 }
 
 #[cfg(test)]
@@ -138,12 +154,14 @@ mod tests {
     fn white_in_is_white_out() {
         let table = &*TABLE;
         let mut mean = [0.0; 3];
-        for (own, weight) in table.weight.iter().enumerate() {
-            let probability = table.below[own] - if own == 0 { 0.0 } else { table.below[own - 1] };
+        for interval in 0..INTERVALS {
+            let probability = table.below[interval] - if interval == 0 { 0.0 } else { table.below[interval - 1] };
+            let (wavelength, weight) = wavelength_sample(table.below[interval] - 0.5 * probability);
+            assert_eq!(wavelength.floor(), f64::from(SPECTRUM[0]) + interval as f64);
             (0..3).for_each(|channel| mean[channel] += probability * weight[channel]);
         }
         assert!(mean.iter().all(|own| (own - 1.0).abs() < 1e-13), "{mean:?}");
-        let negative = |channel: usize| table.weight.iter().filter(|weight| weight[channel] < 0.0).count();
+        let negative = |channel: usize| table.share.iter().filter(|share| share[channel] < 0.0).count();
         assert!((0..3).all(|channel| negative(channel) > 10), "spectral colours are out of the gamut");
     }
 
@@ -164,14 +182,12 @@ mod tests {
     /// The variance of a channel's weight, summed over the channels, beside that of wavelengths sampled uniformly.
     #[test]
     fn sampling_by_size_varies_less_than_uniform_sampling() {
-        let table = &*TABLE;
         let (mut by_size, mut uniform) = ([0.0; 3], [0.0; 3]);
-        for (own, weight) in table.weight.iter().enumerate() {
-            let probability = table.below[own] - if own == 0 { 0.0 } else { table.below[own - 1] };
+        for interval in 0..INTERVALS {
+            let (share, probability) = spectrum_at(interval);
             for channel in 0..3 {
-                by_size[channel] += probability * weight[channel] * weight[channel];
-                let alike = weight[channel] * probability * INTERVALS as f64;
-                uniform[channel] += alike * alike / INTERVALS as f64;
+                by_size[channel] += share[channel] * share[channel] / probability;
+                uniform[channel] += share[channel] * share[channel] * INTERVALS as f64;
             }
         }
         let total = |squares: [f64; 3]| squares.iter().map(|square| square - 1.0).sum::<f64>();
