@@ -177,7 +177,7 @@ pub const MEANING: &[Case] = &[
     ),
     (
         "a dispersion without glass",
-        "[@, (name: \"a\", sphere: (), matte: (), ^dispersion: Bk7)]",
+        "[@, ^(name: \"a\", sphere: (), matte: (), dispersion: Bk7)]",
         &["dispersion \"a\"", "material is matte", "a glass or rough_glass"],
     ),
     (
