@@ -330,6 +330,7 @@ pub fn glass() -> Vec<Stage> {
 }
 
 /// Dispersion: paths of one wavelength each, where the index of a glass depends on it.
+#[doc(hidden)]
 pub fn dispersion() -> Vec<Stage> {
     of(Dispersion)
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// wavelength, in place of its `ior`, which is then not used.
 ///
 /// Paths are traced at one wavelength each, from 380 to 780 nm, so that white light parts into colours.
-/// Whitted's method, which splits rays instead of sampling, uses the index at 587.56 nm, as a scene without paths does.
+/// Whitted's method, which splits rays instead of sampling them, uses the index at 587.56 nm.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Dispersion {
