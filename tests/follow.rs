@@ -12,6 +12,8 @@ mod broken;
 mod bsdfs;
 #[path = "follow/caustics.rs"]
 mod caustics;
+#[path = "follow/dispersion.rs"]
+mod dispersion;
 #[path = "follow/distant.rs"]
 mod distant;
 #[path = "follow/far.rs"]

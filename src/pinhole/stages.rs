@@ -53,6 +53,7 @@ enum Group {
     SpecularReflection,
     GlossyReflection,
     Glass,
+    Dispersion,
     AreaLights,
     AmbientOcclusion,
     Mis,
@@ -148,6 +149,8 @@ const LIST: &[Part] = &[Part(&[
 
     // The medium along each ray is found, and absorbs light.
     (Glass, follow::start_media_stage),
+    (Dispersion, rays::wavelength_stage),
+    (Dispersion, follow::weight_by_wavelength_stage),
     (Glass, follow::absorb_stage),
 
     // Lights are sampled: a ray from each surface towards each of them, or towards the camera.
@@ -184,6 +187,7 @@ const LIST: &[Part] = &[Part(&[
     (LightTracing, follow::splat_stage),
     (Glass, follow::leave_contacts_stage),
     (Glass, follow::carry_media_stage),
+    (Dispersion, follow::carry_wavelengths_stage),
     (Glass, follow::absorb_at_start_stage),
     (AreaLights, follow::keep_previous_surfaces_stage),
     (PhotonMapping, follow::mark_photon_paths_stage),
@@ -327,6 +331,12 @@ pub fn glossy_reflection() -> Vec<Stage> {
 /// Glass: reflection and refraction, and the light that it absorbs.
 pub fn glass() -> Vec<Stage> {
     of(Glass)
+}
+
+/// Dispersion: paths of one wavelength each, where the index of a glass depends on it.
+#[doc(hidden)]
+pub fn dispersion() -> Vec<Stage> {
+    of(Dispersion)
 }
 
 /// Area lights: surfaces that emit, and the environment.

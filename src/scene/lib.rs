@@ -21,6 +21,7 @@
 mod cameras;
 mod check;
 mod colour;
+mod dispersion;
 mod exposure;
 mod file;
 mod file_store;
@@ -53,6 +54,8 @@ pub use cameras::{
 #[doc(hidden)]
 pub use check::{colour_within, finite_point, light_colour, number, positive_length, triple};
 pub use colour::Rgb;
+#[doc(hidden)]
+pub use dispersion::Dispersion;
 pub use exposure::{Exposure, ToneMapping};
 #[doc(hidden)]
 pub use file::FileProblem;

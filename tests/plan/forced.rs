@@ -90,10 +90,11 @@ fn forcing_an_exact_stage_on_changes_nothing() {
          together {together} ran; never dropped: {untried:?}",
         scenes.len()
     );
-    // Two are needed by every picture; media and the surfaces that rays leave are carried where a scene needs them, or
-    // read by nothing; the rows of glass are read by alternatives only, and counts of tests by views.
+    // Two are needed by every picture; media, wavelengths and the surfaces that rays leave are carried where a scene needs
+    // them, or read by nothing; the rows of glass are read by alternatives only, and counts of tests by views.
     let never = [
         "Accumulate film",
+        "Carry wavelengths to the next bounce",
         "Clear radiance",
         "Clear the surfaces that rays left",
         "Count tests",
@@ -255,6 +256,15 @@ fn by_photons() -> World {
     world
 }
 
+/// A ball whose index depends on the wavelength, over a lit floor.
+fn a_diamond() -> World {
+    let mut world = toggled(&[Toggle::Light, Toggle::Shadow, Toggle::Plane, Toggle::Background]);
+    let camera = named(&mut world, "camera");
+    world.entity_mut(camera).insert(Integrator::PATH);
+    world.spawn((Sphere { radius: 0.8 }, Placement::at(0.0, 0.9, 0.4), Glass::default(), Dispersion::Diamond));
+    world
+}
+
 /// A ball that is half there, over a floor and its shadow.
 fn half_there() -> World {
     let mut world = toggled(&[Toggle::Sphere, Toggle::Light, Toggle::Shadow, Toggle::Plane]);
@@ -348,6 +358,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("a lamp in ink", in_ink()),
         ("frosted blocks", frosted_blocks()),
         ("an eye and a lamp on the sea", on_the_sea()),
+        ("a diamond", a_diamond()),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();

@@ -171,6 +171,16 @@ pub const MEANING: &[Case] = &[
     ),
     ("two angles", "[@, (placement: (euler_xyz: (0, 9^)))]", &["euler_xyz is (0, 9)", "three numbers"]),
     (
+        "a glass that nobody listed",
+        "[@, (name: \"a\", sphere: (), glass: (), dispersion: ^BK7)]",
+        &["dispersion is BK7", "Bk7"],
+    ),
+    (
+        "a dispersion without glass",
+        "[@, ^(name: \"a\", sphere: (), matte: (), dispersion: Bk7)]",
+        &["dispersion \"a\"", "material is matte", "a glass or rough_glass"],
+    ),
+    (
         "an integrator without brackets",
         "[(name: \"eye\", perspective_camera: (), integrator: ^Path)]",
         &["integrator is Path", "such as Path()"],

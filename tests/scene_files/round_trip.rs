@@ -108,6 +108,30 @@ fn every_sampler_and_filter_comes_back() {
 }
 
 #[test]
+fn every_form_of_dispersion_comes_back() {
+    let forms = [
+        ("Bk7", Dispersion::Bk7),
+        ("Sf11", Dispersion::Sf11),
+        ("Water", Dispersion::Water),
+        ("Diamond", Dispersion::Diamond),
+        ("Cauchy(a: 1.5, b: 0.004)", Dispersion::Cauchy { a: 1.5, b: 0.004, c: 0.0 }),
+        (
+            "Sellmeier(b: (1, 0.2, 1), c: (0.006, 0.02, 103.5))",
+            Dispersion::Sellmeier { b: [1.0, 0.2, 1.0], c: [0.006, 0.02, 103.5] },
+        ),
+    ];
+    for (text, expected) in forms {
+        let file = format!("[(perspective_camera: ()), (sphere: (), glass: (), dispersion: {text})]");
+        let mut world = parsed(&file).unwrap_or_else(|problem| panic!("{problem}")).world();
+        let own = *world.query::<&Dispersion>().single(&world).expect("one glass that disperses");
+        assert_eq!(own, expected, "{text}");
+        let again = scene_text(&world).expect("exported");
+        let mut world = parsed(&again).unwrap_or_else(|problem| panic!("{problem}\n{again}")).world();
+        assert_eq!(*world.query::<&Dispersion>().single(&world).expect("still one"), expected, "{again}");
+    }
+}
+
+#[test]
 fn numbers_come_back_bit_for_bit() {
     let mut tried = 0;
     for bits in (0..64).flat_map(|bit| [1_u64 << bit, !(1_u64 << bit), 0x3ff0_0000_0000_0000 ^ (1 << bit)]) {

@@ -65,6 +65,7 @@ mod trial;
 pub mod two_classes;
 pub mod two_strategies;
 pub mod vertices;
+pub mod wavelengths;
 pub mod wide_tree;
 
 pub use drawn_image::{DRAWN_IMAGES, DrawnImage};

@@ -4,10 +4,12 @@ use super::check::kind_and_name;
 use super::material::{in_use, used_material};
 use super::motion::{moves_while_open, velocity_of};
 use super::shapes::{listed_kind, moving_shapes, one_shape, shape_name, shapes_with_inside};
-use super::{MaterialTable, NO_ROW, ShapeTable, ShutterTable, TriangleTable, eye, shape_entities};
-use crate::material::{Interior, interior_of, material_entities};
+use super::{
+    MaterialTable, NO_ROW, ShapeTable, ShutterTable, TriangleTable, eye, followed_evidence, needed_if, shape_entities,
+};
+use crate::material::{D_LINE, IndexCurve, Interior, checked_curve, interior_of, material_entities, one_material};
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{SceneError, called};
+use crate::scene::{Dispersion, SceneError, called};
 use crate::shapes::emitter::triangle_solid_angle;
 use crate::shapes::{AnyShape, Bounds};
 use bevy_ecs::prelude::*;
@@ -20,12 +22,14 @@ use std::sync::Arc;
 /// What fills the shapes whose surfaces transmit light, one row for each such material, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GlassTable {
-    /// The index of refraction relative to a vacuum.
+    /// The index of refraction relative to a vacuum; of glass that disperses light, the one at 587.56 nm.
     pub ior: Vec<f64>,
     /// The absorption coefficient per scene unit: red, green, blue, at least 0.
     pub absorption: Vec<[f64; 3]>,
     /// Where two overlap, the one with the higher priority is present.
     pub priority: Vec<u32>,
+    /// The index by wavelength, of glass that disperses light; empty where none does.
+    pub curve: Vec<Option<IndexCurve>>,
 }
 
 impl Table for GlassTable {
@@ -35,17 +39,57 @@ impl Table for GlassTable {
         let mut table = Self::default();
         for &entity in material_entities(scene).iter() {
             let Some(interior) = interior_of(scene, entity)? else { continue };
-            table.ior.push(interior.ior);
+            let curve = curve_of(scene, entity)?;
+            table.ior.push(curve.map_or(interior.ior, |curve| curve.index(D_LINE)));
+            table.curve.push(curve);
             table.absorption.push(interior.absorption);
             table.priority.push(interior.priority);
         }
+        if table.curve.iter().all(Option::is_none) {
+            table.curve.clear();
+        }
+        check_owners(scene)?;
         check_closed(scene)?;
         Ok(table)
     }
 
     fn bytes(&self) -> usize {
-        self.ior.len() * (size_of::<[f64; 4]>() + size_of::<u32>())
+        self.ior.len() * (size_of::<[f64; 4]>() + size_of::<u32>()) + size_of_val(&self.curve[..])
     }
+}
+
+impl GlassTable {
+    /// The index of a row at a wavelength in nm.
+    #[inline(always)]
+    pub fn index_at(&self, row: u32, wavelength: f64) -> f64 {
+        match self.curve.get(row as usize) {
+            Some(Some(curve)) => curve.index(wavelength),
+            _ => self.ior[row as usize],
+        }
+    }
+
+    /// Whether a row's index depends on the wavelength; not that of a vacuum, [`NO_ROW`].
+    #[inline(always)]
+    pub fn disperses(&self, row: u32) -> bool {
+        self.curve.get(row as usize).is_some_and(Option::is_some)
+    }
+}
+
+/// The index of an entity's glass by wavelength, where it has a dispersion.
+fn curve_of(scene: &Census<'_>, entity: Entity) -> Result<Option<IndexCurve>, SceneError> {
+    let Some(&own) = scene.get::<Dispersion>(entity) else { return Ok(None) };
+    checked_curve(&kind_and_name(scene, "dispersion", entity), own).map(Some)
+}
+
+/// Checks that every dispersion is beside a glass that fills shapes.
+fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
+    let owners = scene.entities::<With<Dispersion>>();
+    let Some(&owner) = owners.iter().find(|&&own| !matches!(interior_of(scene, own), Ok(Some(_)))) else {
+        return Ok(());
+    };
+    let value = one_material(scene, owner).map_or("missing", |own| own.word);
+    let accepted = "it belongs on a Glass or RoughGlass, whose index of refraction it gives";
+    Err(SceneError::new(kind_and_name(scene, "dispersion", owner), "material", value, accepted))
 }
 
 /// What a sheet of glass without an interior can be made of.
@@ -247,6 +291,24 @@ fn glass_that(scene: &Census<'_>, noun: &str, such: impl Fn(&Interior) -> bool) 
 /// Evidence that a shape is made of absorbing glass.
 pub fn absorption_evidence(scene: &Census<'_>) -> Evidence {
     glass_that(scene, "absorbing glass surface", |glass| glass.absorption != [0.0; 3])
+}
+
+/// Evidence of a shape filled with glass whose index depends on the wavelength.
+pub fn dispersion_evidence(scene: &Census<'_>) -> Evidence {
+    let in_use = in_use(scene);
+    Evidence::among::<With<Dispersion>>(scene, "dispersing glass surface", |entity| in_use.contains(&entity.id()))
+}
+
+/// Evidence that each path has a wavelength: glass disperses light, and its rays are sampled instead of split.
+pub fn wavelength_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        let sampled = || {
+            let splits = needed_if(scene, |integrator| integrator.transport().splits_at_glass);
+            let reason = format!("{} splits rays instead of sampling them", splits.reason);
+            if splits.needed { Evidence { needed: false, reason, count: 0 } } else { followed_evidence(scene) }
+        };
+        dispersion_evidence(scene).and(sampled)
+    })
 }
 
 /// Evidence that two glass shapes may overlap, according to their bounding boxes.

@@ -8,8 +8,8 @@ use super::lights_of::{light_kinds, shadowed_evidence};
 use super::material::glossy_evidence;
 use super::sky::sky_evidence;
 use super::{
-    GlassTable, ImageFrame, adaptive_of, area_light_evidence, environment_light_evidence, glass_evidence,
-    material_evidence, motion_evidence, specular_evidence,
+    GlassTable, ImageFrame, adaptive_of, area_light_evidence, dispersion_evidence, environment_light_evidence,
+    glass_evidence, material_evidence, motion_evidence, specular_evidence,
 };
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Integrator, LightTracing, PhotonMapping, SceneError, called};
@@ -31,8 +31,8 @@ pub struct ChosenIntegrator {
 // ANCHOR: integrator_of
 /// The integrator of a scene: the one named on its camera, or the simplest that shows everything in the scene.
 ///
-/// Glossy materials such as rough metal, and others in the light of emitting surfaces or of a sky that is not black,
-/// need sampled points and directions, hence path tracing; mirrors and glass lit by lights without an area need none,
+/// Glossy materials such as rough metal, glass that disperses light, and others in the light of emitting surfaces or of a
+/// sky that is not black, need sampled points, directions and wavelengths, hence path tracing; mirrors and glass lit by lights without an area need none,
 /// hence Whitted's method; everything else is seen by ray casting.
 pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
     scene.once(|scene| {
@@ -56,9 +56,9 @@ fn chosen_without_sky(scene: &Census<'_>) -> (Integrator, String) {
     let glossy = glossy_evidence(scene);
     let emitters = emissive_evidence(scene).and(|| material_evidence(scene));
     let specular = specular_evidence(scene);
-    let by_bsdf = glossy.or(emitters);
-    if by_bsdf.needed {
-        return (Integrator::PATH, by_bsdf.reason);
+    let sampled = glossy.or(emitters).or(dispersion_evidence(scene));
+    if sampled.needed {
+        return (Integrator::PATH, sampled.reason);
     }
     if specular.needed && has_points(scene) {
         return (Integrator::WHITTED, specular.reason);
@@ -238,6 +238,10 @@ impl Table for LightTracingTable {
                 "without paths",
                 "paths from the lights complement the camera's: give it the integrator Path()",
             );
+        }
+        if photons.is_some() && dispersion_evidence(scene).needed {
+            let accepted = "a photon and the path that finds it have each a wavelength: use light_tracing";
+            return refused("beside dispersion", accepted);
         }
         if photons.is_none() && !camera_kind(scene)?.has_image_plane {
             return no_image_plane(scene);

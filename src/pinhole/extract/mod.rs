@@ -62,7 +62,10 @@ pub use cameras::{
 };
 pub use contact::{Contact, ContactTable, contact_evidence, glass_contact_evidence, unresolved};
 pub use exposure::exposure_of;
-pub use glass::{GlassBody, GlassBodyTable, GlassTable, absorption_evidence, deep_glass, glass_overlaps, list_around};
+pub use glass::{
+    GlassBody, GlassBodyTable, GlassTable, absorption_evidence, deep_glass, dispersion_evidence, glass_overlaps,
+    list_around, wavelength_evidence,
+};
 pub use image_files::{ImageHead, RemarkedTexels, image_head, image_remarks, one_line, read_exr};
 pub use integrator::{
     ChosenIntegrator, IntegratorTable, LightTracingTable, environment_traced_evidence, followed_evidence,

@@ -74,7 +74,7 @@ impl FilmMoments {
     #[inline(always)]
     pub fn add(&mut self, film: &FilmTile, row: usize, radiance: [f32; 3]) {
         let n = f64::from(film.count_in_block(row));
-        if n == 0.0 || !FilmTile::accepts(radiance) {
+        if n == 0.0 || !film.accepts(radiance) {
             return;
         }
         let mean = film.sum.at(row).map(|sum| sum / n);

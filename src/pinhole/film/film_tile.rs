@@ -56,6 +56,9 @@ pub struct FilmTile {
     pub first_rejected: Vec<Rejected>,
     /// The sums over earlier blocks of samples; none before the second block.
     pub earlier: Option<Box<EarlierBlocks>>,
+    /// The least radiance that a sample may have: 0, or, where paths have wavelengths, whose weights may be negative, the
+    /// least number.
+    pub least: f32,
 }
 
 impl FilmTile {
@@ -76,17 +79,17 @@ impl FilmTile {
         self.earlier = None;
     }
 
-    /// Whether a sample is valid: all components are finite and not negative.
+    /// Whether a sample is valid: all components are finite, and not negative unless they may be.
     #[inline(always)]
-    pub fn accepts(radiance: [f32; 3]) -> bool {
-        let [r, g, b] = radiance.map(|value| (value >= 0.0) & (value < f32::INFINITY));
+    pub fn accepts(&self, radiance: [f32; 3]) -> bool {
+        let [r, g, b] = radiance.map(|value| (value >= self.least) & (value < f32::INFINITY));
         r & g & b
     }
 
     /// Adds a sample to a row, or rejects it if a component is negative or not finite.
     #[inline(always)]
     pub fn add(&mut self, row: usize, radiance: [f32; 3]) {
-        if Self::accepts(radiance) {
+        if self.accepts(radiance) {
             self.sum.add(row, radiance.map(f64::from));
             self.count[row] += 1;
         } else {
@@ -98,7 +101,7 @@ impl FilmTile {
     pub fn add_rows(&mut self, radiance: [&[f32]; 3]) {
         let [r, g, b] = radiance;
         let samples = r.iter().zip(g).zip(b).map(|((&r, &g), &b)| [r, g, b]);
-        if samples.clone().fold(true, |all, sample| all & Self::accepts(sample)) {
+        if samples.clone().fold(true, |all, sample| all & self.accepts(sample)) {
             for (sums, parts) in self.sum.iter_mut().zip(radiance) {
                 sums.iter_mut().zip(parts).for_each(|(sum, &part)| *sum += f64::from(part));
             }
@@ -126,7 +129,7 @@ impl FilmTile {
     #[inline(never)]
     pub fn add_negative(&mut self, row: usize, radiance: [f32; 3]) {
         self.add(row, radiance);
-        if Self::accepts(radiance) {
+        if self.accepts(radiance) {
             let rows = self.rows();
             self.negative_count.resize(rows, 0);
             self.negative_count[row] += 1;
@@ -273,7 +276,7 @@ impl Film {
         self.moments.par_iter_mut().for_each(FilmMoments::empty);
         self.layers.par_iter_mut().for_each(FilmLayers::empty);
         if let Some(splats) = &mut self.splats {
-            *splats = FilmSplats::new(self.width, self.height);
+            *splats = splats.emptied();
         }
         self.done.fill(0);
         self.planned.clear();
@@ -283,11 +286,12 @@ impl Film {
     /// A film of the same size and contents without samples.
     pub fn emptied(&self) -> Self {
         let mut film = Self::of_part(self.part(), self.tile_side);
+        film.tiles.iter_mut().zip(&self.tiles).for_each(|(tile, own)| tile.least = own.least);
         let rows = |tile: &FilmTile| tile.tile.rows();
         if !self.moments.is_empty() {
             film.moments = film.tiles.iter().map(|tile| FilmMoments::new(rows(tile))).collect();
         }
-        film.splats = self.splats.as_ref().map(|_| FilmSplats::new(self.width, self.height));
+        film.splats = self.splats.as_ref().map(FilmSplats::emptied);
         if let Some(layers) = self.layers.first() {
             film.layers = film.tiles.iter().map(|tile| FilmLayers::new(rows(tile), &layers.kinds)).collect();
         }

@@ -62,9 +62,10 @@ fn is_plausible_part(
     let negative = tile.negative_count.iter().zip(&tile.count).all(|(negative, count)| negative <= count);
     let rejected = tile.rejected <= tile.count.len() as u64 * u64::from(max);
     let earlier = tile.earlier.iter().flat_map(|earlier| earlier.sum.iter().chain(&earlier.negative));
-    let sums = tile.sum.iter().chain(&tile.negative).chain(earlier).all(|component| is_valid(component));
+    let is_sum = |component: &Vec<f64>| is_valid(component, f64::from(tile.least));
+    let sums = tile.sum.iter().chain(&tile.negative).chain(earlier).all(is_sum);
     let before = tile.earlier.iter().all(|earlier| earlier.count.iter().zip(&tile.count).all(|(own, all)| own <= all));
-    let valid = |own: &FilmMoments| own.sum.iter().chain(&own.earlier).all(|component| is_valid(component));
+    let valid = |own: &FilmMoments| own.sum.iter().chain(&own.earlier).all(|component| is_valid(component, 0.0));
     let layers = layers.is_none_or(|own| {
         let hits = own.hits.iter().zip(&own.taken).all(|(hits, taken)| hits <= taken);
         are_plausible_mattes(own) && hits && own.taken.iter().all(|&taken| taken <= max)
@@ -92,6 +93,8 @@ fn are_plausible(splats: &FilmSplats, film: &Film, max: u32) -> bool {
     splats.paths <= paths && splats.sums.iter().flatten().all(|sum| sum.is_finite())
 }
 
-fn is_valid(component: &[f64]) -> bool {
-    component.iter().all(|sum| (0.0..f64::INFINITY).contains(sum))
+/// Whether sums of samples that are at least 0, or may be negative, are such sums.
+fn is_valid(component: &[f64], least: f64) -> bool {
+    let least = if least < 0.0 { f64::MIN } else { 0.0 };
+    component.iter().all(|sum| (least..f64::INFINITY).contains(sum))
 }

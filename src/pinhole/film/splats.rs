@@ -15,6 +15,8 @@ pub struct FilmSplats {
     pub paths: u64,
     /// Number of splats rejected, because a component was negative or not finite.
     pub rejected: u64,
+    /// The least component that a splat may have: 0, or the least number, as for a [`FilmTile`](super::FilmTile).
+    pub least: f64,
 }
 
 impl FilmSplats {
@@ -24,13 +26,18 @@ impl FilmSplats {
         Self { size: [width, height], sums: [zeros(), zeros(), zeros()], ..Self::default() }
     }
 
+    /// The same without what was added.
+    pub(super) fn emptied(&self) -> Self {
+        Self { least: self.least, ..Self::new(self.size[0], self.size[1]) }
+    }
+
     // ANCHOR: add_splat
     /// Splats a contribution at a raster point onto every pixel within the filter's radius, with weight f / ∫f.
     ///
     /// A camera sample at that point has the same expected weight in those pixels, so light from both kinds of paths
     /// passes through the same filter.
     pub fn add(&mut self, filter: &mut SplatFilter, [x, y]: [f64; 2], light: [f64; 3]) {
-        if !light.iter().all(|value| (0.0..f64::INFINITY).contains(value)) {
+        if !light.iter().all(|value| (self.least..f64::INFINITY).contains(value)) {
             self.rejected += 1;
             return;
         }

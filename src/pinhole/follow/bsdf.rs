@@ -219,15 +219,20 @@ pub fn connections_stage<B: Bsdf>() -> Stage {
     at_interfaces::<B>(stage).on_light_paths().when(|scene| joined_evidence(scene).and(|| bsdf_evidence::<B>(scene)))
 }
 
-/// Requests what is known of the media at surfaces that transmit light, and of nothing of the kind elsewhere.
+/// Requests what is known of the media at surfaces that transmit light, where the scene gives a reason.
+pub(super) fn at_interfaces_where(stage: Stage, reason: fn(&Census<'_>) -> Evidence) -> Stage {
+    stage
+        .reads_where::<SurfaceSides>(reason)
+        .reads_where::<Media>(media_evidence)
+        .reads_where::<DeeperMedia>(deeper_media_evidence)
+        .reads_where::<Contacts>(glass_contact_evidence)
+}
+
+/// Requests what is known of the media at surfaces of a BSDF that transmits light, and of nothing of the kind elsewhere.
 pub(super) fn at_interfaces<B: Bsdf>(stage: Stage) -> Stage {
     let never = |_: &Census<'_>| Evidence::default();
     if B::TRANSMITS {
-        stage
-            .reads_where::<SurfaceSides>(bsdf_evidence::<B>)
-            .reads_where::<Media>(media_evidence)
-            .reads_where::<DeeperMedia>(deeper_media_evidence)
-            .reads_where::<Contacts>(glass_contact_evidence)
+        at_interfaces_where(stage, bsdf_evidence::<B>)
     } else {
         stage
             .table_where::<GlassTable>(never)

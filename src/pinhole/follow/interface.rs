@@ -4,6 +4,7 @@ use crate::extract::{GlassTable, NO_ROW};
 use crate::intersect::{Contacts, GlassCrossing, SurfaceSides};
 use crate::material::{fresnel, layered_reflectance};
 use crate::plan::Shared;
+use crate::rays::Wavelengths;
 use bevy_ecs::query::QueryData;
 
 /// What is known of the media on both sides of surfaces, where light is transmitted.
@@ -17,6 +18,8 @@ pub struct InterfaceView {
     deeper: Option<&'static DeeperMedia>,
     /// The surfaces that are crossed together with them, where any may coincide.
     contacts: Option<&'static Contacts>,
+    /// The wavelengths of the rays, where any glass disperses light.
+    wavelengths: Option<&'static Wavelengths>,
 }
 
 /// The same, with the table of the media.
@@ -26,13 +29,14 @@ pub(super) struct Interface<'a> {
     media: Option<&'a Media>,
     deeper: Option<&'a DeeperMedia>,
     contacts: Option<&'a Contacts>,
+    wavelengths: Option<&'a Wavelengths>,
 }
 
 impl<'a> Interface<'a> {
     #[inline(always)]
     pub fn new(view: InterfaceViewItem<'a, '_>, glass: Option<&'a Shared<GlassTable>>) -> Self {
-        let InterfaceViewItem { sides, media, deeper, contacts } = view;
-        Self { glass: glass.map(|glass| &**glass), sides, media, deeper, contacts }
+        let InterfaceViewItem { sides, media, deeper, contacts, wavelengths } = view;
+        Self { glass: glass.map(|glass| &**glass), sides, media, deeper, contacts, wavelengths }
     }
 
     /// The media on the near and the far side of a row's surface, where `own` fills the shape; without a column of
@@ -60,8 +64,27 @@ impl<'a> Interface<'a> {
     #[inline(always)]
     pub fn eta(&self, own: u32, row: usize) -> f64 {
         let (Some(glass), Some(_)) = (self.glass, self.sides) else { return 1.0 };
-        let [near, far] = self.media(own, row).map(|of| if of == NO_ROW { 1.0 } else { glass.ior[of as usize] });
+        let [near, far] = self.media(own, row).map(|of| self.index(glass, of, row));
         far / near
+    }
+
+    /// The index of a medium for a row's ray: at its wavelength, where it has one.
+    #[inline(always)]
+    fn index(&self, glass: &GlassTable, of: u32, row: usize) -> f64 {
+        match self.wavelengths {
+            _ if of == NO_ROW => 1.0,
+            None => glass.ior[of as usize],
+            Some(wavelengths) => glass.index_at(of, wavelengths.nm(row)),
+        }
+    }
+
+    /// Whether light of each wavelength goes its own way from a row's surface, where `own` fills the shape.
+    #[inline(always)]
+    pub fn disperses(&self, own: u32, row: usize) -> bool {
+        let Some(glass) = self.glass else { return false };
+        let [near, far] = self.media(own, row);
+        near != far && (glass.disperses(near) || glass.disperses(far))
+            || self.crossings(row).iter().any(|other| glass.disperses(other.glass))
     }
 
     /// The media around a row's ray origin beyond the fourth.
@@ -97,8 +120,8 @@ impl<'a> Interface<'a> {
         });
         let far = near.top_beyond(deeper, crossings.iter(), priorities);
         let media = std::iter::once(near.top()).chain(within).chain([far]);
-        let indices = media.map(|of| if of == NO_ROW { 1.0 } else { glass.ior[of as usize] });
-        let first = if near.top() == NO_ROW { 1.0 } else { glass.ior[near.top() as usize] };
+        let indices = media.map(|of| self.index(glass, of, row));
+        let first = self.index(glass, near.top(), row);
         let mut last = None;
         let surfaces = indices.filter_map(|index| {
             let before = last.replace(index)?;

@@ -18,6 +18,7 @@
 mod absorb;
 mod beyond_contacts;
 mod bsdf;
+mod dispersion;
 mod emission;
 mod interface;
 mod light_paths;
@@ -42,6 +43,7 @@ pub use bsdf::{
     connections_stage, direct_light_stage, matte_direct_light_stage, mis_bsdf, mis_stage, sample_bsdf,
     sample_from_lights_stage, sample_stage, stages_of,
 };
+pub use dispersion::{carry_wavelengths, carry_wavelengths_stage, weight_by_wavelength, weight_by_wavelength_stage};
 pub use emission::{add_mis_emission, add_mis_environment, mis_emission_stage, mis_environment_stage, power_heuristic};
 pub use light_paths::{
     CausticPaths, LIGHT_PATHS, LightPower, Splats, caustic_paths_stage, correct_for_shading_normals,

@@ -5,11 +5,14 @@ use super::previous_surfaces::previous_surface_evidence;
 use super::{CausticPaths, DeeperMedia, Media, PreviousSurfaces};
 use crate::extract::{
     IntegratorTable, SamplingTable, filtered_evidence, followed_evidence, motion_evidence, needed_if, photon_evidence,
+    wavelength_evidence,
 };
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces};
 use crate::material::{Bsdf, BsdfSample};
 use crate::plan::{Bounce, Column, Shared, Stage, StageKind, TileSystems, VectorRows, VectorRowsMut, column};
-use crate::rays::{Depth, DrawsView, PathLight, Paths, RayTimes, WorldRays, draws_of_one, ray_vectors};
+use crate::rays::{
+    Depth, DrawsView, PathLight, Paths, RayTimes, WavelengthWeights, Wavelengths, WorldRays, draws_of_one, ray_vectors,
+};
 use crate::sample::Purpose;
 use crate::shade::{Footprints, Radiance};
 use crate::shapes::offset_origin;
@@ -269,6 +272,8 @@ pub fn remaining_bounces_stage() -> Stage {
         .reads_where::<PreviousSurfaces>(previous_surface_evidence)
         .reads_where::<CausticPaths>(photon_evidence)
         .reads_where::<RayTimes>(motion_evidence)
+        .reads_where::<Wavelengths>(wavelength_evidence)
+        .reads_where::<WavelengthWeights>(wavelength_evidence)
         .reads_where::<Footprints>(filtered_evidence)
         .reads::<PathLight>()
         .writes::<PathLight>()
@@ -375,7 +380,8 @@ pub fn play_roulette(
         for row in 0..scattered.rows() {
             let scale = if scattered.pdf[row] == f64::INFINITY { integrator.eta_scale } else { 1.0 };
             let throughput = scattered.throughput(row);
-            let probability = survival_probability(throughput.map(|part| part * scale));
+            // The weight of a wavelength may be negative.
+            let probability = survival_probability(throughput.map(|part| (part * scale).abs()));
             if numbers[row] < probability {
                 scattered.moved(row, kept);
                 let more = 1.0 / probability;

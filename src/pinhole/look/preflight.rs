@@ -8,15 +8,17 @@ use super::slow::{Effort, many_bounces, many_light_bounces, never_done, slow, wh
 use crate::extract::{
     AreaLightTable, CameraAxes, EmissiveTable, ImageFrame, IntegratorTable, LightPathTable, LightTracingTable,
     OrthographicWindow, PerspectiveProjection, SamplingTable, ShapeTable, area_light_evidence, camera_entity,
-    contact_evidence, delta_light_shines, distant_start_evidence, emissive_evidence, environment_light_evidence,
-    exposure_of, followed_evidence, glossy_evidence, integrator_of, joined_evidence, listed_kind, matte_evidence,
-    photon_evidence, pixel_width, point_evidence, shadowed_distant_evidence, shadowed_point_evidence, shape_name,
-    sky_evidence, specular_evidence, starts_on_glass, traced_evidence, unresolved,
+    contact_evidence, delta_light_shines, dispersion_evidence, distant_start_evidence, emissive_evidence,
+    environment_light_evidence, exposure_of, followed_evidence, glossy_evidence, integrator_of, joined_evidence,
+    listed_kind, matte_evidence, photon_evidence, pixel_width, point_evidence, shadowed_distant_evidence,
+    shadowed_point_evidence, shape_name, sky_evidence, specular_evidence, starts_on_glass, traced_evidence, unresolved,
 };
 use crate::film::srgb_from_linear;
+use crate::material::{D_LINE, IndexCurve, interior_of};
 use crate::plan::{Census, ExtractedTable, Plan, counted};
-use crate::scene::{Exposure, LightTransport, OrthographicCamera, PerspectiveCamera};
+use crate::scene::{Dispersion, Exposure, Glass, LightTransport, OrthographicCamera, PerspectiveCamera, called};
 use crate::{Error, Result};
+use bevy_ecs::prelude::With;
 use glam::DVec3;
 use std::time::{Duration, Instant};
 
@@ -93,6 +95,7 @@ pub fn foretell(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), condit
     warnings.extend(unresolved_glass(scene)?);
     warnings.extend(on_the_surface(scene)?);
     warnings.extend(unseen(scene));
+    warnings.extend(unused_indices(scene)?);
     warnings.extend(emitters(scene)?);
     warnings.extend(missing_paths(scene, &pilot));
     warnings.extend(odd_radius(scene)?);
@@ -432,6 +435,13 @@ pub fn unseen(scene: &Census<'_>) -> Vec<String> {
             specular.reason
         ));
     }
+    let disperses = dispersion_evidence(scene);
+    if disperses.needed && does.splits_at_glass {
+        warnings.push(format!(
+            "{name} shows glass that disperses light with its index at 587.56 nm ({}); Integrator::Path parts the colours",
+            disperses.reason
+        ));
+    }
     if glossy.needed && does.follows_paths && !does.samples_glossy {
         warnings.push(format!(
             "{name} shows only lights without an area on glossy surfaces ({}); Integrator::Path shows the rest",
@@ -455,6 +465,30 @@ pub fn unseen(scene: &Census<'_>) -> Vec<String> {
         ));
     }
     warnings
+}
+
+/// How far an index of refraction may be from that of the dispersion beside it before this is said.
+const ROUNDED: f64 = 1e-3;
+
+/// A sentence for each glass whose index of refraction is written and not used, since a dispersion beside it gives another.
+///
+/// Errors: a glass or a dispersion that is not accepted.
+pub fn unused_indices(scene: &Census<'_>) -> Result<Vec<String>> {
+    let mut warnings = Vec::new();
+    for &entity in scene.entities::<With<Dispersion>>().iter() {
+        let (Some(own), Some(&dispersion)) = (interior_of(scene, entity)?, scene.get::<Dispersion>(entity)) else {
+            continue;
+        };
+        let index = IndexCurve::of(dispersion).index(D_LINE);
+        if own.ior != Glass::default().ior && (own.ior - index).abs() > ROUNDED {
+            warnings.push(format!(
+                "the glass {} has the ior {}, which is not used: its dispersion gives {index:.4} at 587.56 nm",
+                called(scene, entity),
+                own.ior
+            ));
+        }
+    }
+    Ok(warnings)
 }
 
 /// Warnings of glass that is thinner, or nearer to another surface, than single precision can keep apart.

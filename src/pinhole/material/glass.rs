@@ -8,7 +8,12 @@ use crate::scene::{Glass, SceneError};
 use glam::DVec3;
 
 /// The least accepted index of refraction, and the reciprocal of the greatest.
-const MIN_INDEX: f64 = 1e-3;
+pub(super) const MIN_INDEX: f64 = 1e-3;
+
+/// Whether a number is accepted as an index of refraction.
+pub(super) fn is_index(ior: f64) -> bool {
+    (MIN_INDEX..=1.0 / MIN_INDEX).contains(&ior)
+}
 
 // ANCHOR: glass_samples
 /// Both directions at a smooth surface to a medium of relative index η: specular reflection, and refraction with the
@@ -76,7 +81,7 @@ impl Table for SmoothGlass {
 /// Index, absorption and priority of a dielectric, checked.
 pub(super) fn checked_interior(who: &str, glass: &Glass) -> Result<Interior, SceneError> {
     let Glass { ior, absorption, priority } = *glass;
-    if !(MIN_INDEX..=1.0 / MIN_INDEX).contains(&ior) {
+    if !is_index(ior) {
         let accepted = format!("it must be a number from {MIN_INDEX} to {}", 1.0 / MIN_INDEX);
         return Err(SceneError::new(who, "ior", number(ior), accepted));
     }

@@ -18,6 +18,7 @@
 
 mod blinn_phong;
 mod bsdf;
+mod dispersion;
 mod frame;
 mod fresnel;
 mod ggx;
@@ -102,6 +103,8 @@ macro_rules! custom_bsdf {
 pub use custom_bsdf;
 
 pub use blinn_phong::{BlinnPhongLobe, BlinnPhongTable, blinn_phong_peak, half_vector_cosine};
+pub(crate) use dispersion::checked_curve;
+pub use dispersion::{D_LINE, IndexCurve};
 pub use frame::{cosine_direction, cosine_pdf, frame_of};
 pub use fresnel::{fresnel, fresnel_parts, mirror_direction, refract};
 pub use ggx::{MicrofacetSample, ggx_brdf, ggx_d, ggx_g1, ggx_lambda, ggx_sample, visible_normal, visible_pdf};

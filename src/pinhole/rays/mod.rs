@@ -27,6 +27,7 @@ mod place_samples;
 mod project;
 mod raster;
 mod screen;
+mod wavelengths;
 mod world;
 
 #[doc(hidden)]
@@ -62,6 +63,8 @@ pub use raster::{Tile, fill_raster, raster_from_pixel, raster_stage};
 pub use screen::ScreenPoints;
 #[doc(hidden)]
 pub use screen::{fill_screen, screen_from_ndc, screen_stage};
+#[doc(hidden)]
+pub use wavelengths::{WavelengthWeights, Wavelengths, draw_wavelengths, wavelength_stage};
 pub use world::WorldRays;
 pub(crate) use world::ray_vectors;
 #[doc(hidden)]

@@ -10,7 +10,7 @@ use crate::extract::{ImageFrame, LayerTable, SamplingTable, adaptive_of};
 use crate::film::{BLOCK, Curve, FileAttributes, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
 use crate::follow::{PhotonMap, Splats, Stop};
 use crate::plan::{Census, ExtractedTable, Plan, Shared, Stage, Table};
-use crate::rays::{PixelSamples, Tile};
+use crate::rays::{PixelSamples, Tile, Wavelengths};
 use crate::scene::check_workers;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
@@ -330,6 +330,10 @@ pub(super) fn film_for(scene: &Census<'_>, plan: &Plan, mut film: Film) -> Film 
     if plan.keeps::<FilmLayers>() {
         let kinds = LayerTable::kinds_of(scene);
         film.layers = rows.map(|rows| FilmLayers::new(rows, &kinds)).collect();
+    }
+    if plan.keeps::<Wavelengths>() {
+        film.tiles.iter_mut().for_each(|tile| tile.least = f32::MIN);
+        film.splats.iter_mut().for_each(|splats| splats.least = f64::MIN);
     }
     film
 }

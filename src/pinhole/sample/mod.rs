@@ -24,6 +24,7 @@ mod mean_error;
 mod owen;
 mod purpose;
 mod sobol;
+mod spectrum;
 mod stratified;
 
 pub use crate::filters::{box_offset, table_offset, tent_offset};
@@ -34,6 +35,7 @@ pub use mean_error::{INTEGRANDS, Integrand, MeanError, mean_error, slope};
 pub use owen::owen_scrambled;
 pub use purpose::{DIMENSIONS, Purpose};
 pub use sobol::{Sobol, sobol_bits};
+pub use spectrum::{SPECTRUM, colour_matching, wavelength_sample, white_share};
 pub use stratified::{Stratified, permuted, strata_of};
 
 /// Which of a pixel's samples random numbers are for.

@@ -96,6 +96,7 @@ const fn place_of(purpose: Purpose) -> (u32, u32) {
         Purpose::EnvironmentPoint => (3, 0),
         Purpose::Roulette => (4, 0),
         Purpose::DeltaLightChoice => (5, 0),
+        Purpose::Wavelength => (5, 1),
     }
 }
 
