@@ -28,11 +28,13 @@ pub enum Purpose {
     EnvironmentPoint,
     /// The choice of one of many lights without an area.
     DeltaLightChoice,
+    /// The distance to a scattering event in a medium.
+    Distance,
 }
 
 impl Purpose {
     /// All purposes.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Pixel,
         Self::Lens,
         Self::LightPoint,
@@ -43,13 +45,19 @@ impl Purpose {
         Self::Time,
         Self::EnvironmentPoint,
         Self::DeltaLightChoice,
+        Self::Distance,
     ];
 
     /// The number of dimensions that it needs: 1 or 2.
     pub const fn numbers(self) -> u32 {
         match self {
             Self::Pixel | Self::Lens | Self::LightPoint | Self::Direction | Self::EnvironmentPoint => 2,
-            Self::LightChoice | Self::MaterialChoice | Self::Roulette | Self::Time | Self::DeltaLightChoice => 1,
+            Self::LightChoice
+            | Self::MaterialChoice
+            | Self::Roulette
+            | Self::Time
+            | Self::DeltaLightChoice
+            | Self::Distance => 1,
         }
     }
 
@@ -67,6 +75,7 @@ impl Purpose {
             Self::Time => 11,
             Self::EnvironmentPoint => 12,
             Self::DeltaLightChoice => 14,
+            Self::Distance => 15,
         };
         depth * DIMENSIONS + within
     }
