@@ -106,17 +106,24 @@ pub fn sample_distance(stretches: &[Stretch], throughput: [f64; 3], number: f64)
             add_depth(&mut depths, extinction, reached);
             let (sampled, reached_by) = (transmittances(rates), transmittances(depths));
             let pdf = (0..3).map(|part| choice[part] * rate[part] * sampled[part]).sum::<f64>();
-            let weight = [0, 1, 2].map(|part| stretch.sum.scattering[part] * reached_by[part] / pdf);
-            return SampledDistance { t: Some(stretch.from + reached), weight };
+            let weight = |part: usize| over(choice[part], stretch.sum.scattering[part] * reached_by[part], pdf);
+            return SampledDistance { t: Some(stretch.from + reached), weight: [0, 1, 2].map(weight) };
         }
         add_depth(&mut rates, rate, length);
         add_depth(&mut depths, extinction, length);
     }
     let sampled = transmittances(rates);
     let probability = (0..3).map(|part| choice[part] * sampled[part]).sum::<f64>();
-    SampledDistance { t: None, weight: transmittances(depths).map(|part| part / probability) }
+    let reached_by = transmittances(depths);
+    SampledDistance { t: None, weight: [0, 1, 2].map(|part| over(choice[part], reached_by[part], probability)) }
 }
 // ANCHOR_END: sample_distance
+
+/// A value over its pdf; 0 for a colour that the path does not carry, whose quotient may be no number.
+#[inline(always)]
+fn over(choice: f64, value: f64, pdf: f64) -> f64 {
+    if choice > 0.0 && pdf >= f64::MIN_POSITIVE { value / pdf } else { 0.0 }
+}
 
 /// Chooses one of three with these probabilities, and what is left of the number, in [0, 1) again.
 #[inline(always)]
@@ -232,5 +239,136 @@ impl MediaAlong {
         let probability = scatters(medium) / sum;
         let of_all = |part: usize| if all[part] > 0.0 { of(medium)[part] / all[part] / probability } else { 0.0 };
         (medium, [0, 1, 2].map(of_all))
+    }
+}
+
+#[cfg(test)]
+mod distance_tests {
+    use super::*;
+    use crate::measure::draws::Draws;
+
+    fn stretch(from: f64, to: f64, absorption: [f64; 3], scattering: [f64; 3]) -> Stretch {
+        let extinction = [0, 1, 2].map(|part| absorption[part] + scattering[part]);
+        Stretch { from, to, sum: Coefficients { extinction, scattering, emission: [0.0; 3] } }
+    }
+
+    /// Stretches with gaps, of which some absorb, some scatter and some do both, by different amounts in each colour.
+    fn examples() -> Vec<Vec<Stretch>> {
+        vec![
+            vec![stretch(0.0, f64::INFINITY, [0.0; 3], [1.0, 2.0, 0.3])],
+            vec![stretch(0.5, 2.0, [0.3, 0.0, 2.0], [0.7, 1.0, 0.1])],
+            vec![
+                stretch(0.0, 0.4, [1.0, 0.2, 0.0], [0.0; 3]),
+                stretch(0.4, 1.0, [0.1; 3], [3.0, 0.0, 0.5]),
+                stretch(1.7, 2.5, [0.0; 3], [0.2, 4.0, 1.0]),
+            ],
+            vec![stretch(0.0, 1.0, [5.0; 3], [0.0; 3])],
+            vec![stretch(0.0, 1e-6, [1.0; 3], [1e6, 1e3, 1.0]), stretch(1e-6, 3.0, [0.0; 3], [0.2, 1e-2, 0.0])],
+        ]
+    }
+
+    /// The mean over all samples of what reaches a distance, or is scattered before it, is its integral: of survival the
+    /// transmittance, of scattering ∫ σs T, and of its distance ∫ t σs T.
+    #[test]
+    fn means_are_integrals() {
+        const SAMPLES: u32 = 400_000;
+        let (mut tried, mut worst) = (0, 0.0_f64);
+        for (example, stretches) in examples().iter().enumerate() {
+            for throughput in [[1.0; 3], [1.0, 0.1, 0.0], [1e-6, 1.0, 30.0]] {
+                let mut sums = [[[0.0_f64; 2]; 3]; 3];
+                for index in 0..SAMPLES {
+                    // Stratified, so that little noise is left.
+                    let jitter = Draws::new(17, u64::from(index)).unit();
+                    let number = (f64::from(index) + jitter) / f64::from(SAMPLES);
+                    let SampledDistance { t, weight } = sample_distance(stretches, throughput, number);
+                    for part in 0..3 {
+                        let carried = throughput[part] * weight[part];
+                        assert!(carried.is_finite() && carried >= 0.0);
+                        let of = match t {
+                            None => [carried, 0.0, 0.0],
+                            Some(t) => [0.0, carried, carried * t.min(1e3)],
+                        };
+                        for (sum, value) in sums[part].iter_mut().zip(of) {
+                            sum[0] += value;
+                            sum[1] += value * value;
+                        }
+                    }
+                }
+                for part in 0..3 {
+                    let truth = integrals(stretches, part).map(|own| own * throughput[part]);
+                    for (sum, truth) in sums[part].iter().zip(truth) {
+                        let (count, mean) = (f64::from(SAMPLES), sum[0] / f64::from(SAMPLES));
+                        let error = ((sum[1] / count - mean * mean).max(0.0) / count).sqrt();
+                        let off = (mean - truth) / error.max(1e-9 * truth).max(1e-300);
+                        worst = worst.max(off.abs());
+                        assert!(
+                            off.abs() < 4.0,
+                            "example {example}, {throughput:?}, colour {part}: {mean} for {truth}"
+                        );
+                        tried += 1;
+                    }
+                }
+            }
+        }
+        eprintln!(
+            "distances: {tried} means of {SAMPLES} samples, worst {worst:.2} standard errors of independent ones"
+        );
+    }
+
+    /// T at the end, ∫ σs T and ∫ t σs T, stretch by stretch in closed form.
+    fn integrals(stretches: &[Stretch], part: usize) -> [f64; 3] {
+        let (mut transmitted, mut scattered, mut moment) = (1.0, 0.0, 0.0);
+        for Stretch { from, to, sum } in stretches {
+            let (sigma, length) = (sum.extinction[part], to - from);
+            if sigma == 0.0 {
+                continue;
+            }
+            let through = libm::exp(-sigma * length);
+            let within = if length.is_finite() { length * through } else { 0.0 };
+            let lost = -libm::expm1(-sigma * length);
+            scattered += transmitted * sum.scattering[part] / sigma * lost;
+            moment += transmitted * sum.scattering[part] / sigma * (from * lost + lost / sigma - within);
+            transmitted *= through;
+        }
+        [transmitted, scattered, moment]
+    }
+
+    /// Where nothing is absorbed, the sum of the colours stays what it was, whatever is sampled: no weight exceeds it.
+    #[test]
+    fn the_sum_of_the_colours_is_kept() {
+        let stretches = [stretch(0.2, 1.0, [0.0; 3], [9.0, 0.5, 0.0]), stretch(1.0, 4.0, [0.0; 3], [0.1, 3.0, 1.0])];
+        let mut tried = 0;
+        for index in 0..10_000 {
+            let mut draws = Draws::new(5, index);
+            let throughput = [draws.unit(), draws.unit() * 1e-3, draws.unit() * 1e3];
+            let sampled = sample_distance(&stretches, throughput, draws.unit());
+            let sum: f64 = (0..3).map(|part| throughput[part] * sampled.weight[part]).sum();
+            assert!((sum / throughput.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{sampled:?}");
+            tried += 1;
+        }
+        eprintln!("distances: {tried} samples keep the sum of the colours");
+    }
+
+    /// No number is lost at either end of what is accepted, nor with numbers at the ends of [0, 1).
+    #[test]
+    fn extremes_are_numbers() {
+        let mut tried = 0;
+        for scattering in [0.0, 1e-300, 1e-30, 1.0, 1e30, 3e38] {
+            for absorption in [0.0, 1e-300, 1.0, 3e38] {
+                for end in [1e-18, 1.0, 1e18, f64::INFINITY] {
+                    for number in [0.0, 0.5, 1.0 - f64::EPSILON / 2.0, 1.0 - 1.0 / 4_294_967_296.0] {
+                        for throughput in [[1.0; 3], [0.0; 3], [1e-300, 1.0, 0.0]] {
+                            let stretches = [stretch(0.0, end, [absorption; 3], [scattering, 0.0, 1.0])];
+                            let sampled = sample_distance(&stretches, throughput, number);
+                            let SampledDistance { t, weight } = sampled;
+                            assert!(weight.iter().all(|own| own.is_finite() && *own >= 0.0), "{sampled:?}");
+                            assert!(t.is_none_or(|t| (0.0..=end).contains(&t) && t.is_finite()), "{sampled:?}");
+                            tried += 1;
+                        }
+                    }
+                }
+            }
+        }
+        eprintln!("distances: {tried} at the ends of what is accepted");
     }
 }

@@ -129,3 +129,109 @@ impl Bsdf for PhaseTable {
         [0.0, 0.9, -0.9, 0.999_999, -0.999_999].map(of).into()
     }
 }
+
+#[cfg(test)]
+mod phase_tests {
+    use super::*;
+    use crate::measure::draws::Draws;
+
+    /// Mean cosines from isotropic to all but a delta distribution.
+    const SIZES: [f64; 9] = [0.0, 1e-12, 1e-3, 0.3, 0.7, 0.9, 0.99, 0.999, 0.999_999];
+
+    fn both_signs() -> impl Iterator<Item = f64> {
+        SIZES.into_iter().flat_map(|g| [g, -g])
+    }
+
+    /// The integral over all directions of the phase function times a function of 1 − cos θ, in steps that shrink towards
+    /// the peak.
+    fn over_directions(g: f64, of: impl Fn(f64) -> f64) -> f64 {
+        const STEPS: i32 = 400_000;
+        let bound = |step: i32| libm::exp2(1.0 - 60.0 * (1.0 - f64::from(step) / f64::from(STEPS)));
+        let off = |from_peak: f64| if g < 0.0 { 2.0 - from_peak } else { from_peak };
+        let part = |from: f64, to: f64| {
+            let middle = off(0.5 * (from + to));
+            2.0 * PI * henyey_greenstein(g, middle) * of(middle) * (to - from)
+        };
+        part(0.0, bound(0)) + (0..STEPS).map(|step| part(bound(step), bound(step + 1))).sum::<f64>()
+    }
+
+    #[test]
+    fn it_integrates_to_one_and_its_mean_cosine_is_g() {
+        let mut worst = 0.0_f64;
+        for g in both_signs() {
+            let (all, mean) = (over_directions(g, |_| 1.0), over_directions(g, |off| 1.0 - off));
+            let square = over_directions(g, |off| (1.0 - off) * (1.0 - off));
+            worst = worst.max((all - 1.0).abs()).max((mean - g).abs()).max((square - (1.0 + 2.0 * g * g) / 3.0).abs());
+        }
+        eprintln!(
+            "phase function: {} mean cosines, integral and two moments off by at most {worst:.1e}",
+            2 * SIZES.len()
+        );
+        // Where the peak is as narrow as 1e-12, 1 − cos θ near −1 is rounded by some of its width.
+        assert!(worst < 1e-4, "{worst}");
+    }
+
+    #[test]
+    fn sampled_angles_invert_the_distribution() {
+        let mut worst = 0.0_f64;
+        for g in both_signs() {
+            for step in 1..1000 {
+                let u = f64::from(step) / 1000.0;
+                let off = henyey_greenstein_sample(g, u);
+                // From the peak, the cumulative distribution is (1 + g) / 2g · (1 − (1 − g) / √((1 − g)² + 2g off)).
+                let (size, off) = (g.abs(), if g < 0.0 { 2.0 - off } else { off });
+                let (least, u) = (1.0 - size, 1.0 - u);
+                let root = (least * least + 2.0 * size * off).sqrt();
+                let below = (1.0 + size) * off / (root * (root + least));
+                // With a peak of 1e-12 about −1, 2 − off keeps four digits of its width.
+                let tolerance = if g < -0.99 { 1e-3 } else { 1e-11 };
+                assert!((below - u).abs() < tolerance, "g {g}, {u}: {below}");
+                worst = worst.max((below - u).abs());
+            }
+        }
+        eprintln!("phase function: 17982 angles sampled, their cumulative probability off by at most {worst:.1e}");
+    }
+
+    /// A sample's pdf is that of its direction, and so many of them fall into each part of the sphere.
+    #[test]
+    fn samples_are_distributed_by_their_pdf() {
+        const SAMPLES: u64 = 200_000;
+        const PARTS: usize = 20;
+        let (mut tried, mut worst) = (0, 0.0_f64);
+        for g in [-0.9, -0.3, 0.0, 0.5, 0.95] {
+            let table = PhaseTable { anisotropy: vec![g] };
+            let site = ShadingContext::opaque(0, Parameters::default());
+            let mut counts = [0_u32; PARTS];
+            let mut round = [0.0; 2];
+            for index in 0..SAMPLES {
+                let mut draws = Draws::new(39, index);
+                let to_eye = DVec3::Z;
+                let sample = table.sample(&site, to_eye, [draws.unit(), draws.unit()], 0.0).expect("a direction");
+                assert!((sample.to_light.length() - 1.0).abs() < 1e-12 && sample.weight == [1.0; 3]);
+                let again = table.pdf(&site, sample.to_light, to_eye);
+                assert!((again / sample.pdf - 1.0).abs() < 1e-9, "{again} for {}", sample.pdf);
+                let weighed = table.eval(&site, sample.to_light, to_eye)[1] * sample.to_light.z.abs();
+                assert!((weighed / sample.pdf - 1.0).abs() < 1e-9);
+                let cosine = -sample.to_light.dot(to_eye);
+                counts[(((cosine + 1.0) * 0.5 * PARTS as f64) as usize).min(PARTS - 1)] += 1;
+                round[0] += sample.to_light.x;
+                round[1] += sample.to_light.y;
+            }
+            let below = |cosine: f64| match g {
+                0.0 => 0.5 * (1.0 + cosine),
+                g => (1.0 - g * g) / (2.0 * g) * (1.0 / (1.0 + g * g - 2.0 * g * cosine).sqrt() - 1.0 / (1.0 + g)),
+            };
+            for (part, &count) in counts.iter().enumerate() {
+                let bound = |part: usize| 2.0 * part as f64 / PARTS as f64 - 1.0;
+                let expected = below(bound(part + 1)) - below(bound(part));
+                let spread = (expected * (1.0 - expected) * SAMPLES as f64).sqrt().max(1.0);
+                let off = (f64::from(count) - expected * SAMPLES as f64) / spread;
+                worst = worst.max(off.abs());
+                assert!(off.abs() < 4.0, "g {g}, part {part}: {off}");
+                tried += 1;
+            }
+            assert!(round.iter().all(|sum| sum.abs() < 4.0 * (0.5 * SAMPLES as f64).sqrt()), "{round:?}");
+        }
+        eprintln!("phase function: {tried} parts of the sphere × {SAMPLES} samples, worst {worst:.1} standard errors");
+    }
+}
