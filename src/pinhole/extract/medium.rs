@@ -6,7 +6,7 @@ use super::integrator::integrator_of;
 use super::material::used_material;
 use super::motion::{moves_while_open, velocity_of};
 use super::shapes::{bodies_in_words, listed_kinds, one_shape};
-use super::{glass_evidence, shape_entities};
+use super::{GlassBodyTable, GlassTable, glass_evidence, shape_entities};
 use crate::check::triple;
 use crate::material::{Bsdf, PhaseTable, interior_of, is_material, material_entities, media_entities, one_material};
 use crate::plan::{Census, Evidence, Table, united};
@@ -57,6 +57,8 @@ pub struct MediumTable {
     pub first_shape: u32,
     /// The row of the first medium's phase function in the table of materials.
     pub first_material: u32,
+    /// The bodies of glass, and what they are made of: where a point is in glass decides which media are there.
+    pub glass: Option<(Arc<GlassBodyTable>, Arc<GlassTable>)>,
 }
 
 impl Table for MediumTable {
@@ -101,6 +103,9 @@ impl Table for MediumTable {
             }
         }
         check_followed(scene, media[0])?;
+        if glass_evidence(scene).needed {
+            table.glass = Some((scene.table()?, scene.table()?));
+        }
         Ok(table)
     }
 
@@ -239,9 +244,4 @@ pub fn scattering_evidence(scene: &Census<'_>) -> Evidence {
 /// Evidence of a medium that emits light.
 pub fn emitting_medium_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| medium_that(scene, "emitting medium", |own| own.emission.to_array() != [0.0; 3]))
-}
-
-/// Evidence that what glass a ray is in decides which media it runs through.
-pub fn medium_in_glass_evidence(scene: &Census<'_>) -> Evidence {
-    medium_evidence(scene).and(|| glass_evidence(scene))
 }

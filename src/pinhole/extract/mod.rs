@@ -80,8 +80,7 @@ pub use material::{
     material_kind_evidence, matte_evidence, specular_evidence,
 };
 pub use medium::{
-    Coefficients, MediumPlace, MediumTable, emitting_medium_evidence, medium_evidence, medium_in_glass_evidence,
-    scattering_evidence,
+    Coefficients, MediumPlace, MediumTable, emitting_medium_evidence, medium_evidence, scattering_evidence,
 };
 pub use motion::{
     MovingTable, ShutterTable, any_shapes, camera_moves_evidence, motion_evidence, moves_while_open, moving_evidence,

@@ -183,7 +183,12 @@ pub fn sample_from_lights_stage<B: Bsdf>() -> Stage {
 }
 
 fn scatters<B: Bsdf>(stage: Stage) -> Stage {
-    at_interfaces::<B>(stage).kind(StageKind::Estimator).appends::<Scattered>()
+    continues(at_interfaces::<B>(stage))
+}
+
+/// A stage that appends the rays which go on.
+pub(super) fn continues(stage: Stage) -> Stage {
+    stage.kind(StageKind::Estimator).appends::<Scattered>()
 }
 
 /// The stage that weights light samples at surfaces with a BSDF.
@@ -220,7 +225,6 @@ pub fn connections_stage<B: Bsdf>() -> Stage {
 
 /// Requests what is known of the media at surfaces that transmit light, and of nothing of the kind elsewhere.
 pub(super) fn at_interfaces<B: Bsdf>(stage: Stage) -> Stage {
-    let never = |_: &Census<'_>| Evidence::default();
     if B::TRANSMITS {
         stage
             .reads_where::<SurfaceSides>(bsdf_evidence::<B>)
@@ -228,12 +232,18 @@ pub(super) fn at_interfaces<B: Bsdf>(stage: Stage) -> Stage {
             .reads_where::<DeeperMedia>(deeper_media_evidence)
             .reads_where::<Contacts>(glass_contact_evidence)
     } else {
-        stage
-            .table_where::<GlassTable>(never)
-            .reads_where::<SurfaceSides>(never)
-            .reads_where::<Media>(never)
-            .reads_where::<DeeperMedia>(never)
+        without_sides(stage)
     }
+}
+
+/// Requests nothing of the kind.
+pub(super) fn without_sides(stage: Stage) -> Stage {
+    let never = |_: &Census<'_>| Evidence::default();
+    stage
+        .table_where::<GlassTable>(never)
+        .reads_where::<SurfaceSides>(never)
+        .reads_where::<Media>(never)
+        .reads_where::<DeeperMedia>(never)
 }
 
 /// Evidence that paths are continued from surfaces with a BSDF.

@@ -1,6 +1,6 @@
 //! How far light goes through participating media before it is scattered.
 
-use crate::extract::{Coefficients, GlassBodyTable, GlassTable, MediumPlace, MediumTable, NO_ROW, list_around};
+use crate::extract::{Coefficients, MediumPlace, MediumTable, NO_ROW, list_around};
 use crate::shapes::{l1_norm, stretches_inside};
 use glam::DVec3;
 
@@ -149,32 +149,23 @@ pub struct MediaAlong {
     around: Vec<u32>,
     /// The stretches of the ray, from its origin on; none in a vacuum.
     pub stretches: Vec<Stretch>,
-    /// The row of the glass that the ray runs through, where that was asked for.
+    /// The row of the glass that the ray runs through.
     pub glass: u32,
-}
-
-/// The tables by which it is known what is around a ray.
-#[derive(Clone, Copy)]
-pub struct MediaTables<'t> {
-    /// The media.
-    pub media: &'t MediumTable,
-    /// The bodies of glass, and what they are made of, where a medium asks for it.
-    pub glass: Option<(&'t GlassBodyTable, &'t GlassTable)>,
 }
 
 impl MediaAlong {
     /// Finds the media along a ray that hits nothing before its end, at a time since the shutter opened.
-    pub fn find(&mut self, tables: MediaTables<'_>, [origin, direction]: [DVec3; 2], time: f64, end: f64) {
+    pub fn find(&mut self, media: &MediumTable, [origin, direction]: [DVec3; 2], time: f64, end: f64) {
         self.spans.clear();
         self.stretches.clear();
         self.glass = NO_ROW;
-        if let Some((bodies, glass)) = tables.glass {
+        if let Some((bodies, glass)) = &media.glass {
             // No surface is between its ends: what is around its middle is around all of it.
             let middle = if end < f64::INFINITY { 0.5 * end } else { l1_norm(origin) + 1.0 };
             list_around(&bodies.row, glass, (origin + middle * direction, time), &mut self.around);
             self.glass = self.around.first().copied().unwrap_or(NO_ROW);
         }
-        for (medium, place) in &tables.media.place {
+        for (medium, place) in &media.place {
             match place {
                 MediumPlace::Everywhere if self.glass == NO_ROW => self.spans.push((0.0, end, *medium)),
                 MediumPlace::Glass(row) if self.glass == *row => self.spans.push((0.0, end, *medium)),
@@ -185,7 +176,7 @@ impl MediaAlong {
                 }
             }
         }
-        self.add_up(&tables.media.medium);
+        self.add_up(&media.medium);
     }
 
     /// Divides the ray where a medium begins or ends, and adds up the coefficients between.

@@ -43,9 +43,7 @@ pub use bsdf::{
     connections_stage, direct_light_stage, matte_direct_light_stage, mis_bsdf, mis_stage, sample_bsdf,
     sample_from_lights_stage, sample_stage, stages_of,
 };
-pub use distances::{
-    MediaAlong, MediaTables, SampledDistance, Stretch, emission_along, sample_distance, transmittance_along,
-};
+pub use distances::{MediaAlong, SampledDistance, Stretch, emission_along, sample_distance, transmittance_along};
 pub use emission::{add_mis_emission, add_mis_environment, mis_emission_stage, mis_environment_stage, power_heuristic};
 pub use light_paths::{
     CausticPaths, LIGHT_PATHS, LightPower, Splats, caustic_paths_stage, correct_for_shading_normals,
@@ -59,7 +57,7 @@ pub use media::{
 };
 pub use occlusion::{SkyLists, SkyView, sample_sky, sample_sky_with, show_occlusion, sky_rays_stage, sky_stage};
 pub use participating::{
-    Around, add_medium_emission, attenuate_shadow_rays, distance_stage, fill_scattering_events, medium_emission_stage,
+    add_medium_emission, attenuate_shadow_rays, distance_stage, fill_scattering_events, medium_emission_stage,
     medium_shadow_stage, phase_direct_light_stage, phase_mis_stage, phase_sample_stage, sample_distances,
     scattering_event_stage,
 };

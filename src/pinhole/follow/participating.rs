@@ -4,51 +4,31 @@
 //! ray, and whose BSDF is the phase function.
 //! So every later stage treats it as any other.
 
-use super::Media;
-use super::bsdf::{add_direct_light, mis_bsdf, sample_bsdf};
-use super::distances::{MediaAlong, MediaTables, emission_along, sample_distance, transmittance_along};
-use super::{DeeperMedia, Scattered};
+use super::bsdf::{add_direct_light, continues, mis_bsdf, sample_bsdf, without_sides};
+use super::distances::{MediaAlong, emission_along, sample_distance, transmittance_along};
 use crate::extract::{
-    GlassBodyTable, GlassTable, MediumTable, NO_ROW, SamplingTable, area_light_evidence, emitting_medium_evidence,
-    environment_light_evidence, medium_evidence, medium_in_glass_evidence, mis_evidence, motion_evidence,
-    scattering_evidence,
+    MediumTable, NO_ROW, SamplingTable, area_light_evidence, emitting_medium_evidence, environment_light_evidence,
+    medium_evidence, mis_evidence, scattering_evidence,
 };
-use crate::intersect::{Contacts, Hits, NO_SHAPE, Surface, SurfaceSides, Surfaces};
+use crate::intersect::{Hits, NO_SHAPE, Surface, Surfaces};
 use crate::material::{Named, PhaseTable};
-use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems, VectorRowsMut};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut};
 use crate::rays::{DrawsView, PathLight, Paths, RayTimes, WorldRays, draws_of_one};
 use crate::sample::Purpose;
 use crate::shade::{ShadowHits, ShadowRays, light_distance, light_evidence, shadow_evidence};
 use bevy_ecs::prelude::*;
-use bevy_ecs::system::SystemParam;
-
-/// The tables by which it is known what is around a ray.
-#[derive(SystemParam)]
-pub struct Around<'w> {
-    media: Res<'w, Shared<MediumTable>>,
-    bodies: Option<Res<'w, Shared<GlassBodyTable>>>,
-    glass: Option<Res<'w, Shared<GlassTable>>>,
-}
-
-impl Around<'_> {
-    fn tables(&self) -> MediaTables<'_> {
-        let glass = self.bodies.as_ref().zip(self.glass.as_ref()).map(|(bodies, glass)| (&***bodies, &***glass));
-        MediaTables { media: &self.media, glass }
-    }
-}
 
 /// Adds the light that media emit along each ray to its path.
 pub fn add_medium_emission(
-    around: Around<'_>,
+    media: Res<Shared<MediumTable>>,
     mut along: Local<MediaAlong>,
     mut tiles: Query<(&WorldRays, Option<&RayTimes>, &Hits, &Paths, &mut PathLight)>,
 ) {
-    let tables = around.tables();
     for (rays, times, hits, paths, mut light) in &mut tiles {
         for row in 0..hits.rows() {
             let ray = [rays.origin_of(row), rays.direction_of(row)];
-            along.find(tables, ray, times.map_or(0.0, |times| times.time[row]), hits.t[row]);
-            let absorption = match tables.glass {
+            along.find(&media, ray, times.map_or(0.0, |times| times.time[row]), hits.t[row]);
+            let absorption = match &media.glass {
                 Some((_, glass)) if along.glass != NO_ROW => glass.absorption[along.glass as usize],
                 _ => [0.0; 3],
             };
@@ -62,24 +42,23 @@ pub fn add_medium_emission(
 /// Samples how far each ray goes before it is scattered; where that is nearer than what it hit, the event is what it hits
 /// instead.
 pub fn sample_distances(
-    around: Around<'_>,
+    media: Res<Shared<MediumTable>>,
     sampling: Res<Shared<SamplingTable>>,
     (mut along, mut rows): (Local<MediaAlong>, Local<Vec<u32>>),
     (mut numbers, mut choices): (Local<Vec<f64>>, Local<Vec<f64>>),
     mut tiles: Query<(&WorldRays, Option<&RayTimes>, DrawsView, &mut Paths, &mut Hits)>,
 ) {
-    let tables = around.tables();
     for (rays, times, draws, mut paths, mut hits) in &mut tiles {
         rows.clear();
         rows.extend(0..hits.rows() as u32);
         let of_paths = draws.draws(&sampling, Some(&paths));
         draws_of_one(&of_paths, Purpose::Distance, &rows, &mut numbers);
-        if tables.media.medium.len() > 1 {
+        if media.medium.len() > 1 {
             draws_of_one(&of_paths, Purpose::MaterialChoice, &rows, &mut choices);
         }
         for row in 0..hits.rows() {
             let ray = [rays.origin_of(row), rays.direction_of(row)];
-            along.find(tables, ray, times.map_or(0.0, |times| times.time[row]), hits.t[row]);
+            along.find(&media, ray, times.map_or(0.0, |times| times.time[row]), hits.t[row]);
             if along.stretches.is_empty() {
                 continue;
             }
@@ -87,9 +66,9 @@ pub fn sample_distances(
             paths.throughput.scale(row, sampled.weight);
             if let Some(t) = sampled.t {
                 let choice = choices.get(row).copied().unwrap_or_default();
-                let (medium, weight) = along.choose(&tables.media.medium, t, paths.throughput(row), choice);
+                let (medium, weight) = along.choose(&media.medium, t, paths.throughput(row), choice);
                 paths.throughput.scale(row, weight);
-                (hits.t[row], hits.shape[row]) = (t, tables.media.first_shape + medium as u32);
+                (hits.t[row], hits.shape[row]) = (t, media.first_shape + medium as u32);
             }
         }
     }
@@ -112,11 +91,10 @@ pub fn fill_scattering_events(media: Res<Shared<MediumTable>>, mut tiles: Query<
 ///
 /// A light that casts no shadow shines as if nothing were there.
 pub fn attenuate_shadow_rays(
-    around: Around<'_>,
+    media: Res<Shared<MediumTable>>,
     mut along: Local<MediaAlong>,
     mut tiles: Query<(Option<&RayTimes>, Option<&ShadowHits>, &mut ShadowRays)>,
 ) {
-    let tables = around.tables();
     for (times, hits, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
             if hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) || rays.t_max[ray] == 0.0 {
@@ -124,7 +102,7 @@ pub fn attenuate_shadow_rays(
             }
             let time = times.map_or(0.0, |times| times.time[rays.row[ray] as usize]);
             let way = [rays.origin_of(ray), rays.direction_of(ray)];
-            along.find(tables, way, time, light_distance(rays.t_max[ray]));
+            along.find(&media, way, time, light_distance(rays.t_max[ray]));
             if !along.stretches.is_empty() {
                 rays.weight_by(ray, transmittance_along(&along.stretches));
             }
@@ -132,24 +110,17 @@ pub fn attenuate_shadow_rays(
     }
 }
 
-/// Where glass decides what is around a ray, its tables are read.
-fn around_glass(stage: Stage) -> Stage {
-    stage
-        .on_camera_paths()
-        .reads_where::<RayTimes>(motion_evidence)
-        .table_where::<GlassBodyTable>(medium_in_glass_evidence)
-        .table_where::<GlassTable>(medium_in_glass_evidence)
-}
-
 /// The stage that adds the emission of media.
 pub fn medium_emission_stage() -> Stage {
-    around_glass(Stage::new("Add the emission of media", TileSystems::Contact, add_medium_emission))
+    Stage::new("Add the emission of media", TileSystems::Contact, add_medium_emission)
+        .on_camera_paths()
         .when(emitting_medium_evidence)
 }
 
 /// The stage that samples distances.
 pub fn distance_stage() -> Stage {
-    around_glass(Stage::new("Sample distances in media", TileSystems::Contact, sample_distances))
+    Stage::new("Sample distances in media", TileSystems::Contact, sample_distances)
+        .on_camera_paths()
         .kind(StageKind::Estimator)
         .when(medium_evidence)
 }
@@ -164,25 +135,15 @@ pub fn scattering_event_stage() -> Stage {
 /// The stage that attenuates shadow rays.
 pub fn medium_shadow_stage() -> Stage {
     let stage = Stage::new("Attenuate shadow rays in media", TileSystems::AbsorbShadowRays, attenuate_shadow_rays);
-    around_glass(stage)
-        .when(|scene| medium_evidence(scene).and(|| light_evidence(scene)).and(|| shadow_evidence(scene)))
-}
-
-/// What the stages of other BSDFs read of the sides of surfaces, events in a medium do not have.
-fn without_sides(stage: Stage) -> Stage {
-    let never = |_: &Census<'_>| Evidence::default();
     stage
         .on_camera_paths()
-        .table_where::<GlassTable>(never)
-        .reads_where::<SurfaceSides>(never)
-        .reads_where::<Media>(never)
-        .reads_where::<DeeperMedia>(never)
-        .reads_where::<Contacts>(never)
+        .when(|scene| medium_evidence(scene).and(|| light_evidence(scene)).and(|| shadow_evidence(scene)))
 }
 
 /// The stage that weights light samples at scattering events.
 pub fn phase_mis_stage() -> Stage {
     without_sides(Stage::new(PhaseTable::NAMES.mis, TileSystems::MisWeights, mis_bsdf::<PhaseTable>))
+        .on_camera_paths()
         .kind(StageKind::Alternative)
         .when(|scene| {
             let lights = area_light_evidence(scene).or(environment_light_evidence(scene));
@@ -194,14 +155,14 @@ pub fn phase_mis_stage() -> Stage {
 pub fn phase_direct_light_stage() -> Stage {
     let evaluate = add_direct_light::<PhaseTable, false>;
     without_sides(Stage::new(PhaseTable::NAMES.direct_light, TileSystems::Shade, evaluate))
+        .on_camera_paths()
         .when(|scene| scattering_evidence(scene).and(|| light_evidence(scene)))
 }
 
 /// The stage that samples phase functions.
 pub fn phase_sample_stage() -> Stage {
     let sample = sample_bsdf::<PhaseTable, false>;
-    without_sides(Stage::new("Sample phase functions", TileSystems::SampleBsdfs, sample))
-        .kind(StageKind::Estimator)
-        .appends::<Scattered>()
+    continues(without_sides(Stage::new("Sample phase functions", TileSystems::SampleBsdfs, sample)))
+        .on_camera_paths()
         .when(scattering_evidence)
 }

@@ -210,8 +210,8 @@ mod phase_tests {
                 assert!((sample.to_light.length() - 1.0).abs() < 1e-12 && sample.weight == [1.0; 3]);
                 let again = table.pdf(&site, sample.to_light, to_eye);
                 assert!((again / sample.pdf - 1.0).abs() < 1e-9, "{again} for {}", sample.pdf);
-                let weighed = table.eval(&site, sample.to_light, to_eye)[1] * sample.to_light.z.abs();
-                assert!((weighed / sample.pdf - 1.0).abs() < 1e-9);
+                let weighted = table.eval(&site, sample.to_light, to_eye)[1] * sample.to_light.z.abs();
+                assert!((weighted / sample.pdf - 1.0).abs() < 1e-9);
                 let cosine = -sample.to_light.dot(to_eye);
                 counts[(((cosine + 1.0) * 0.5 * PARTS as f64) as usize).min(PARTS - 1)] += 1;
                 round[0] += sample.to_light.x;
