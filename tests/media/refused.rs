@@ -1,6 +1,7 @@
 //! What a medium may not be, in one sentence; and what it may, however odd.
 
 use super::*;
+use pinhole::look::{Preflight, preflight};
 use pinhole::plan::Census;
 use pinhole::render::prepare;
 
@@ -141,4 +142,23 @@ fn what_is_not_there_costs_nothing() {
     let kept = before.rows.iter().filter(|row| row.kept && own.contains(&row.stage)).count();
     let asked = before.rows.iter().filter(|row| own.contains(&row.stage)).count();
     assert_eq!((kept, asked, own.len()), (0, 7, 7));
+}
+
+/// What is odd and yet rendered is said: fog that keeps the sky out, and fog too dense for single precision.
+#[test]
+fn odd_media_are_said() {
+    let said = |world: &World| {
+        let census = &Census::of(world);
+        let (plan, tables) = prepare(census, &offer()).expect("prepared");
+        let asked = Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() };
+        preflight(census, (&plan, &tables), asked).expect("said")
+    };
+    assert_eq!(said(&ball_of(Medium::default())), Vec::<String>::new());
+    let dense = said(&ball_of(Medium { scattering: Rgb::grey(1e7), ..Medium::default() }));
+    assert!(dense.iter().any(|own| own.contains("medium \"cloud\" scatters light every 1e-7")), "{dense:?}");
+    let mut world = room();
+    world.spawn((Name::new("haze"), Medium::default()));
+    let all = said(&world);
+    assert!(all.iter().any(|own| own.contains("medium \"haze\" fills all of space")), "{all:?}");
+    eprintln!("{dense:?} {all:?}");
 }

@@ -2,6 +2,7 @@
 
 use super::emitters::emitters;
 use super::inside::{ior_around_camera, shape_around_camera};
+use super::media::odd_media;
 use super::pilot::{Pilot, pilot};
 use super::radians::radians;
 use super::slow::{Effort, many_bounces, many_light_bounces, never_done, slow, why_slow};
@@ -9,7 +10,7 @@ use crate::extract::{
     AreaLightTable, CameraAxes, EmissiveTable, ImageFrame, IntegratorTable, LightTracingTable, OrthographicWindow,
     PerspectiveProjection, SamplingTable, ShapeTable, area_light_evidence, camera_entity, contact_evidence,
     delta_light_shines, distant_start_evidence, emissive_evidence, environment_light_evidence, exposure_of,
-    followed_evidence, glossy_evidence, integrator_of, listed_kind, matte_evidence, point_evidence,
+    followed_evidence, glossy_evidence, integrator_of, listed_kind, matte_evidence, medium_evidence, point_evidence,
     shadowed_distant_evidence, shadowed_point_evidence, shape_name, sky_evidence, specular_evidence, starts_on_glass,
     traced_evidence, unresolved,
 };
@@ -94,6 +95,7 @@ pub fn foretell(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), condit
     warnings.extend(on_the_surface(scene)?);
     warnings.extend(unseen(scene));
     warnings.extend(emitters(scene)?);
+    warnings.extend(odd_media(scene)?);
     warnings.extend(missing_paths(scene, &pilot));
     if let (true, Some(ray), Some(path)) = (pilot.rays > 0, pilot.seconds_a_ray, pilot.seconds_a_light_path) {
         warnings.extend(slow(ray + effort.light_paths * path, pilot.is_least, effort));
@@ -345,7 +347,10 @@ pub fn missing_paths(scene: &Census<'_>, pilot: &Pilot) -> Vec<String> {
              surfaces, since no sampled ray can hit a point",
             bends.reason, started.reason
         );
-        let advice = if pilot.hits > 0 && pilot.specular_first == pilot.hits {
+        let advice = if medium_evidence(scene).needed {
+            // Light paths cross no medium.
+            area.into()
+        } else if pilot.hits > 0 && pilot.specular_first == pilot.hits {
             format!(
                 "here LightTracing does not find it, for the camera sees everything through glass or in mirrors; {area}"
             )
