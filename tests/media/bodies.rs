@@ -1,6 +1,7 @@
 //! Bodies of media: alone, in glass, overlapping, around the camera and around a lamp.
 
 use super::*;
+use crate::scenes::FilmBits;
 
 /// A camera that sees a body about the origin, in a sky of radiance 1.
 fn in_white(samples: u32, eye: DVec3) -> World {
@@ -135,4 +136,31 @@ fn absorbing_bodies_follow_beer_s_law() {
     world.spawn((Cuboid { size: DVec3::ONE }, Placement::at(0.0, 0.0, -5.5), lamp));
     check("everywhere but in glass", &world, beer(8.0, 0.7));
     eprintln!("absorbing bodies: {tried}, each to rounding");
+}
+
+/// Light shafts through a window with slats: the picture does not depend on how its work is divided, and in a shaft the fog
+/// is brighter than in the shadow of a slat.
+#[test]
+fn shafts_of_light_are_the_same_however_they_are_computed() {
+    let file = SceneFile::open(std::path::Path::new("tests/media/shafts.ron")).expect("a scene file");
+    let mut world = file.world();
+    let camera = named(&mut world, "camera");
+    let (resolution, sampling) =
+        (Resolution { width: 96, height: 64 }, Sampling { samples: 64, ..Sampling::default() });
+    world.entity_mut(camera).insert((resolution, sampling));
+    let film = |execution: Execution| render(&world, &offer(), &execution, &()).expect("renders").film;
+    let whole = film(Execution::default());
+    let bits = FilmBits::of(&whole);
+    for (threads, tile_side) in [(1, 32), (3, 8), (2, 16)] {
+        let other = film(Execution { threads: Some(threads), tile_side, ..Execution::default() });
+        assert!(FilmBits::of(&other) == bits, "{threads} threads, tiles of {tile_side}");
+    }
+    // Around a place in the second shaft, and in the shadow below it.
+    let around = |x: u32, y: u32| {
+        let all = (x - 2..=x + 2).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
+        all.map(|(x, y)| f64::from(whole.mean(x, y)[1])).sum::<f64>() / 15.0
+    };
+    let (lit, dark) = (around(22, 23), around(80, 10));
+    eprintln!("shafts of light: {lit:.3} in one, {dark:.3} in the dark of the room");
+    assert!(lit > 2.0 * dark, "{lit} {dark}");
 }
