@@ -362,6 +362,7 @@ pub fn light_tracing() -> Vec<Stage> {
 
 /// Participating media such as fog: distances sampled along each ray, light scattered by phase functions, and attenuated
 /// on its way.
+#[doc(hidden)]
 pub fn media() -> Vec<Stage> {
     of(Media)
 }

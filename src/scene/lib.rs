@@ -78,6 +78,7 @@ pub use lights::{DirectionalLight, Emissive, PointLight, Sides, SpotLight};
 pub use material::{BlinnPhong, Glass, Matte, Metal, Mirror, Phong, Principled, RoughGlass, UsesMaterial};
 #[doc(hidden)]
 pub use material::{ThinGlass, UsedByShapes};
+#[doc(hidden)]
 pub use medium::Medium;
 #[doc(hidden)]
 pub use memory::{TooLittleMemory, check_memory, check_workers, in_words};

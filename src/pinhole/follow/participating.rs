@@ -38,7 +38,6 @@ pub fn add_medium_emission(
     }
 }
 
-// ANCHOR: sample_distances
 /// Samples how far each ray goes before it is scattered; where that is nearer than what it hit, the event is what it hits
 /// instead.
 pub fn sample_distances(
@@ -73,7 +72,6 @@ pub fn sample_distances(
         }
     }
 }
-// ANCHOR_END: sample_distances
 
 /// Places a surface at every scattering event.
 pub fn fill_scattering_events(media: Res<Shared<MediumTable>>, mut tiles: Query<(&WorldRays, &Hits, &mut Surfaces)>) {
