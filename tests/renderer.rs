@@ -16,6 +16,7 @@ mod follow;
 mod invariance;
 mod lens;
 mod lights;
+mod media;
 mod meshes;
 mod motion;
 mod order;

@@ -59,6 +59,7 @@ enum Group {
     Mis,
     LightTracing,
     PhotonMapping,
+    Media,
     Film,
 }
 use Group::*;
@@ -106,6 +107,10 @@ const LIST: &[Part] = &[Part(&[
 ], raster_boxes), Part(&[
     (Rasterisation, rasterise::rasterise_stage),
 
+    // Media emit and scatter light on the way to what was hit.
+    (Media, follow::medium_emission_stage),
+    (Media, follow::distance_stage),
+
     // Surfaces that touch glass are hit or crossed together with it.
     (Glass, intersect::contact_stage),
 
@@ -122,6 +127,7 @@ const LIST: &[Part] = &[Part(&[
 
     // Positions, normals and colours of the surfaces that were hit.
 ], surface_points), Part(&[
+    (Media, follow::scattering_event_stage),
     (Motion, intersect::moving_surface_stage),
     (Glass, intersect::contact_bound_stage),
     (Transforms, intersect::shading_normal_stage),
@@ -171,9 +177,12 @@ const LIST: &[Part] = &[Part(&[
     (Textures, shade::non_opaque_shadow_stage),
     (Glass, follow::absorb_shadow_stage),
     (Glass, follow::block_across_surfaces_stage),
+    (Media, follow::medium_shadow_stage),
+    (Media, follow::phase_mis_stage),
 
     // Direct light is evaluated: the light of unblocked shadow rays, reflected along the path.
 ], direct_light_of_bsdfs), Part(&[
+    (Media, follow::phase_direct_light_stage),
     (Lights, shade::emissive_stage),
     (AreaLights, follow::mis_emission_stage),
     (AmbientOcclusion, follow::sky_stage),
@@ -181,6 +190,7 @@ const LIST: &[Part] = &[Part(&[
 
     // BSDFs are sampled to continue the path, or it is terminated.
 ], bsdf_samples), Part(&[
+    (Media, follow::phase_sample_stage),
     (LightTracing, follow::shading_adjoint_stage),
     (PathContinuation, follow::roulette_stage),
     (Bounces, follow::add_bounce_stage),
@@ -334,7 +344,6 @@ pub fn glass() -> Vec<Stage> {
 }
 
 /// Dispersion: paths of one wavelength each, where the index of a glass depends on it.
-#[doc(hidden)]
 pub fn dispersion() -> Vec<Stage> {
     of(Dispersion)
 }
@@ -369,6 +378,12 @@ pub fn light_tracing() -> Vec<Stage> {
 /// To be offered beside [`light_tracing`], whose paths they are.
 pub fn photon_mapping() -> Vec<Stage> {
     of(PhotonMapping)
+}
+
+/// Participating media such as fog: distances sampled along each ray, light scattered by phase functions, and attenuated
+/// on its way.
+pub fn media() -> Vec<Stage> {
+    of(Media)
 }
 
 /// The film: sums of samples, and the layers of each pixel.

@@ -31,6 +31,7 @@ mod integrator;
 mod keys;
 mod lights;
 mod material;
+mod medium;
 mod memory;
 mod model;
 mod open_file;
@@ -77,9 +78,10 @@ pub use integrator::{Integrator, LightStrategy};
 pub use keys::smooth;
 pub use keys::{KeyCurve, KeyedValues, Keys};
 pub use lights::{DirectionalLight, Emissive, PointLight, Sides, SpotLight};
-pub use material::{BlinnPhong, Glass, Matte, Metal, Mirror, Phong, Principled, RoughGlass, UsesMaterial};
 #[doc(hidden)]
-pub use material::{ThinGlass, UsedByShapes};
+pub use material::UsedByShapes;
+pub use material::{BlinnPhong, Glass, Matte, Metal, Mirror, Phong, Principled, RoughGlass, ThinGlass, UsesMaterial};
+pub use medium::Medium;
 #[doc(hidden)]
 pub use memory::{TooLittleMemory, check_memory, check_workers, in_words};
 #[doc(hidden)]

@@ -253,7 +253,11 @@ fn what_photons_cannot_do_is_said_in_a_sentence() {
     ] {
         refuses(said, &|world, camera| insert(world, camera, own));
     }
-    let cases: [(&str, Change); 4] = [
+    let cases: [(&str, Change); 5] = [
+        ("beside dispersion", |world, _| {
+            let ball = named(world, "ball");
+            world.entity_mut(ball).insert(Dispersion::Bk7);
+        }),
         ("beside light_tracing", |world, camera| _ = world.entity_mut(camera).insert(LightTracing::default())),
         ("without paths", |world, camera| _ = world.entity_mut(camera).insert(Integrator::WHITTED)),
         ("with adaptive sampling", |world, camera| {

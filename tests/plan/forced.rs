@@ -307,6 +307,18 @@ fn a_tinted_mesh() -> World {
     world
 }
 
+/// A lamp in a glowing cloud.
+fn in_a_cloud() -> World {
+    let mut world = World::new();
+    let look = LookAt { eye: DVec3::new(0.0, 0.5, 5.0), target: DVec3::ZERO, ..LookAt::default() };
+    world.spawn((PerspectiveCamera::default(), look, Resolution { width: 24, height: 16 }, Integrator::PATH));
+    let cloud = Medium { scattering: Rgb::grey(1.0), emission: Rgb::grey(0.1), ..Medium::default() };
+    world.spawn((Sphere { radius: 1.5 }, cloud));
+    let lamp = Emissive { radiance: Rgb::grey(5.0), ..Emissive::default() };
+    world.spawn((Sphere { radius: 0.5 }, lamp, Placement::at(0.0, 1.0, 0.0)));
+    world
+}
+
 #[test]
 fn forcing_a_needed_stage_off_shows() {
     let two_bounces = Integrator::Path { max_depth: 2, lights: LightStrategy::Mis, roulette: 0 };
@@ -359,6 +371,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("frosted blocks", frosted_blocks()),
         ("an eye and a lamp on the sea", on_the_sea()),
         ("a diamond", a_diamond()),
+        ("a lamp in a cloud", in_a_cloud()),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();

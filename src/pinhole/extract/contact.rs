@@ -212,7 +212,7 @@ fn find_pairs(scene: &Census<'_>) -> Result<ContactPairs, SceneError> {
         return Ok(pairs);
     }
     let mut boxed = Vec::new();
-    for shape in 0..glass.len() {
+    for shape in 0..shape_entities(scene).len() {
         // What moves is none of the listed kinds.
         let bounds = match listed_kind(scene, table.kind[shape]) {
             Some(listed) => (listed.bounds)(scene, table.row[shape] as usize)?,

@@ -9,7 +9,7 @@ use super::material::glossy_evidence;
 use super::sky::sky_evidence;
 use super::{
     GlassTable, ImageFrame, adaptive_of, area_light_evidence, dispersion_evidence, environment_light_evidence,
-    glass_evidence, material_evidence, motion_evidence, specular_evidence,
+    glass_evidence, material_evidence, medium_evidence, motion_evidence, specular_evidence,
 };
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Integrator, LightTracing, PhotonMapping, SceneError, called};
@@ -31,8 +31,9 @@ pub struct ChosenIntegrator {
 // ANCHOR: integrator_of
 /// The integrator of a scene: the one named on its camera, or the simplest that shows everything in the scene.
 ///
-/// Glossy materials such as rough metal, glass that disperses light, and others in the light of emitting surfaces or of a
-/// sky that is not black, need sampled points, directions and wavelengths, hence path tracing; mirrors and glass lit by lights without an area need none,
+/// Glossy materials such as rough metal, glass that disperses light, media, and other materials in the light of emitting
+/// surfaces or of a sky that is not black, need sampled points, directions and wavelengths, hence path tracing; mirrors and
+/// glass lit by lights without an area need none,
 /// hence Whitted's method; everything else is seen by ray casting.
 pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
     scene.once(|scene| {
@@ -53,6 +54,10 @@ pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
 
 /// The same for a scene whose sky is black or that has no material to be lit by it.
 fn chosen_without_sky(scene: &Census<'_>) -> (Integrator, String) {
+    let medium = medium_evidence(scene);
+    if medium.needed {
+        return (Integrator::PATH, medium.reason);
+    }
     let glossy = glossy_evidence(scene);
     let emitters = emissive_evidence(scene).and(|| material_evidence(scene));
     let specular = specular_evidence(scene);

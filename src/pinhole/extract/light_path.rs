@@ -134,7 +134,7 @@ fn find_targets(scene: &Census<'_>) -> Result<Targets, SceneError> {
     let (eye, entities) = (eye(scene)?, shape_entities(scene));
     let (mut found, mut infinite, mut all) = (Vec::new(), Vec::new(), None::<Bounds>);
     let mut bounded = true;
-    for shape in 0..shapes.kind.len() {
+    for shape in 0..entities.len() {
         // What moves is none of the listed kinds, and may go anywhere.
         let listed = listed_kind(scene, shapes.kind[shape]);
         let row = shapes.row[shape] as usize;

@@ -1,5 +1,6 @@
 //! Which materials shapes are made of, and the evidence that stages need of them.
 
+use super::medium::scattering_evidence;
 use super::shapes::shape_entities;
 use crate::material::{
     Bsdf, BsdfClass, MaterialKind, Registration, declared_materials, is_material, material_entities, material_kind,
@@ -56,9 +57,15 @@ fn any_evidence(scene: &Census<'_>, none: &str, such: impl Fn(&Registration) -> 
     })
 }
 
-/// Evidence of a shape whose material is not specular: any but mirrors and smooth glass.
+/// Evidence of a shape whose material is not specular, any but mirrors and smooth glass, or of a medium that scatters.
 pub fn material_evidence(scene: &Census<'_>) -> Evidence {
-    scene.once(|scene| materials_evidence(scene, "material", |kind| !kind.is_specular()))
+    scene.once(|scene| or_scattering(scene, materials_evidence(scene, "material", |kind| !kind.is_specular())))
+}
+
+/// The evidence of surfaces, and that of media that scatter light as they do, where a scene has any.
+fn or_scattering(scene: &Census<'_>, surfaces: Evidence) -> Evidence {
+    let scattering = scattering_evidence(scene);
+    if scattering.needed { surfaces.or(scattering) } else { surfaces }
 }
 
 /// Evidence of a shape with diffuse reflection, whatever else its material has.
@@ -81,10 +88,10 @@ pub fn glass_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| any_evidence(scene, "glass surface", |own| own.transmits))
 }
 
-/// Evidence of a shape that transmits light and is lit by light sampling.
+/// Evidence of a shape that transmits light and is lit by light sampling, or of a medium that scatters.
 pub fn lit_from_behind_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
         let such = |own: &Registration| own.transmits && own.class != BsdfClass::Specular;
-        any_evidence(scene, "diffusely transmitting surface", such)
+        or_scattering(scene, any_evidence(scene, "diffusely transmitting surface", such))
     })
 }

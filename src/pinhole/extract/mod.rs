@@ -31,6 +31,7 @@ mod integrator;
 mod light_path;
 mod lights_of;
 mod material;
+mod medium;
 mod mesh_file;
 mod motion;
 mod non_opaque;
@@ -81,6 +82,9 @@ pub use lights_of::{
 pub use material::{
     bsdf_evidence, glass_evidence, glossy_evidence, lit_from_behind_evidence, material_evidence,
     material_kind_evidence, matte_evidence, specular_evidence,
+};
+pub use medium::{
+    Coefficients, MediumPlace, MediumTable, emitting_medium_evidence, medium_evidence, scattering_evidence,
 };
 pub use motion::{
     MovingTable, ShutterTable, any_shapes, camera_moves_evidence, motion_evidence, moves_while_open, moving_evidence,
@@ -136,6 +140,7 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<ShapeTable>,
     answer::<MaterialTable>,
     answer::<GlassTable>,
+    answer::<MediumTable>,
     answer::<EmissiveTable>,
     shapes::check_kinds,
     crate::material::check_kinds,

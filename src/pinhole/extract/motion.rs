@@ -4,6 +4,7 @@ use super::cameras::camera_of;
 use super::check::{finite_point, kind_and_name, number};
 use super::eye;
 use super::lights_of::light_kinds;
+use super::medium::bodies_without_surface;
 use super::shapes::{moving_shapes, one_shape, shape_entities};
 use super::textures::textures;
 use crate::plan::{Census, Evidence, Table};
@@ -55,7 +56,11 @@ pub fn camera_moves_evidence(scene: &Census<'_>) -> Evidence {
 
 /// Evidence that anything moves while the shutter is open.
 pub fn motion_evidence(scene: &Census<'_>) -> Evidence {
-    moving_evidence(scene).or(camera_moves_evidence(scene))
+    let found = moving_evidence(scene).or(camera_moves_evidence(scene));
+    let bodies = bodies_without_surface(scene);
+    let moves = moves_while_open(scene);
+    let moving: HashSet<Entity> = bodies.iter().copied().filter(|&body| moves(body)).collect();
+    if moving.is_empty() { found } else { found.or(said(scene, "moving medium", &moving)) }
 }
 
 fn said(scene: &Census<'_>, noun: &str, moving: &HashSet<Entity>) -> Evidence {

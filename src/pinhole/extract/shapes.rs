@@ -3,11 +3,12 @@
 use super::area_lights::emissive_entities;
 use super::cameras::{eye, with_article};
 use super::check::{finite_point, kind_and_name};
+use super::medium::{bodies_without_surface, medium_evidence};
 use super::motion::moves_while_open;
 use super::non_opaque::is_non_opaque;
 use super::pose::{non_uniformly_scaled, pose};
 use crate::bvh::Bvh;
-use crate::material::{NO_ROW, NUMBERS, components_in_words, material_entities, material_kind};
+use crate::material::{NO_ROW, NUMBERS, components_in_words, material_entities, material_kind, media_entities};
 use crate::plan::{Added, Census, Evidence, Table, TableKind, add_kind, check_is_added, counted, united, with_added};
 use crate::scene::{ChildOf, Placement, SceneError, Triangle, UsesMaterial, called};
 use crate::shapes::{
@@ -22,6 +23,8 @@ use std::marker::PhantomData;
 use std::sync::{Arc, OnceLock};
 
 /// All shapes in spawn order; a shape's index here is the shape number in hits.
+///
+/// After them come the media, in spawn order: what a ray hits where it is scattered in one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShapeTable {
     /// The table each shape is in.
@@ -77,6 +80,13 @@ impl Table for ShapeTable {
             let rows = rows_of_kind.entry(table.kind[shape]).or_default();
             table.row[shape] = *rows;
             *rows += 1;
+        }
+        for row in 0..media_entities(scene).len() {
+            table.kind.push(ShapeKind::Medium);
+            table.row.push(row as u32);
+            table.material.push((materials.len() + row) as u32);
+            table.non_specular.push(true);
+            table.emissive.push(NO_ROW);
         }
         Ok(table)
     }
@@ -145,7 +155,7 @@ pub struct ListedKind {
     pub table: TableKind,
     /// Evidence that the scene contains one that keeps still.
     pub evidence: fn(&Census<'_>) -> Evidence,
-    entities: fn(&Census<'_>) -> Arc<[Entity]>,
+    pub(super) entities: fn(&Census<'_>) -> Arc<[Entity]>,
     declared: fn(&Census<'_>) -> Arc<[Entity]>,
     component_evidence: fn(&Census<'_>) -> Evidence,
     carries: fn(&Census<'_>, Entity) -> bool,
@@ -275,18 +285,24 @@ pub fn listed_kind<'s>(scene: &'s Census<'_>, kind: ShapeKind) -> Option<&'s Lis
 
 /// Evidence that the scene contains a shape of one kind that keeps still.
 pub fn kind_evidence<S: Listed>(scene: &Census<'_>) -> Evidence {
-    let moves = moves_while_open(scene);
+    let (moves, without_surface) = (moves_while_open(scene), bodies_without_surface(scene));
     Evidence::of_kind::<With<S::Component>>(scene, S::NOUN, |entity| {
-        S::NON_UNIFORM.is_none_or(|non_uniform| non_uniform == non_uniformly_scaled(scene, entity)) && !moves(entity)
+        S::NON_UNIFORM.is_none_or(|non_uniform| non_uniform == non_uniformly_scaled(scene, entity))
+            && !moves(entity)
+            && !without_surface.contains(&entity)
     })
 }
 
-/// Evidence that the scene contains a shape of any kind.
+/// Evidence that the scene contains a shape of any kind, or a medium, in which rays end as well.
 pub fn shape_evidence(scene: &Census<'_>) -> Evidence {
     let each = || listed_kinds(scene).filter(|listed| listed.is_first());
     let found = each().map(|listed| (listed.component_evidence)(scene)).reduce(Evidence::or).unwrap_or_default();
     if found.needed {
         return found;
+    }
+    let medium = medium_evidence(scene);
+    if medium.needed {
+        return medium;
     }
     let declared = united(&mut each().map(|listed| (listed.declared)(scene)));
     Evidence::among_entities(scene, "shape", |_| true, &[], &declared)
@@ -298,11 +314,14 @@ pub fn primitive_evidence(scene: &Census<'_>) -> Evidence {
     with_primitives.map(|listed| (listed.component_evidence)(scene)).reduce(Evidence::or).unwrap_or_default()
 }
 
-/// The enabled entities that are a shape, in spawn order; the place of one is its number.
+/// The enabled entities that are a shape with a surface, in spawn order; the place of one is its number.
 pub fn shape_entities(scene: &Census<'_>) -> Arc<[Entity]> {
     scene.once(|scene| {
         let each = listed_kinds(scene).filter(|listed| listed.is_first());
-        united(&mut each.map(|listed| (listed.entities)(scene))).into()
+        let mut all = united(&mut each.map(|listed| (listed.entities)(scene)));
+        let without_surface = bodies_without_surface(scene);
+        all.retain(|shape| !without_surface.contains(shape));
+        all.into()
     })
 }
 
@@ -544,6 +563,15 @@ pub fn shapes_with_inside(scene: &Census<'_>) -> String {
         let [some, all] = (listed.examples_with_inside)();
         let always = all && !listed.has_primitives && !listed.is_part;
         some.then(|| named(listed, always, " that close"))
+    };
+    alternatives(listed_kinds(scene).filter_map(named))
+}
+
+/// The shapes that a medium can fill by themselves: `a sphere, a closed cylinder, … or a closed mesh`.
+pub(super) fn bodies_in_words(scene: &Census<'_>) -> String {
+    let named = |listed: &ListedKind| {
+        let [some, all] = (listed.examples_with_inside)();
+        (some && !listed.is_part).then(|| named(listed, all && !listed.has_primitives, ""))
     };
     alternatives(listed_kinds(scene).filter_map(named))
 }

@@ -11,7 +11,9 @@ use super::image_files::{
 use super::material::{in_use, material_kind_evidence};
 use super::pose::pose;
 use super::shapes::shape_entities;
-use crate::material::{components_in_words, is_material, material_entities, one_material, registered_materials};
+use crate::material::{
+    components_in_words, is_material, material_entities, media_entities, one_material, registered_materials,
+};
 use crate::plan::{Added, Census, Evidence, Table, TableKind, add_kind, check_is_added, counted, with_added};
 use crate::scene::{
     Checker, EmissionMap, Emissive, Feeds, ImageTexture, MeshInstance, MetallicRoughnessMap, NormalMap, OpacityChannel,
@@ -161,7 +163,10 @@ impl Table for TextureMaps {
         check_owners(scene)?;
         let materials = material_entities(scene);
         let map = materials.iter().map(|&material| texture_map(scene, material));
-        Ok(Self { map: map.collect::<Result<_, _>>()? })
+        // Media, which come after the materials, have no texture.
+        let media = media_entities(scene);
+        let of_media = media.iter().map(|_| Ok(TextureMap::default()));
+        Ok(Self { map: map.chain(of_media).collect::<Result<_, _>>()? })
     }
 
     fn bytes(&self) -> usize {
@@ -264,6 +269,7 @@ pub fn rows_of_texture<T: Component>(scene: &Census<'_>) -> (Vec<u32>, Vec<Entit
         of_material.push(if carries { rows.len() as u32 } else { NO_TEXTURE });
         rows.extend(carries.then_some(material));
     }
+    of_material.resize(of_material.len() + media_entities(scene).len(), NO_TEXTURE);
     (of_material, rows)
 }
 

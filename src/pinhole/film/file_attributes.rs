@@ -3,7 +3,9 @@
 use super::LayerNames;
 use super::cryptomatte::{float_hash, hex_of, manifest};
 use crate::cameras::{ImageFrame, RaySpread};
+use crate::check::kind_and_name;
 use crate::extract::{CameraAxes, LayerTable, camera_spread, eye, shape_entities, shape_name, sky_evidence};
+use crate::material::media_entities;
 use crate::plan::Census;
 use crate::scene::{LayerKind, Name, SceneError};
 
@@ -78,14 +80,20 @@ impl FileAttributes {
     }
 }
 
-/// The names of all shapes.
+/// The names of all shapes, and of the media, whose scattering events are numbered after them.
 fn names(scene: &Census<'_>) -> Vec<ShapeName> {
     let name = |(number, &entity): (usize, &_)| {
         let in_messages = shape_name(scene, number);
         let plain = scene.get::<Name>(entity).map_or_else(|| in_messages.clone(), |name| name.as_str().into());
         ShapeName { in_messages, plain }
     };
-    shape_entities(scene).iter().enumerate().map(name).collect()
+    let of_medium = |&entity: &_| {
+        let in_messages = kind_and_name(scene, "medium", entity);
+        let plain = scene.get::<Name>(entity).map_or_else(|| in_messages.clone(), |name| name.as_str().into());
+        ShapeName { in_messages, plain }
+    };
+    let (shapes, media) = (shape_entities(scene), media_entities(scene));
+    shapes.iter().enumerate().map(name).chain(media.iter().map(of_medium)).collect()
 }
 
 impl CameraMatrices {

@@ -184,7 +184,12 @@ pub fn sample_from_lights_stage<B: Bsdf>() -> Stage {
 }
 
 fn scatters<B: Bsdf>(stage: Stage) -> Stage {
-    at_interfaces::<B>(stage).kind(StageKind::Estimator).appends::<Scattered>()
+    continues(at_interfaces::<B>(stage))
+}
+
+/// A stage that appends the rays which go on.
+pub(super) fn continues(stage: Stage) -> Stage {
+    stage.kind(StageKind::Estimator).appends::<Scattered>()
 }
 
 /// The stage that weights light samples at surfaces with a BSDF.
@@ -230,16 +235,17 @@ pub(super) fn at_interfaces_where(stage: Stage, reason: fn(&Census<'_>) -> Evide
 
 /// Requests what is known of the media at surfaces of a BSDF that transmits light, and of nothing of the kind elsewhere.
 pub(super) fn at_interfaces<B: Bsdf>(stage: Stage) -> Stage {
+    if B::TRANSMITS { at_interfaces_where(stage, bsdf_evidence::<B>) } else { without_sides(stage) }
+}
+
+/// Requests nothing of the kind.
+pub(super) fn without_sides(stage: Stage) -> Stage {
     let never = |_: &Census<'_>| Evidence::default();
-    if B::TRANSMITS {
-        at_interfaces_where(stage, bsdf_evidence::<B>)
-    } else {
-        stage
-            .table_where::<GlassTable>(never)
-            .reads_where::<SurfaceSides>(never)
-            .reads_where::<Media>(never)
-            .reads_where::<DeeperMedia>(never)
-    }
+    stage
+        .table_where::<GlassTable>(never)
+        .reads_where::<SurfaceSides>(never)
+        .reads_where::<Media>(never)
+        .reads_where::<DeeperMedia>(never)
 }
 
 /// Evidence that paths are continued from surfaces with a BSDF.

@@ -19,11 +19,13 @@ mod absorb;
 mod beyond_contacts;
 mod bsdf;
 mod dispersion;
+mod distances;
 mod emission;
 mod interface;
 mod light_paths;
 mod media;
 mod occlusion;
+mod participating;
 mod paths;
 mod photons;
 mod previous_surfaces;
@@ -44,6 +46,7 @@ pub use bsdf::{
     sample_from_lights_stage, sample_stage, stages_of,
 };
 pub use dispersion::{carry_wavelengths, carry_wavelengths_stage, weight_by_wavelength, weight_by_wavelength_stage};
+pub use distances::{MediaAlong, SampledDistance, Stretch, emission_along, sample_distance, transmittance_along};
 pub use emission::{add_mis_emission, add_mis_environment, mis_emission_stage, mis_environment_stage, power_heuristic};
 pub use light_paths::{
     CausticPaths, LIGHT_PATHS, LightPower, Splats, caustic_paths_stage, correct_for_shading_normals,
@@ -56,6 +59,11 @@ pub use media::{
     start_media, start_media_stage,
 };
 pub use occlusion::{SkyLists, SkyView, sample_sky, sample_sky_with, show_occlusion, sky_rays_stage, sky_stage};
+pub use participating::{
+    add_medium_emission, attenuate_shadow_rays, distance_stage, fill_scattering_events, medium_emission_stage,
+    medium_shadow_stage, phase_direct_light_stage, phase_mis_stage, phase_sample_stage, sample_distances,
+    scattering_event_stage,
+};
 pub use paths::{
     Scattered, ScatteredRay, Stop, add_bounce, add_bounce_stage, advance_to_next_bounce, carry_times, drop_footprints,
     end_at_max_depth, footprints_stage, is_whole, max_depth_stage, next_bounce_stage, play_roulette,

@@ -1,8 +1,9 @@
 //! Materials whose BSDF no stage on offer samples, and light that no stage on offer adds.
 
+use super::distance_stage;
 use super::emission::mis_emission_evidence;
 use crate::extract::{camera_entity, emissive_evidence, followed_evidence, integrator_of, shape_entities, shape_name};
-use crate::material::{BsdfClass, material_kind, registered_materials};
+use crate::material::{BsdfClass, material_kind, media_entities, registered_materials};
 use crate::plan::{Census, Stage, TileSystems};
 use crate::scene::{SceneError, UsesMaterial, called};
 use crate::shade::emissive_stage;
@@ -15,6 +16,7 @@ use bevy_ecs::prelude::*;
 /// none adds.
 pub fn check_materials_are_followed(scene: &Census<'_>, offer: &[Stage]) -> Result<(), SceneError> {
     check_sky_is_followed(scene, offer)?;
+    check_media_are_followed(scene, offer)?;
     check_emission_is_added(scene, offer)?;
     let shapes = shape_entities(scene);
     for own in registered_materials(scene).filter(|own| own.class != BsdfClass::Diffuse) {
@@ -35,6 +37,14 @@ pub fn check_materials_are_followed(scene: &Census<'_>, offer: &[Stage]) -> Resu
         }
     }
     Ok(())
+}
+
+/// Checks that a stage on offer attenuates light in the media of a scene.
+fn check_media_are_followed(scene: &Census<'_>, offer: &[Stage]) -> Result<(), SceneError> {
+    let media = media_entities(scene);
+    let Some(&first) = media.first().filter(|_| !offer.contains(&distance_stage())) else { return Ok(()) };
+    let accepted = "no stage on offer follows light through it; offer stages::all(), which do";
+    Err(SceneError::new(called(scene, first), "medium", "given", accepted))
 }
 
 /// Checks that paths which hit an emissive surface find its light, where nothing else finds it.

@@ -1,6 +1,6 @@
 //! Surfaces that coincide with a hit within rounding: they are crossed, or hit, in one event.
 
-use super::{HitPrimitives, Hits, NO_SHAPE, Surfaces};
+use super::{HitPrimitives, Hits, Surfaces};
 use crate::extract::{Contact, ContactTable, NO_ROW, contact_evidence};
 use crate::plan::{
     Column, ColumnComponent, ComponentValues, Lifetime, RowLists, Shared, Stage, TileSystems, column_component,
@@ -188,7 +188,8 @@ fn touching(
     (row, primitive, time): (usize, u32, f64),
 ) -> Option<(usize, SurfacePoint)> {
     let shape = hits.shape[row];
-    let own = if shape == NO_SHAPE { NO_ROW } else { table.row[shape as usize] };
+    // Neither a miss nor a scattering event is in the table.
+    let own = table.row.get(shape as usize).copied().unwrap_or(NO_ROW);
     if own == NO_ROW || !table.is_near_any(own as usize, rays.point_at(row, hits.t[row]), time) {
         return None;
     }

@@ -22,6 +22,7 @@ pub mod convention;
 
 mod emitters;
 mod inside;
+mod media;
 mod mistake;
 mod pilot;
 mod preflight;

@@ -2,6 +2,7 @@
 
 use super::emitters::emitters;
 use super::inside::{ior_around_camera, shape_around_camera};
+use super::media::odd_media;
 use super::pilot::{Pilot, pilot};
 use super::radians::radians;
 use super::slow::{Effort, many_bounces, many_light_bounces, never_done, slow, why_slow};
@@ -10,8 +11,9 @@ use crate::extract::{
     OrthographicWindow, PerspectiveProjection, SamplingTable, ShapeTable, area_light_evidence, camera_entity,
     contact_evidence, delta_light_shines, dispersion_evidence, distant_start_evidence, emissive_evidence,
     environment_light_evidence, exposure_of, followed_evidence, glossy_evidence, integrator_of, joined_evidence,
-    listed_kind, matte_evidence, photon_evidence, pixel_width, point_evidence, shadowed_distant_evidence,
-    shadowed_point_evidence, shape_name, sky_evidence, specular_evidence, starts_on_glass, traced_evidence, unresolved,
+    listed_kind, matte_evidence, medium_evidence, photon_evidence, pixel_width, point_evidence,
+    shadowed_distant_evidence, shadowed_point_evidence, shape_name, sky_evidence, specular_evidence, starts_on_glass,
+    traced_evidence, unresolved,
 };
 use crate::film::srgb_from_linear;
 use crate::material::{D_LINE, IndexCurve, interior_of};
@@ -97,6 +99,7 @@ pub fn foretell(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), condit
     warnings.extend(unseen(scene));
     warnings.extend(unused_indices(scene)?);
     warnings.extend(emitters(scene)?);
+    warnings.extend(odd_media(scene)?);
     warnings.extend(missing_paths(scene, &pilot));
     warnings.extend(odd_radius(scene)?);
     if let (true, Some(ray), Some(path)) = (pilot.rays > 0, pilot.seconds_a_ray, pilot.seconds_a_light_path) {
@@ -377,7 +380,10 @@ pub fn missing_paths(scene: &Census<'_>, pilot: &Pilot) -> Vec<String> {
              surfaces, since no sampled ray can hit a point",
             bends.reason, started.reason
         );
-        let advice = if pilot.hits > 0 && pilot.specular_first == pilot.hits {
+        let advice = if medium_evidence(scene).needed {
+            // Light paths cross no medium.
+            area.into()
+        } else if pilot.hits > 0 && pilot.specular_first == pilot.hits {
             format!(
                 "here LightTracing does not find it, for the camera sees everything through glass or in mirrors; {area}"
             )

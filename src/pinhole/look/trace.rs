@@ -1,4 +1,5 @@
 use crate::extract::{ImageFrame, SamplingTable, shape_entities};
+use crate::material::media_entities;
 use crate::plan::{Census, ColumnKind, ComponentNumber, Evidence, Lifetime, Plan, Stage};
 use crate::rays::{Depth, PathLight, Paths, Tile, WorldRays};
 use crate::render::{Hook, inspect_pixel};
@@ -94,10 +95,11 @@ fn with_camera_rays(scene: &Census<'_>, offer: &[Stage]) -> Vec<Stage> {
 
 /// The names of all shapes whose numbers a stage wrote.
 fn shapes_named(scene: &Census<'_>, stages: &[Recorded]) -> BTreeMap<u32, String> {
-    let shapes = shape_entities(scene);
+    let (shapes, media) = (shape_entities(scene), media_entities(scene));
     let name = |&(component, number): &(&str, ComponentNumber)| match number {
         ComponentNumber::U32(Some(number)) if component == "shape" => {
-            Some((number, called(scene, *shapes.get(number as usize)?)))
+            let own = shapes.iter().chain(media.iter()).nth(number as usize)?;
+            Some((number, called(scene, *own)))
         }
         _ => None,
     };

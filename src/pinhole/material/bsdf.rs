@@ -1,6 +1,6 @@
 //! What a BSDF is, the materials of a scene, and their table.
 
-use super::{for_each_bsdf, frame_of, named_bsdf};
+use super::{PhaseTable, for_each_bsdf, frame_of, media_entities, named_bsdf};
 use crate::check::kind_and_name;
 use crate::plan::{Added, Census, Table, TableKind, add_kind, united, with_added};
 use crate::scene::{Feeds, Rgb, SceneError};
@@ -267,6 +267,8 @@ macro_rules! kinds {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum MaterialKind {
             $(#[doc = concat!("A row of [`", stringify!($table), "`](crate::material::", stringify!($table), ").")] $kind,)+
+            /// The phase function of a medium, a row of [`PhaseTable`](crate::material::PhaseTable): what no surface has.
+            Phase,
             /// A row of the table of a BSDF that a program adds.
             Custom {
                 /// A number of its own among these.
@@ -286,6 +288,7 @@ macro_rules! kinds {
             const fn class(self) -> BsdfClass {
                 match self {
                     $(Self::$kind => <crate::material::$table>::CLASS,)+
+                    Self::Phase => PhaseTable::CLASS,
                     Self::Custom { class, .. } => class,
                 }
             }
@@ -295,6 +298,7 @@ macro_rules! kinds {
             pub const fn transmits(self) -> bool {
                 match self {
                     $(Self::$kind => <crate::material::$table>::TRANSMITS,)+
+                    Self::Phase => PhaseTable::TRANSMITS,
                     Self::Custom { transmits, .. } => transmits,
                 }
             }
@@ -513,6 +517,8 @@ pub(crate) fn one_material<'s>(scene: &'s Census<'_>, entity: Entity) -> Result<
 pub const NO_ROW: u32 = u32::MAX;
 
 /// The materials of shapes of all kinds, in spawn order; their further parameters are in the table of their BSDF.
+///
+/// After them come the phase functions of media, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MaterialTable {
     /// The kind of each.
@@ -555,6 +561,12 @@ impl Table for MaterialTable {
             let is_filled = written.interior(scene, entity)?.is_some();
             table.interior.push(if is_filled { interiors } else { NO_ROW });
             interiors += u32::from(is_filled);
+        }
+        for (row, &medium) in media_entities(scene).iter().enumerate() {
+            table.row.push(row as u32);
+            table.kind.push(MaterialKind::Phase);
+            table.parameters.push(PhaseTable::checked(scene, medium)?);
+            table.interior.push(NO_ROW);
         }
         Ok(table)
     }

@@ -148,8 +148,10 @@ impl ComponentKind {
 pub fn counted(count: usize, noun: &str) -> String {
     let (noun, what) = noun.split_at(noun.find(" with").unwrap_or(noun.len()));
     // Written as the stages are that intersect them.
-    if let (true, Some(before)) = (count != 1, noun.strip_suffix("torus")) {
-        return format!("{count} {before}tori{what}");
+    for (one, several) in [("torus", "tori"), ("medium", "media")] {
+        if let (true, Some(before)) = (count != 1, noun.strip_suffix(one)) {
+            return format!("{count} {before}{several}{what}");
+        }
     }
     let ending = match count {
         1 => "",

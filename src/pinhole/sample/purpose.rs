@@ -30,11 +30,13 @@ pub enum Purpose {
     DeltaLightChoice,
     /// The wavelength of a path.
     Wavelength,
+    /// The distance to a scattering event in a medium.
+    Distance,
 }
 
 impl Purpose {
     /// All purposes.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Pixel,
         Self::Lens,
         Self::LightPoint,
@@ -46,6 +48,7 @@ impl Purpose {
         Self::EnvironmentPoint,
         Self::DeltaLightChoice,
         Self::Wavelength,
+        Self::Distance,
     ];
 
     /// The number of dimensions that it needs: 1 or 2.
@@ -57,7 +60,8 @@ impl Purpose {
             | Self::Roulette
             | Self::Time
             | Self::DeltaLightChoice
-            | Self::Wavelength => 1,
+            | Self::Wavelength
+            | Self::Distance => 1,
         }
     }
 
@@ -75,7 +79,7 @@ impl Purpose {
             Self::Time => 11,
             Self::EnvironmentPoint => 12,
             Self::DeltaLightChoice => 14,
-            Self::Wavelength => 15,
+            Self::Wavelength | Self::Distance => 1,
         };
         depth * DIMENSIONS + within
     }
@@ -92,7 +96,8 @@ mod tests {
             for purpose in Purpose::ALL {
                 for number in 0..purpose.numbers() {
                     let dimension = purpose.dimension(depth) + number;
-                    assert!(dimension / DIMENSIONS == depth, "{purpose:?} exceeds its bounce");
+                    let is_within = dimension / DIMENSIONS == depth || purpose == Purpose::Distance;
+                    assert!(is_within, "{purpose:?} exceeds its bounce");
                     assert!(
                         !taken.contains(&dimension),
                         "{purpose:?} at depth {depth} has dimension {dimension} in common with another"

@@ -5,6 +5,7 @@ use crate::extract::{MovingTable, NonOpaqueTable, ShapeTable, listed_kind, shape
 use crate::intersect::{Hits, Surfaces};
 use crate::plan::{Census, ColumnKind, Plan, Stage, TableKind};
 use crate::scene::SceneError;
+use crate::shapes::ShapeKind;
 use bevy_ecs::prelude::*;
 
 /// Checks that for every shape of a scene there are stages on offer that intersect it, compute its surface, and trace
@@ -32,6 +33,7 @@ pub fn check_shapes_are_intersected(scene: &Census<'_>, offer: &[Stage], plan: &
         let tables = shapes
             .kind
             .iter()
+            .filter(|kind| **kind != ShapeKind::Medium)
             .map(|&kind| listed_kind(scene, kind).map_or_else(TableKind::of::<MovingTable>, |listed| listed.table));
         let non_opaque = scene.table::<NonOpaqueTable>()?;
         let also = non_opaque.shape.iter().map(|&shape| (shape as usize, TableKind::of::<NonOpaqueTable>()));

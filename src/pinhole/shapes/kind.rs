@@ -6,6 +6,8 @@ macro_rules! kinds {
             $(#[doc = concat!("One of the ", $plural, " that keep still while the shutter is open.")] $kind,)+
             /// A shape of any kind that moves while the shutter is open.
             Moving,
+            /// A scattering event in a medium, which takes the place of a hit on a shape.
+            Medium,
             /// A shape that a program adds, with a number of its own among these.
             Custom(u8),
         }

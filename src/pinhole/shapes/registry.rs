@@ -243,7 +243,7 @@ macro_rules! registry {
         fn own_uv_step(kind: ShapeKind, numbers: [f64; 2], own: DVec3, step: DVec3) -> DVec3 {
             match kind {
                 $(ShapeKind::$kind => <$shape as Shape>::uv_step(numbers, own, step),)+
-                ShapeKind::Moving | ShapeKind::Custom(_) => DVec3::ZERO,
+                ShapeKind::Moving | ShapeKind::Medium | ShapeKind::Custom(_) => DVec3::ZERO,
             }
         }
     };

@@ -2,9 +2,10 @@ use crate::material::MATERIALS;
 use crate::{
     Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, Dispersion, EmissionMap, Emissive,
     Environment, EquirectangularCamera, Exposure, FisheyeCamera, Gradient, ImageTexture, Integrator, Keys, Layers,
-    Lens, LightTracing, LookAt, Mesh, MetallicRoughnessMap, Motion, NormalMap, Opacity, OpacityMap, OrthographicCamera,
-    PerspectiveCamera, PhotonMapping, Placement, Plane, PointLight, Rasterisation, Rectangle, Resolution, Sampling,
-    Shutter, SingleSided, Sphere, SpotLight, Statistics, Stripes, Tint, ToneMapping, Torus, Triangle, View,
+    Lens, LightTracing, LookAt, Medium, Mesh, MetallicRoughnessMap, Motion, NormalMap, Opacity, OpacityMap,
+    OrthographicCamera, PerspectiveCamera, PhotonMapping, Placement, Plane, PointLight, Rasterisation, Rectangle,
+    Resolution, Sampling, Shutter, SingleSided, Sphere, SpotLight, Statistics, Stripes, Tint, ToneMapping, Torus,
+    Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -53,6 +54,7 @@ const WORDS: &[Word] = &[
     Word::of::<ToneMapping>("tone_mapping"),
     Word::of::<Emissive>("emissive"),
     Word::of::<Dispersion>("dispersion"),
+    Word::of::<Medium>("medium"),
     Word::of::<Checker>("checker"),
     Word::of::<Stripes>("stripes"),
     Word::of::<ImageTexture>("image_texture"),

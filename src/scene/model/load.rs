@@ -4,7 +4,9 @@ use super::mesh::{Mesh, MeshPart, ModelNotes, UnreadMesh};
 use super::open_model::{OpenModel, SceneTime, open_model_now};
 use super::placing::placements_of;
 use crate::material::is_material;
-use crate::{ChildOf, Disabled, Emissive, MeshGeometry, MeshInstance, Name, Placement, UsesMaterial, printable};
+use crate::{
+    ChildOf, Disabled, Emissive, Medium, MeshGeometry, MeshInstance, Name, Placement, UsesMaterial, printable,
+};
 use bevy_ecs::prelude::*;
 use glam::DAffine3;
 use pinhole_models::{Instance, TriangleMesh};
@@ -59,7 +61,10 @@ fn spawn_parts(
     (materials, notes): (&mut BTreeMap<(String, bool, usize), Entity>, &mut MaterialNotes),
 ) {
     let used = scene.get::<UsesMaterial>(entity).map(|used| used.0);
-    let has_own = is_material(scene.entity(entity)) || scene.entity(entity).contains::<Emissive>();
+    let has_own = {
+        let own = scene.entity(entity);
+        is_material(own) || own.contains::<Emissive>() || own.contains::<Medium>()
+    };
     let own = used.or_else(|| has_own.then_some(entity));
     // A file of one mesh, placed where it is, needs no entity but the one that names it.
     if let ([only], Some(_)) = (&model.model.instances[..], own)

@@ -1,0 +1,365 @@
+//! How far light goes through participating media before it is scattered.
+
+use crate::extract::{Coefficients, MediumPlace, MediumTable, NO_ROW, list_around};
+use crate::shapes::{l1_norm, stretches_inside};
+use glam::DVec3;
+
+/// A part of a ray along which the same media are around it, from one distance to another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// Where it begins, in scene units from the ray's origin.
+    pub from: f64,
+    /// Where it ends; infinite for a ray that hits nothing.
+    pub to: f64,
+    /// The sum of the coefficients of all media there.
+    pub sum: Coefficients,
+}
+
+/// σ · length, which is 0 for an infinite way through nothing.
+#[inline(always)]
+fn depth(coefficient: f64, length: f64) -> f64 {
+    if coefficient > 0.0 { coefficient * length } else { 0.0 }
+}
+
+impl Stretch {
+    /// The coefficients by which distances are sampled: none where nothing scatters, so that a medium which only absorbs
+    /// ends no path.
+    #[inline(always)]
+    fn rate(&self) -> [f64; 3] {
+        if self.sum.scattering == [0.0; 3] { [0.0; 3] } else { self.sum.extinction }
+    }
+}
+
+/// Adds what a stretch contributes to an optical depth, colour by colour.
+#[inline(always)]
+fn add_depth(sum: &mut [f64; 3], coefficients: [f64; 3], length: f64) {
+    (0..3).for_each(|part| sum[part] += depth(coefficients[part], length));
+}
+
+/// e^(−τ) of each part.
+#[inline(always)]
+fn transmittances(depths: [f64; 3]) -> [f64; 3] {
+    depths.map(|depth| libm::exp(-depth))
+}
+
+/// The transmittance along all stretches of a ray.
+pub fn transmittance_along(stretches: &[Stretch]) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    stretches.iter().for_each(|own| add_depth(&mut sum, own.sum.extinction, own.to - own.from));
+    transmittances(sum)
+}
+
+/// The radiance that the media along a ray emit towards its origin; `absorption` is what else absorbs all along it.
+///
+/// Along a stretch it is the integral of ε e^(−σs), ε (1 − e^(−σl)) / σ.
+pub fn emission_along(stretches: &[Stretch], absorption: [f64; 3]) -> [f64; 3] {
+    let (mut sum, mut depths, mut at) = ([0.0; 3], [0.0; 3], 0.0);
+    for Stretch { from, to, sum: Coefficients { extinction, emission, .. } } in stretches {
+        let length = to - from;
+        add_depth(&mut depths, absorption, from - at);
+        for part in 0..3 {
+            let extinction = extinction[part] + absorption[part];
+            let emitted = match emission[part] {
+                0.0 => 0.0,
+                emission if extinction > 0.0 => emission / extinction * -libm::expm1(-extinction * length),
+                emission => emission * length,
+            };
+            sum[part] += libm::exp(-depths[part]) * emitted;
+            depths[part] += depth(extinction, length);
+        }
+        at = *to;
+    }
+    sum
+}
+
+/// What becomes of a ray in the media along it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SampledDistance {
+    /// How far it goes before it is scattered; none where it reaches the end of its last stretch.
+    pub t: Option<f64>,
+    /// The factor of its throughput: transmittance, and the scattering coefficient, over the pdf.
+    pub weight: [f64; 3],
+}
+
+// ANCHOR: sample_distance
+/// Samples the distance at which light is scattered along a ray of this throughput, by a number in [0, 1).
+///
+/// The depth of a colour is sampled by its own e^(−τ), that colour having been chosen in proportion to its throughput; the
+/// sample counts for all three, divided by the mean of their pdfs in that proportion (the balance heuristic).
+/// So the weight is at most the sum of the throughputs over that of the sampled colour, however much the colours differ.
+pub fn sample_distance(stretches: &[Stretch], throughput: [f64; 3], number: f64) -> SampledDistance {
+    let sum = throughput.iter().sum::<f64>();
+    if !(sum > 0.0) {
+        return SampledDistance { t: None, weight: [1.0; 3] };
+    }
+    let choice = throughput.map(|part| part / sum);
+    let (colour, number) = chosen(choice, number);
+    let wanted = -libm::log1p(-number);
+
+    let (mut rates, mut depths) = ([0.0; 3], [0.0; 3]);
+    for stretch in stretches {
+        let (rate, extinction, length) = (stretch.rate(), stretch.sum.extinction, stretch.to - stretch.from);
+        let left = wanted - rates[colour];
+        if depth(rate[colour], length) > left {
+            let reached = left / rate[colour];
+            add_depth(&mut rates, rate, reached);
+            add_depth(&mut depths, extinction, reached);
+            let (sampled, reached_by) = (transmittances(rates), transmittances(depths));
+            let pdf = (0..3).map(|part| choice[part] * rate[part] * sampled[part]).sum::<f64>();
+            let weight = |part: usize| over(choice[part], stretch.sum.scattering[part] * reached_by[part], pdf);
+            return SampledDistance { t: Some(stretch.from + reached), weight: [0, 1, 2].map(weight) };
+        }
+        add_depth(&mut rates, rate, length);
+        add_depth(&mut depths, extinction, length);
+    }
+    let sampled = transmittances(rates);
+    let probability = (0..3).map(|part| choice[part] * sampled[part]).sum::<f64>();
+    let reached_by = transmittances(depths);
+    SampledDistance { t: None, weight: [0, 1, 2].map(|part| over(choice[part], reached_by[part], probability)) }
+}
+// ANCHOR_END: sample_distance
+
+/// A value over its pdf; 0 for a colour that the path does not carry, whose quotient may be no number.
+#[inline(always)]
+fn over(choice: f64, value: f64, pdf: f64) -> f64 {
+    if choice > 0.0 && pdf >= f64::MIN_POSITIVE { value / pdf } else { 0.0 }
+}
+
+/// Chooses one of three with these probabilities, and what is left of the number, in [0, 1) again.
+#[inline(always)]
+fn chosen(probabilities: [f64; 3], number: f64) -> (usize, f64) {
+    let mut before = 0.0;
+    let mut last = (0, 0.0);
+    for (place, probability) in probabilities.into_iter().enumerate().filter(|(_, own)| *own > 0.0) {
+        last = (place, ((number - before) / probability).clamp(0.0, 1.0 - f64::EPSILON));
+        before += probability;
+        if number < before {
+            break;
+        }
+    }
+    last
+}
+
+/// The media along one ray after another.
+#[derive(Debug, Default)]
+pub struct MediaAlong {
+    /// The places filled by media that a ray runs through: from where to where, and the row of the medium.
+    spans: Vec<(f64, f64, usize)>,
+    cuts: Vec<f64>,
+    around: Vec<u32>,
+    /// The stretches of the ray, from its origin on; none in a vacuum.
+    pub stretches: Vec<Stretch>,
+    /// The row of the glass that the ray runs through.
+    pub glass: u32,
+}
+
+impl MediaAlong {
+    /// Finds the media along a ray that hits nothing before its end, at a time since the shutter opened.
+    pub fn find(&mut self, media: &MediumTable, [origin, direction]: [DVec3; 2], time: f64, end: f64) {
+        self.spans.clear();
+        self.stretches.clear();
+        self.glass = NO_ROW;
+        if let Some((bodies, glass)) = &media.glass {
+            // No surface is between its ends: what is around its middle is around all of it.
+            let middle = if end < f64::INFINITY { 0.5 * end } else { l1_norm(origin) + 1.0 };
+            list_around(&bodies.row, glass, (origin + middle * direction, time), &mut self.around);
+            self.glass = self.around.first().copied().unwrap_or(NO_ROW);
+        }
+        for (medium, place) in &media.place {
+            match place {
+                MediumPlace::Everywhere if self.glass == NO_ROW => self.spans.push((0.0, end, *medium)),
+                MediumPlace::Glass(row) if self.glass == *row => self.spans.push((0.0, end, *medium)),
+                MediumPlace::Everywhere | MediumPlace::Glass(_) => {}
+                MediumPlace::Body { shape, velocity, bounds } => {
+                    let ray = [origin - *velocity * time, direction];
+                    stretches_inside((shape, bounds), ray, end, |[from, to]| self.spans.push((from, to, *medium)));
+                }
+            }
+        }
+        self.add_up(&media.medium);
+    }
+
+    /// Divides the ray where a medium begins or ends, and adds up the coefficients between.
+    fn add_up(&mut self, media: &[Coefficients]) {
+        if let [(from, to, medium)] = self.spans[..] {
+            self.stretches.push(Stretch { from, to, sum: media[medium] });
+            return;
+        }
+        self.cuts.clear();
+        self.cuts.extend(self.spans.iter().flat_map(|&(from, to, _)| [from, to]));
+        self.cuts.sort_by(f64::total_cmp);
+        self.cuts.dedup();
+        for pair in self.cuts.windows(2) {
+            let mut sum = Coefficients::default();
+            let mut within = false;
+            for &(_, _, medium) in self.spans.iter().filter(|own| own.0 <= pair[0] && pair[1] <= own.1) {
+                within = true;
+                let Coefficients { extinction, scattering, emission } = media[medium];
+                for part in 0..3 {
+                    sum.extinction[part] += extinction[part];
+                    sum.scattering[part] += scattering[part];
+                    sum.emission[part] += emission[part];
+                }
+            }
+            if within {
+                self.stretches.push(Stretch { from: pair[0], to: pair[1], sum });
+            }
+        }
+    }
+
+    /// Chooses, by a number in [0, 1), one of the media that scatter light at a distance, in proportion to what each
+    /// scatters of this throughput; returns its row, and the factor of the throughput.
+    pub fn choose(&self, media: &[Coefficients], t: f64, throughput: [f64; 3], number: f64) -> (usize, [f64; 3]) {
+        let there = || self.spans.iter().filter(|own| own.0 <= t && t <= own.1).map(|own| own.2);
+        let of = |medium: usize| media[medium].scattering;
+        let scatters = |medium: usize| (0..3).map(|part| throughput[part] * of(medium)[part]).sum::<f64>();
+        let (mut all, mut sum) = ([0.0; 3], 0.0);
+        for medium in there() {
+            sum += scatters(medium);
+            (0..3).for_each(|part| all[part] += of(medium)[part]);
+        }
+        let (mut before, mut chosen) = (0.0, None);
+        for medium in there().filter(|&medium| scatters(medium) > 0.0) {
+            chosen = Some(medium);
+            before += scatters(medium);
+            if number * sum < before {
+                break;
+            }
+        }
+        let Some(medium) = chosen else { return (there().next().unwrap_or(0), [0.0; 3]) };
+        let probability = scatters(medium) / sum;
+        let of_all = |part: usize| if all[part] > 0.0 { of(medium)[part] / all[part] / probability } else { 0.0 };
+        (medium, [0, 1, 2].map(of_all))
+    }
+}
+
+#[cfg(test)]
+mod distance_tests {
+    use super::*;
+    use crate::measure::draws::Draws;
+
+    fn stretch(from: f64, to: f64, absorption: [f64; 3], scattering: [f64; 3]) -> Stretch {
+        let extinction = [0, 1, 2].map(|part| absorption[part] + scattering[part]);
+        Stretch { from, to, sum: Coefficients { extinction, scattering, emission: [0.0; 3] } }
+    }
+
+    /// Stretches with gaps, of which some absorb, some scatter and some do both, by different amounts in each colour.
+    fn examples() -> Vec<Vec<Stretch>> {
+        vec![
+            vec![stretch(0.0, f64::INFINITY, [0.0; 3], [1.0, 2.0, 0.3])],
+            vec![stretch(0.5, 2.0, [0.3, 0.0, 2.0], [0.7, 1.0, 0.1])],
+            vec![
+                stretch(0.0, 0.4, [1.0, 0.2, 0.0], [0.0; 3]),
+                stretch(0.4, 1.0, [0.1; 3], [3.0, 0.0, 0.5]),
+                stretch(1.7, 2.5, [0.0; 3], [0.2, 4.0, 1.0]),
+            ],
+            vec![stretch(0.0, 1.0, [5.0; 3], [0.0; 3])],
+            vec![stretch(0.0, 1e-6, [1.0; 3], [1e6, 1e3, 1.0]), stretch(1e-6, 3.0, [0.0; 3], [0.2, 1e-2, 0.0])],
+        ]
+    }
+
+    /// The mean over all samples of what reaches a distance, or is scattered before it, is its integral: of survival the
+    /// transmittance, of scattering ∫ σs T, and of its distance ∫ t σs T.
+    #[test]
+    fn means_are_integrals() {
+        const SAMPLES: u32 = 400_000;
+        let (mut tried, mut worst) = (0, 0.0_f64);
+        for (example, stretches) in examples().iter().enumerate() {
+            for throughput in [[1.0; 3], [1.0, 0.1, 0.0], [1e-6, 1.0, 30.0]] {
+                let mut sums = [[[0.0_f64; 2]; 3]; 3];
+                for index in 0..SAMPLES {
+                    // Stratified, so that little noise is left.
+                    let jitter = Draws::new(17, u64::from(index)).unit();
+                    let number = (f64::from(index) + jitter) / f64::from(SAMPLES);
+                    let SampledDistance { t, weight } = sample_distance(stretches, throughput, number);
+                    for part in 0..3 {
+                        let carried = throughput[part] * weight[part];
+                        assert!(carried.is_finite() && carried >= 0.0);
+                        let of = match t {
+                            None => [carried, 0.0, 0.0],
+                            Some(t) => [0.0, carried, carried * t.min(1e3)],
+                        };
+                        for (sum, value) in sums[part].iter_mut().zip(of) {
+                            sum[0] += value;
+                            sum[1] += value * value;
+                        }
+                    }
+                }
+                for part in 0..3 {
+                    let truth = integrals(stretches, part).map(|own| own * throughput[part]);
+                    for (sum, truth) in sums[part].iter().zip(truth) {
+                        let (count, mean) = (f64::from(SAMPLES), sum[0] / f64::from(SAMPLES));
+                        let error = ((sum[1] / count - mean * mean).max(0.0) / count).sqrt();
+                        let off = (mean - truth) / error.max(1e-9 * truth).max(1e-300);
+                        worst = worst.max(off.abs());
+                        assert!(
+                            off.abs() < 4.0,
+                            "example {example}, {throughput:?}, colour {part}: {mean} for {truth}"
+                        );
+                        tried += 1;
+                    }
+                }
+            }
+        }
+        eprintln!(
+            "distances: {tried} means of {SAMPLES} samples, worst {worst:.2} standard errors of independent ones"
+        );
+    }
+
+    /// T at the end, ∫ σs T and ∫ t σs T, stretch by stretch in closed form.
+    fn integrals(stretches: &[Stretch], part: usize) -> [f64; 3] {
+        let (mut transmitted, mut scattered, mut moment) = (1.0, 0.0, 0.0);
+        for Stretch { from, to, sum } in stretches {
+            let (sigma, length) = (sum.extinction[part], to - from);
+            if sigma == 0.0 {
+                continue;
+            }
+            let through = libm::exp(-sigma * length);
+            let within = if length.is_finite() { length * through } else { 0.0 };
+            let lost = -libm::expm1(-sigma * length);
+            scattered += transmitted * sum.scattering[part] / sigma * lost;
+            moment += transmitted * sum.scattering[part] / sigma * (from * lost + lost / sigma - within);
+            transmitted *= through;
+        }
+        [transmitted, scattered, moment]
+    }
+
+    /// Where nothing is absorbed, the sum of the colours stays what it was, whatever is sampled: no weight exceeds it.
+    #[test]
+    fn the_sum_of_the_colours_is_kept() {
+        let stretches = [stretch(0.2, 1.0, [0.0; 3], [9.0, 0.5, 0.0]), stretch(1.0, 4.0, [0.0; 3], [0.1, 3.0, 1.0])];
+        let mut tried = 0;
+        for index in 0..10_000 {
+            let mut draws = Draws::new(5, index);
+            let throughput = [draws.unit(), draws.unit() * 1e-3, draws.unit() * 1e3];
+            let sampled = sample_distance(&stretches, throughput, draws.unit());
+            let sum: f64 = (0..3).map(|part| throughput[part] * sampled.weight[part]).sum();
+            assert!((sum / throughput.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{sampled:?}");
+            tried += 1;
+        }
+        eprintln!("distances: {tried} samples keep the sum of the colours");
+    }
+
+    /// No number is lost at either end of what is accepted, nor with numbers at the ends of [0, 1).
+    #[test]
+    fn extremes_are_numbers() {
+        let mut tried = 0;
+        for scattering in [0.0, 1e-300, 1e-30, 1.0, 1e30, 3e38] {
+            for absorption in [0.0, 1e-300, 1.0, 3e38] {
+                for end in [1e-18, 1.0, 1e18, f64::INFINITY] {
+                    for number in [0.0, 0.5, 1.0 - f64::EPSILON / 2.0, 1.0 - 1.0 / 4_294_967_296.0] {
+                        for throughput in [[1.0; 3], [0.0; 3], [1e-300, 1.0, 0.0]] {
+                            let stretches = [stretch(0.0, end, [absorption; 3], [scattering, 0.0, 1.0])];
+                            let sampled = sample_distance(&stretches, throughput, number);
+                            let SampledDistance { t, weight } = sampled;
+                            assert!(weight.iter().all(|own| own.is_finite() && *own >= 0.0), "{sampled:?}");
+                            assert!(t.is_none_or(|t| (0.0..=end).contains(&t) && t.is_finite()), "{sampled:?}");
+                            tried += 1;
+                        }
+                    }
+                }
+            }
+        }
+        eprintln!("distances: {tried} at the ends of what is accepted");
+    }
+}

@@ -1,0 +1,166 @@
+//! Participating media along the segments of paths: they attenuate light, emit it, and scatter it.
+//!
+//! A scattering event takes the place of what the ray hits: a surface without a side, whose normal points back along the
+//! ray, and whose BSDF is the phase function.
+//! So every later stage treats it as any other.
+
+use super::bsdf::{add_direct_light, continues, mis_bsdf, sample_bsdf, without_sides};
+use super::distances::{MediaAlong, emission_along, sample_distance, transmittance_along};
+use crate::extract::{
+    MediumTable, NO_ROW, SamplingTable, area_light_evidence, emitting_medium_evidence, environment_light_evidence,
+    medium_evidence, mis_evidence, scattering_evidence,
+};
+use crate::intersect::{Hits, NO_SHAPE, Surface, Surfaces};
+use crate::material::{Named, PhaseTable};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut};
+use crate::rays::{DrawsView, PathLight, Paths, RayTimes, WorldRays, draws_of_one};
+use crate::sample::Purpose;
+use crate::shade::{ShadowHits, ShadowRays, light_distance, light_evidence, shadow_evidence};
+use bevy_ecs::prelude::*;
+
+/// Adds the light that media emit along each ray to its path.
+pub fn add_medium_emission(
+    media: Res<Shared<MediumTable>>,
+    mut along: Local<MediaAlong>,
+    mut tiles: Query<(&WorldRays, Option<&RayTimes>, &Hits, &Paths, &mut PathLight)>,
+) {
+    for (rays, times, hits, paths, mut light) in &mut tiles {
+        for row in 0..hits.rows() {
+            let ray = [rays.origin_of(row), rays.direction_of(row)];
+            along.find(&media, ray, times.map_or(0.0, |times| times.time[row]), hits.t[row]);
+            let absorption = match &media.glass {
+                Some((_, glass)) if along.glass != NO_ROW => glass.absorption[along.glass as usize],
+                _ => [0.0; 3],
+            };
+            let (emitted, throughput) = (emission_along(&along.stretches, absorption), paths.throughput(row));
+            light.rgb.add(paths.first[row] as usize, [0, 1, 2].map(|part| throughput[part] * emitted[part]));
+        }
+    }
+}
+
+/// Samples how far each ray goes before it is scattered; where that is nearer than what it hit, the event is what it hits
+/// instead.
+pub fn sample_distances(
+    media: Res<Shared<MediumTable>>,
+    sampling: Res<Shared<SamplingTable>>,
+    (mut along, mut rows): (Local<MediaAlong>, Local<Vec<u32>>),
+    (mut numbers, mut choices): (Local<Vec<f64>>, Local<Vec<f64>>),
+    mut tiles: Query<(&WorldRays, Option<&RayTimes>, DrawsView, &mut Paths, &mut Hits)>,
+) {
+    for (rays, times, draws, mut paths, mut hits) in &mut tiles {
+        rows.clear();
+        rows.extend(0..hits.rows() as u32);
+        let of_paths = draws.draws(&sampling, Some(&paths));
+        draws_of_one(&of_paths, Purpose::Distance, &rows, &mut numbers);
+        if media.medium.len() > 1 {
+            draws_of_one(&of_paths, Purpose::MaterialChoice, &rows, &mut choices);
+        }
+        for row in 0..hits.rows() {
+            let ray = [rays.origin_of(row), rays.direction_of(row)];
+            along.find(&media, ray, times.map_or(0.0, |times| times.time[row]), hits.t[row]);
+            if along.stretches.is_empty() {
+                continue;
+            }
+            let sampled = sample_distance(&along.stretches, paths.throughput(row), numbers[row]);
+            paths.throughput.scale(row, sampled.weight);
+            if let Some(t) = sampled.t {
+                let choice = choices.get(row).copied().unwrap_or_default();
+                let (medium, weight) = along.choose(&media.medium, t, paths.throughput(row), choice);
+                paths.throughput.scale(row, weight);
+                (hits.t[row], hits.shape[row]) = (t, media.first_shape + medium as u32);
+            }
+        }
+    }
+}
+
+/// Places a surface at every scattering event.
+pub fn fill_scattering_events(media: Res<Shared<MediumTable>>, mut tiles: Query<(&WorldRays, &Hits, &mut Surfaces)>) {
+    let is_event = |shape: u32| shape != NO_SHAPE && shape >= media.first_shape;
+    for (rays, hits, mut surfaces) in &mut tiles {
+        for row in (0..hits.rows()).filter(|&row| is_event(hits.shape[row])) {
+            let (position, normal) = (rays.point_at(row, hits.t[row]).as_vec3(), -rays.direction(row));
+            let material = media.first_material + (hits.shape[row] - media.first_shape);
+            surfaces.set(row, Surface { position, normal, bound: 0.0, material });
+        }
+    }
+}
+
+/// Multiplies the light of each unblocked shadow ray by the transmittance of the media along it.
+///
+/// A light that casts no shadow shines as if nothing were there.
+pub fn attenuate_shadow_rays(
+    media: Res<Shared<MediumTable>>,
+    mut along: Local<MediaAlong>,
+    mut tiles: Query<(Option<&RayTimes>, Option<&ShadowHits>, &mut ShadowRays)>,
+) {
+    for (times, hits, mut rays) in &mut tiles {
+        for ray in 0..rays.rows() {
+            if hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) || rays.t_max[ray] == 0.0 {
+                continue;
+            }
+            let time = times.map_or(0.0, |times| times.time[rays.row[ray] as usize]);
+            let way = [rays.origin_of(ray), rays.direction_of(ray)];
+            along.find(&media, way, time, light_distance(rays.t_max[ray]));
+            if !along.stretches.is_empty() {
+                rays.weight_by(ray, transmittance_along(&along.stretches));
+            }
+        }
+    }
+}
+
+/// The stage that adds the emission of media.
+pub fn medium_emission_stage() -> Stage {
+    Stage::new("Add the emission of media", TileSystems::Contact, add_medium_emission)
+        .on_camera_paths()
+        .when(emitting_medium_evidence)
+}
+
+/// The stage that samples distances.
+pub fn distance_stage() -> Stage {
+    Stage::new("Sample distances in media", TileSystems::Contact, sample_distances)
+        .on_camera_paths()
+        .kind(StageKind::Estimator)
+        .when(medium_evidence)
+}
+
+/// The stage that places scattering events.
+pub fn scattering_event_stage() -> Stage {
+    Stage::new("Compute surfaces: scattering events", TileSystems::Surface, fill_scattering_events)
+        .on_camera_paths()
+        .when(scattering_evidence)
+}
+
+/// The stage that attenuates shadow rays.
+pub fn medium_shadow_stage() -> Stage {
+    let stage = Stage::new("Attenuate shadow rays in media", TileSystems::AbsorbShadowRays, attenuate_shadow_rays);
+    stage
+        .on_camera_paths()
+        .when(|scene| medium_evidence(scene).and(|| light_evidence(scene)).and(|| shadow_evidence(scene)))
+}
+
+/// The stage that weights light samples at scattering events.
+pub fn phase_mis_stage() -> Stage {
+    without_sides(Stage::new(PhaseTable::NAMES.mis, TileSystems::MisWeights, mis_bsdf::<PhaseTable>))
+        .on_camera_paths()
+        .kind(StageKind::Alternative)
+        .when(|scene| {
+            let lights = area_light_evidence(scene).or(environment_light_evidence(scene));
+            lights.and(|| mis_evidence(scene)).and(|| scattering_evidence(scene))
+        })
+}
+
+/// The stage that evaluates phase functions for direct light.
+pub fn phase_direct_light_stage() -> Stage {
+    let evaluate = add_direct_light::<PhaseTable, false>;
+    without_sides(Stage::new(PhaseTable::NAMES.direct_light, TileSystems::Shade, evaluate))
+        .on_camera_paths()
+        .when(|scene| scattering_evidence(scene).and(|| light_evidence(scene)))
+}
+
+/// The stage that samples phase functions.
+pub fn phase_sample_stage() -> Stage {
+    let sample = sample_bsdf::<PhaseTable, false>;
+    continues(without_sides(Stage::new("Sample phase functions", TileSystems::SampleBsdfs, sample)))
+        .on_camera_paths()
+        .when(scattering_evidence)
+}
