@@ -40,6 +40,9 @@ fn every_stage_of_pinhole_that_a_chapter_runs_has_a_mutation() {
         stages::ambient_occlusion(),
         stages::mis(),
         stages::light_tracing(),
+        stages::photon_mapping(),
+        stages::dispersion(),
+        stages::media(),
         vec![mis_emission_stage(), mis_environment_stage()],
     ]
     .concat();

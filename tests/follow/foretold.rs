@@ -283,7 +283,7 @@ fn light_tracing_is_advised_where_it_helps() {
         said(&world).into_iter().filter(|line| line.contains("from a light without an area")).collect::<Vec<_>>()
     };
     for (is_tank, traced, words) in [
-        (true, false, Some("first hit a mirror or glass; a small sphere or disk")),
+        (true, false, Some("first hit a mirror or glass; PhotonMapping")),
         (true, true, Some("is still missing on what the camera sees through glass")),
         (false, false, Some("with LightTracing on the camera it is found from the light")),
         (false, true, None),

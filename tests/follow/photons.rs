@@ -65,7 +65,7 @@ fn seen_in_a_mirror() -> Form {
 
 #[test]
 fn photons_bring_what_closed_forms_say() {
-    const SEEDS: u64 = 24;
+    const SEEDS: u64 = 32;
     let mut all = forms();
     all.extend([seen_through_water(), seen_in_a_mirror()]);
     let mut tried = 0;

@@ -79,7 +79,9 @@ impl Purpose {
             Self::Time => 11,
             Self::EnvironmentPoint => 12,
             Self::DeltaLightChoice => 14,
-            Self::Wavelength | Self::Distance => 1,
+            Self::Wavelength => 15,
+            // A bounce has no dimension left; these are counted from the end, where no path comes.
+            Self::Distance => return u32::MAX - depth,
         };
         depth * DIMENSIONS + within
     }

@@ -74,9 +74,8 @@ pub fn sobol_bits(number: u32, dimension: u32) -> u32 {
 /// The first 2ᵏ samples of a pixel are as well distributed as 2ᵏ points of the sequence can be, and so is every later
 /// block of 2ᵏ.
 /// Purposes whose numbers belong together are dimensions of one point: the pixel, the lens and the time; a light and the
-/// point on it; a direction, the lobe
-/// and the distance. Each such set begins with the first two dimensions, the only ones whose points
-/// are a (0, m, 2)-net, and visits the points of a block in a shuffled order of its own, so that sets and bounces meet
+/// point on it; a direction, the lobe and the distance. Each such set begins with the first two dimensions, the only ones
+/// whose points are a (0, m, 2)-net, and visits the points of a block in a shuffled order of its own, so that sets and bounces meet
 /// at random (padding, as in Burley 2020).
 #[derive(Clone, Copy, Debug)]
 pub struct Sobol {
