@@ -67,7 +67,7 @@ fn table(chapter: &str, title: &str, columns: usize) -> Vec<(f64, Vec<f64>)> {
     rows
 }
 
-/// "The same loop now takes 2.1 ns", "so a row of a few thousand takes 1.7 ns", "only where the columns no longer fit there does the fused
+/// "The same loop now takes 2.1 ns", "of a few thousand rows, each then takes 1.7 ns", "only where the columns no longer fit there does the fused
 /// loop win", "and a row takes 6.7 ns": what the page says of the rows of chapter 37, as ratios that hold on any machine
 /// whose registers hold four f64 or more.
 #[test]

@@ -23,5 +23,11 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             about: "one scene by paths with a factor too few or too many, and encoded twice",
             draw: compared::draw_paths,
         },
+        Figure {
+            name: "25_fog",
+            chapter,
+            about: "a spotlight and a ball without fog, and in fog",
+            draw: compared::draw_fog,
+        },
     ]
 }

@@ -18,8 +18,8 @@ use pinhole::models::TriangleMesh;
 use pinhole::plan::Stage;
 use pinhole::scene::{
     Cuboid, Degrees, Emissive, Exposure, FovAxis, Glass, Integrator, LightStrategy, LightTracing, LookAt, Matte,
-    MeshGeometry, MeshInstance, Metal, Mirror, NormalMap, PerspectiveCamera, PhotonMapping, Placement, Plane,
-    Principled, Rgb, RoughGlass, Sampler, Sampling, Sphere,
+    Medium, MeshGeometry, MeshInstance, Metal, Mirror, NormalMap, PerspectiveCamera, PhotonMapping, Placement, Plane,
+    Principled, Rgb, RoughGlass, Sampler, Sampling, Sphere, SpotLight,
 };
 use pinhole::{Chapter, Result};
 
@@ -104,6 +104,39 @@ pub fn draw_strategies(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     rows(chapter, figure, LARGE, exhibits)
 }
 
+/// A spotlight that shines on a ball and past it.
+fn beam(world: &mut World) {
+    let look = LookAt { eye: DVec3::new(0.0, 1.4, 5.0), target: DVec3::new(0.0, 1.0, 0.0), ..LookAt::default() };
+    let camera = PerspectiveCamera { fov: Degrees(32.0), axis: FovAxis::Vertical };
+    world.spawn((camera, look, Integrator::Path { max_depth: 4, lights: LightStrategy::Mis, roulette: 0 }));
+    world.spawn((Plane::default(), Matte { colour: Rgb::grey(0.4) }));
+    let clay = Matte { colour: Rgb::new(0.8, 0.3, 0.15) };
+    world.spawn((Sphere { radius: 0.28 }, Placement::at(-0.2, 1.15, 0.0), clay));
+    let from = LookAt { eye: DVec3::new(-2.4, 2.6, 0.0), target: DVec3::new(0.8, 0.5, 0.0), ..LookAt::default() };
+    let light = SpotLight {
+        intensity: Rgb::new(90.0, 81.0, 66.0),
+        inner_angle: Degrees(20.0),
+        outer_angle: Degrees(24.0),
+        casts_shadows: true,
+    };
+    world.spawn((light, from));
+}
+
+/// A spotlight's beam without fog and with it.
+pub fn draw_fog(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let scene = chapter.clone().with_scene(beam);
+    let of = |scattering: f64, line: &str| {
+        let change = |camera: &mut EntityWorldMut<'_>| {
+            sampled(if scattering > 0.0 { 64 } else { 8 }, 25)(camera);
+            if scattering > 0.0 {
+                camera.insert(Medium { scattering: Rgb::grey(scattering), ..Medium::default() });
+            }
+        };
+        exhibit(Picture::of(&scene, SMALL, None, change), [line, &format!("*σ*ₛ = {scattering}")])
+    };
+    rows(chapter, figure, SMALL, [of(0.0, "no fog"), of(0.15, "fog")])
+}
+
 /// A pool, with a ball and a buoy in it, and a lamp above.
 fn pool(world: &mut World) {
     let look = LookAt { eye: DVec3::new(0.0, 4.2, 6.4), target: DVec3::new(0.0, 0.0, 0.2), ..LookAt::default() };
@@ -133,7 +166,7 @@ pub fn draw_photons(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let pool = chapter.clone().with_scene(pool);
     let of = |change: &dyn Fn(&mut EntityWorldMut<'_>), lines| {
         let change = |camera: &mut EntityWorldMut<'_>| {
-            sampled(32, 27)(camera);
+            sampled(24, 27)(camera);
             change(camera);
         };
         exhibit(Picture::of(&pool, SMALL, None, change), lines)
@@ -163,7 +196,7 @@ pub fn draw_sides(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         of(None, None, ["from the camera alone", "few rays hit the light"]),
         of(None, Some(1.0), ["from the lamp too", "as many rays again"]),
         of(None, Some(8.0), ["more from the lamp", "eight for each of the camera"]),
-        of(Some(join_without_cosine()), Some(1.0), ["the cosine forgotten", "too bright at grazing incidence"]),
+        of(Some(join_without_cosine()), Some(1.0), ["the cosine forgotten", "too bright where seen grazingly"]),
     ];
     rows(chapter, figure, LARGE, exhibits)
 }

@@ -116,6 +116,7 @@ impl DiskPoint {
     }
 }
 
+// ANCHOR: sine_and_cosine
 /// Sine and cosine of an angle up to an eighth of a turn either way.
 #[inline(always)]
 fn sine_and_cosine(x: f64) -> (f64, f64) {
@@ -128,6 +129,7 @@ fn sine_and_cosine(x: f64) -> (f64, f64) {
 fn summed<const N: usize>(coefficients: &[f64; N], y: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * y + coefficient)
 }
+// ANCHOR_END: sine_and_cosine
 
 #[cfg(test)]
 mod tests {
