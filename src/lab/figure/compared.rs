@@ -127,7 +127,7 @@ pub fn draw_fog(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let scene = chapter.clone().with_scene(beam);
     let of = |scattering: f64, line: &str| {
         let change = |camera: &mut EntityWorldMut<'_>| {
-            sampled(if scattering > 0.0 { 64 } else { 8 }, 25)(camera);
+            sampled(if scattering > 0.0 { 36 } else { 4 }, 25)(camera);
             if scattering > 0.0 {
                 camera.insert(Medium { scattering: Rgb::grey(scattering), ..Medium::default() });
             }
@@ -166,7 +166,7 @@ pub fn draw_photons(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let pool = chapter.clone().with_scene(pool);
     let of = |change: &dyn Fn(&mut EntityWorldMut<'_>), lines| {
         let change = |camera: &mut EntityWorldMut<'_>| {
-            sampled(24, 27)(camera);
+            sampled(12, 27)(camera);
             change(camera);
         };
         exhibit(Picture::of(&pool, SMALL, None, change), lines)

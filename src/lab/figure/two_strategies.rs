@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 
 /// Samples of each strategy; and of those that the integral is estimated by.
 const SAMPLES: u32 = 32;
-const MANY: u32 = 1 << 16;
+const MANY: u32 = 1 << 14;
 const HEIGHT: f64 = 760.0;
 /// The angle of the eye to the normal, in degrees, and the distance of the lights, whose middle is in the direction of
 /// specular reflection.
