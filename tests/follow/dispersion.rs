@@ -198,28 +198,38 @@ fn compare(name: &str, own: [[f64; 2]; 3], truth: [[f64; 2]; 3]) {
 }
 
 /// Of an index that is the same at all wavelengths, the hero wavelengths add up to the picture in RGB: for smooth and rough
-/// glass, with and without absorption, roulette and light tracing.
+/// glass, with and without absorption, roulette, light tracing and fog all around.
 #[test]
 fn a_constant_index_gives_the_picture_in_rgb() {
     let path = |roulette| Integrator::Path { max_depth: 12, lights: LightStrategy::Mis, roulette };
-    let cases: [(&str, f64, f64, u32, bool); 4] = [
-        ("smooth", 0.0, 0.0, 0, false),
-        ("smooth, absorbing, roulette", 0.0, 0.7, 2, false),
-        ("rough, roulette", 0.3, 0.0, 1, false),
-        ("smooth, light tracing", 0.0, 0.2, 0, true),
+    let cases: [(&str, f64, f64, u32, bool, bool); 5] = [
+        ("smooth", 0.0, 0.0, 0, false, false),
+        ("smooth, absorbing, roulette", 0.0, 0.7, 2, false, false),
+        ("rough, roulette", 0.3, 0.0, 1, false, false),
+        ("smooth, light tracing", 0.0, 0.2, 0, true, false),
+        ("smooth, in fog", 0.0, 0.0, 0, false, true),
     ];
-    for (name, roughness, absorption, roulette, traced) in cases {
+    for (name, roughness, absorption, roulette, traced, foggy) in cases {
         let made = |dispersion: Option<Dispersion>| {
             let body = |world: &mut World| {
                 let absorption = Rgb::new(absorption, 0.5 * absorption, 0.1 * absorption);
                 let glass = RoughGlass { ior: 1.5, roughness, absorption, priority: 0 };
                 let mut body = world.spawn((Sphere { radius: 0.8 }, Placement::at(0.0, 0.9, 0.0), glass));
                 dispersion.into_iter().for_each(|own| _ = body.insert(own));
+                if foggy {
+                    // Behind the glass, as the camera sees it: only paths that have their wavelengths come there.
+                    let [absorption, scattering] = [Rgb::new(1.0, 0.2, 0.0), Rgb::new(0.5, 2.0, 4.0)];
+                    let fog = Medium { absorption, scattering, anisotropy: 0.3, ..Medium::default() };
+                    world.spawn((Cuboid { size: DVec3::new(4.0, 2.6, 1.0) }, Placement::at(0.0, 1.4, -1.5), fog));
+                    let haze = Medium { scattering: Rgb::new(3.0, 1.0, 0.5), ..Medium::default() };
+                    world.spawn((Sphere { radius: 0.5 }, Placement::at(0.2, 1.2, -1.6), haze));
+                }
             };
             room(&body, path(roulette), traced)
         };
-        let own = by_channel(&|| made(Some(CONSTANT)), 32, 0..12);
-        compare(name, own, by_channel(&|| made(None), 32, 100..112));
+        let samples = if foggy { 128 } else { 32 };
+        let own = by_channel(&|| made(Some(CONSTANT)), samples, 0..12);
+        compare(name, own, by_channel(&|| made(None), samples, 100..112));
     }
 }
 

@@ -87,12 +87,14 @@ pub struct SampledDistance {
 /// The depth of a colour is sampled by its own e^(−τ), that colour having been chosen in proportion to its throughput; the
 /// sample counts for all three, divided by the mean of their pdfs in that proportion (the balance heuristic).
 /// So the weight is at most the sum of the throughputs over that of the sampled colour, however much the colours differ.
+/// Of a path with a wavelength a part may be negative, and its size counts.
 pub fn sample_distance(stretches: &[Stretch], throughput: [f64; 3], number: f64) -> SampledDistance {
-    let sum = throughput.iter().sum::<f64>();
+    let carried = throughput.map(f64::abs);
+    let sum = carried.iter().sum::<f64>();
     if !(sum > 0.0) {
         return SampledDistance { t: None, weight: [1.0; 3] };
     }
-    let choice = throughput.map(|part| part / sum);
+    let choice = carried.map(|part| part / sum);
     let (colour, number) = chosen(choice, number);
     let wanted = -libm::log1p(-number);
 
@@ -212,7 +214,7 @@ impl MediaAlong {
     pub fn choose(&self, media: &[Coefficients], t: f64, throughput: [f64; 3], number: f64) -> (usize, [f64; 3]) {
         let there = || self.spans.iter().filter(|own| own.0 <= t && t <= own.1).map(|own| own.2);
         let of = |medium: usize| media[medium].scattering;
-        let scatters = |medium: usize| (0..3).map(|part| throughput[part] * of(medium)[part]).sum::<f64>();
+        let scatters = |medium: usize| (0..3).map(|part| throughput[part].abs() * of(medium)[part]).sum::<f64>();
         let (mut all, mut sum) = ([0.0; 3], 0.0);
         for medium in there() {
             sum += scatters(medium);
@@ -265,7 +267,7 @@ mod distance_tests {
         const SAMPLES: u32 = 400_000;
         let (mut tried, mut worst) = (0, 0.0_f64);
         for (example, stretches) in examples().iter().enumerate() {
-            for throughput in [[1.0; 3], [1.0, 0.1, 0.0], [1e-6, 1.0, 30.0]] {
+            for throughput in [[1.0; 3], [1.0, 0.1, 0.0], [1e-6, 1.0, 30.0], [2.0, -0.7, 0.3]] {
                 let mut sums = [[[0.0_f64; 2]; 3]; 3];
                 for index in 0..SAMPLES {
                     // Stratified, so that little noise is left.
@@ -274,7 +276,7 @@ mod distance_tests {
                     let SampledDistance { t, weight } = sample_distance(stretches, throughput, number);
                     for part in 0..3 {
                         let carried = throughput[part] * weight[part];
-                        assert!(carried.is_finite() && carried >= 0.0);
+                        assert!(carried.is_finite() && carried * throughput[part] >= 0.0);
                         let of = match t {
                             None => [carried, 0.0, 0.0],
                             Some(t) => [0.0, carried, carried * t.min(1e3)],
@@ -290,7 +292,7 @@ mod distance_tests {
                     for (sum, truth) in sums[part].iter().zip(truth) {
                         let (count, mean) = (f64::from(SAMPLES), sum[0] / f64::from(SAMPLES));
                         let error = ((sum[1] / count - mean * mean).max(0.0) / count).sqrt();
-                        let off = (mean - truth) / error.max(1e-9 * truth).max(1e-300);
+                        let off = (mean - truth) / error.max(1e-9 * truth.abs()).max(1e-300);
                         worst = worst.max(off.abs());
                         assert!(
                             off.abs() < 4.0,
