@@ -265,7 +265,7 @@ fn a_shape_smaller_than_a_pixel_is_named() {
 /// Light tracing is not recommended where it finds nothing, and what it leaves out is said.
 #[test]
 fn light_tracing_is_advised_where_it_helps() {
-    let tank = |is_tank: bool, traced: bool| {
+    let tank = |is_tank: bool, traced: bool, more: &dyn Fn(&mut World)| {
         let mut world = World::new();
         let look = LookAt { eye: DVec3::new(0.0, 3.0, 9.0), target: DVec3::new(0.0, 1.0, 0.0), ..LookAt::default() };
         let size = Resolution { width: 48, height: 32 };
@@ -280,6 +280,7 @@ fn light_tracing_is_advised_where_it_helps() {
         world.spawn((Name::new("water"), water, Placement::at(0.0, 1.1, 0.0), Glass::default()));
         let from = LookAt { eye: DVec3::new(1.0, 4.0, 2.0), ..LookAt::default() };
         world.spawn((Name::new("sun"), DirectionalLight::default(), from));
+        more(&mut world);
         said(&world).into_iter().filter(|line| line.contains("from a light without an area")).collect::<Vec<_>>()
     };
     for (is_tank, traced, words) in [
@@ -288,9 +289,27 @@ fn light_tracing_is_advised_where_it_helps() {
         (false, false, Some("with LightTracing on the camera it is found from the light")),
         (false, true, None),
     ] {
-        let told = tank(is_tank, traced);
+        let told = tank(is_tank, traced, &|_| ());
         let holds = |words: &str| told.len() == 1 && told[0].contains(words);
         assert!(words.map_or(told.is_empty(), holds), "tank {is_tank}, traced {traced}: {told:?}");
+    }
+    // What a scene would be refused with is not advised.
+    let haze = |world: &mut World| _ = world.spawn((Name::new("haze"), Medium::default()));
+    let falling = |world: &mut World| {
+        world.spawn((Sphere { radius: 0.1 }, Matte::default(), Motion { velocity: DVec3::NEG_Y }));
+        let camera = named(world, "camera");
+        world.entity_mut(camera).insert(Shutter::default());
+    };
+    let parted = |world: &mut World| {
+        let water = named(world, "water");
+        world.entity_mut(water).insert(Dispersion::Water);
+    };
+    for (more, refused) in [(&haze as &dyn Fn(&mut World), "Tracing"), (&falling, "Tracing"), (&parted, "Photon")] {
+        let told = tank(true, false, more);
+        assert!(
+            told.len() == 1 && told[0].contains("a small sphere or disk") && !told[0].contains(refused),
+            "{told:?}"
+        );
     }
 }
 

@@ -8,12 +8,12 @@ use super::radians::radians;
 use super::slow::{Effort, many_bounces, many_light_bounces, never_done, slow, why_slow};
 use crate::extract::{
     AreaLightTable, CameraAxes, EmissiveTable, ImageFrame, IntegratorTable, LightPathTable, LightTracingTable,
-    OrthographicWindow, PerspectiveProjection, SamplingTable, ShapeTable, area_light_evidence, camera_entity,
-    contact_evidence, delta_light_shines, dispersion_evidence, distant_start_evidence, emissive_evidence,
-    environment_light_evidence, exposure_of, followed_evidence, glossy_evidence, integrator_of, joined_evidence,
-    listed_kind, matte_evidence, medium_evidence, photon_evidence, pixel_width, point_evidence,
-    shadowed_distant_evidence, shadowed_point_evidence, shape_name, sky_evidence, specular_evidence, starts_on_glass,
-    traced_evidence, unresolved,
+    OrthographicWindow, PerspectiveProjection, SamplingTable, ShapeTable, adaptive_of, area_light_evidence,
+    camera_entity, contact_evidence, delta_light_shines, dispersion_evidence, distant_start_evidence,
+    emissive_evidence, environment_light_evidence, exposure_of, followed_evidence, glossy_evidence, integrator_of,
+    joined_evidence, listed_kind, matte_evidence, medium_evidence, motion_evidence, photon_evidence, pixel_width,
+    point_evidence, shadowed_distant_evidence, shadowed_point_evidence, shape_name, sky_evidence, specular_evidence,
+    starts_on_glass, traced_evidence, unresolved,
 };
 use crate::film::srgb_from_linear;
 use crate::material::{D_LINE, IndexCurve, interior_of};
@@ -372,7 +372,12 @@ pub fn missing_paths(scene: &Census<'_>, pilot: &Pilot) -> Vec<String> {
     let (is_traced, seen) = (traced_evidence(scene).needed, format!("{} of {}", pilot.specular_first, pilot.rays));
     let is_joined = joined_evidence(scene).needed;
     let through = "no line from a light path to the camera passes glass or a mirror";
-    let area = "PhotonMapping in its place finds it there, too";
+    let area = "a small sphere or disk that emits, in place of the light, is found by paths there, too";
+    // What is refused is not advised.
+    let is_adaptive = adaptive_of(scene).is_ok_and(|own| own.is_some());
+    let is_refused = is_adaptive || medium_evidence(scene).needed || motion_evidence(scene).needed;
+    let are_photons_refused = is_refused || dispersion_evidence(scene).needed;
+    let photons = if are_photons_refused { area } else { "PhotonMapping in its place finds it there, too" };
     let mut warnings = Vec::new();
     if started.needed && !is_traced {
         let missing = format!(
@@ -380,17 +385,16 @@ pub fn missing_paths(scene: &Census<'_>, pilot: &Pilot) -> Vec<String> {
              surfaces, since no sampled ray can hit a point",
             bends.reason, started.reason
         );
-        let advice = if medium_evidence(scene).needed {
-            // Light paths cross no medium.
+        let advice = if is_refused {
             area.into()
         } else if pilot.hits > 0 && pilot.specular_first == pilot.hits {
             format!(
-                "here LightTracing does not find it, for the camera sees everything through glass or in mirrors; {area}"
+                "here LightTracing does not find it, for the camera sees everything through glass or in mirrors; {photons}"
             )
         } else if pilot.specular_first as f64 >= MANY_SPECULAR * pilot.rays as f64 && pilot.rays > 0 {
             format!(
                 "with LightTracing on the camera it is found from the light on what the camera sees directly, but \
-                 {seen} test rays first hit a mirror or glass; {area}"
+                 {seen} test rays first hit a mirror or glass; {photons}"
             )
         } else {
             "with LightTracing on the camera it is found from the light".into()
@@ -401,7 +405,7 @@ pub fn missing_paths(scene: &Census<'_>, pilot: &Pilot) -> Vec<String> {
     {
         warnings.push(format!(
             "light that arrives through mirrors or glass ({}) from a light without an area ({}) is still missing on what \
-             the camera sees through glass or in a mirror, which {seen} test rays hit first: {through}; {area}",
+             the camera sees through glass or in a mirror, which {seen} test rays hit first: {through}; {photons}",
             bends.reason, started.reason
         ));
     }
