@@ -243,6 +243,37 @@ fn light_from_area_lights_brings_what_the_camera_s_paths_bring() {
     agrees("cornell-glass", &make, 16);
 }
 
+/// Asserts that a scene of so many samples gives the bits of one whole render however its steps are divided, stopped and
+/// continued from a checkpoint, by how many threads, in tiles of what size; returns the number of ways.
+pub(super) fn assert_same_bits_however_divided(scene: &World, samples: u32, folder: &std::path::Path) -> u32 {
+    let whole = FilmBits::of(&render(scene, &offer(), &Execution::default(), &()).expect("renders").film);
+    let (mut tried, end) = (0, steps_of(samples));
+    let cuts: [&[u32]; 3] = [&[], &[1, 2, 5], &[4]];
+    for (number, cut) in cuts.into_iter().enumerate() {
+        for (threads, tile_side, worlds) in
+            [(1, 32, Worlds::PerWorker), (3, 8, Worlds::PerWorker), (2, 31, Worlds::One)]
+        {
+            let execution = Execution { threads: Some(threads), tile_side, worlds, part: None };
+            let census = &Census::of(scene);
+            let mut in_progress = RenderInProgress::begin(census, &offer(), &execution).expect("begins");
+            for &step in cut.iter().chain([&end]) {
+                in_progress.advance(step, &()).expect("goes on");
+                if number > 0 && step < end {
+                    let path = folder.join("checkpoint");
+                    write_checkpoint(&in_progress.film, 27, &path).expect("written");
+                    let kept = read_checkpoint(27, &in_progress.film, false, &path).expect("read");
+                    assert!(kept == in_progress.film, "a checkpoint holds all of a film");
+                    in_progress = RenderInProgress::begin(census, &offer(), &execution).expect("begins");
+                    in_progress.take(kept);
+                }
+            }
+            FilmBits::of(&in_progress.film).assert_is(&whole, &format!("{threads} threads, {worlds:?}, cut {cut:?}"));
+            tried += 1;
+        }
+    }
+    tried
+}
+
 #[test]
 fn light_from_area_lights_has_the_same_bits_however_it_is_traced() {
     let filters = [Filter::Box { radius: 0.5 }, Filter::Mitchell { radius: 2.0, b: 1.0 / 3.0, c: 1.0 / 3.0 }];
@@ -261,31 +292,7 @@ fn light_from_area_lights_has_the_same_bits_however_it_is_traced() {
         let lit = splats.sums[0].iter().filter(|sum| **sum > 0.0).count();
         eprintln!("light from lamps: {lit} of {} pixels got some", 48 * 32);
         assert!(lit > 60, "{lit}");
-        let whole = FilmBits::of(&whole);
-        let cuts: [&[u32]; 3] = [&[], &[1, 2, 5], &[4]];
-        for (number, cut) in cuts.into_iter().enumerate() {
-            for (threads, tile_side, worlds) in
-                [(1, 32, Worlds::PerWorker), (3, 8, Worlds::PerWorker), (2, 31, Worlds::One)]
-            {
-                let execution = Execution { threads: Some(threads), tile_side, worlds, part: None };
-                let census = &Census::of(&scene);
-                let mut in_progress = RenderInProgress::begin(census, &offer(), &execution).expect("begins");
-                for &step in cut.iter().chain([&steps_of(5)]) {
-                    in_progress.advance(step, &()).expect("goes on");
-                    if number > 0 && step < steps_of(5) {
-                        let path = folder.path().join("checkpoint");
-                        write_checkpoint(&in_progress.film, 27, &path).expect("written");
-                        let kept = read_checkpoint(27, &in_progress.film, false, &path).expect("read");
-                        assert!(kept == in_progress.film, "a checkpoint holds all of a film");
-                        in_progress = RenderInProgress::begin(census, &offer(), &execution).expect("begins");
-                        in_progress.take(kept);
-                    }
-                }
-                FilmBits::of(&in_progress.film)
-                    .assert_is(&whole, &format!("{threads} threads, {worlds:?}, cut {cut:?}"));
-                tried += 1;
-            }
-        }
+        tried += assert_same_bits_however_divided(&scene, 5, folder.path());
     }
     eprintln!("light from lamps: {tried} ways to trace 3 films, every bit the same");
 }

@@ -9,7 +9,7 @@ use pinhole::material::IndexCurve;
 use pinhole::plan::{ComponentNumber, Plan, TileSystems, plan};
 use pinhole::rays::Wavelengths;
 use pinhole::render::{RenderInProgress, prepare, steps_of};
-use pinhole::sample::wavelength_sample;
+use pinhole::sample::Spectrum;
 use pinhole::scene::*;
 use scenes::FilmBits;
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_6};
@@ -309,7 +309,7 @@ fn a_spectrum_is_the_sum_of_its_lines() {
     let whole = on_screen(&|| spectrum(true, (Glass::default(), Dispersion::Sf11)), 0..16);
     let mut sum = vec![[[0.0; 2]; 3]; 12];
     for part in 0..PARTS {
-        let (wavelength, weight) = wavelength_sample((f64::from(part) + 0.5) / f64::from(PARTS));
+        let (wavelength, weight) = Spectrum::get().sample((f64::from(part) + 0.5) / f64::from(PARTS));
         let ior = IndexCurve::of(Dispersion::Sf11).index(wavelength);
         let glass = move || spectrum(true, Glass { ior, ..Glass::default() });
         let first = 1000 + 2 * u64::from(part);

@@ -1,16 +1,16 @@
 //! Caustics that photons find, held against closed forms, and against other ways to find the same light.
 
-use super::caustics::{Form, WIDTH, camera, forms, mean_of, over_square, point, through_layers, white};
+use super::caustics::{
+    Form, WIDTH, assert_same_bits_however_divided, camera, forms, mean_of, over_square, point, through_layers, white,
+};
 use super::*;
 use glam::DVec3;
-use pinhole::film::{read_checkpoint, write_checkpoint};
 use pinhole::follow::photon_radius;
 use pinhole::look::{Preflight, preflight};
 use pinhole::material::fresnel;
 use pinhole::plan::Census;
-use pinhole::render::{RenderInProgress, Worlds, prepare, steps_of};
+use pinhole::render::prepare;
 use pinhole::scene::*;
-use scenes::FilmBits;
 use scenes::caustics::{caustics, traced};
 
 /// The same with photons in place of light paths that are connected to the camera.
@@ -192,30 +192,7 @@ fn photons_have_the_same_bits_however_they_are_traced() {
         let mut scene = mapped(|| caustics(lamps), radius)();
         let camera = named(&mut scene, "camera");
         scene.entity_mut(camera).insert(Sampling { samples: 4, seed: 38, sampler, ..Sampling::default() });
-        let whole = FilmBits::of(&render(&scene, &offer(), &Execution::default(), &()).expect("renders").film);
-        let cuts: [&[u32]; 3] = [&[], &[1, 2, 5], &[4]];
-        for (number, cut) in cuts.into_iter().enumerate() {
-            for (threads, tile_side, worlds) in
-                [(1, 32, Worlds::PerWorker), (3, 8, Worlds::PerWorker), (2, 31, Worlds::One)]
-            {
-                let execution = Execution { threads: Some(threads), tile_side, worlds, part: None };
-                let census = &Census::of(&scene);
-                let mut in_progress = RenderInProgress::begin(census, &offer(), &execution).expect("begins");
-                for &step in cut.iter().chain([&steps_of(4)]) {
-                    in_progress.advance(step, &()).expect("goes on");
-                    if number > 0 && step < steps_of(4) {
-                        let path = folder.path().join("checkpoint");
-                        write_checkpoint(&in_progress.film, 38, &path).expect("written");
-                        let kept = read_checkpoint(38, &in_progress.film, false, &path).expect("read");
-                        in_progress = RenderInProgress::begin(census, &offer(), &execution).expect("begins");
-                        in_progress.take(kept);
-                    }
-                }
-                FilmBits::of(&in_progress.film)
-                    .assert_is(&whole, &format!("{threads} threads, {worlds:?}, cut {cut:?}"));
-                tried += 1;
-            }
-        }
+        tried += assert_same_bits_however_divided(&scene, 4, folder.path());
     }
     eprintln!("photons: {tried} ways to trace 2 films, every bit the same");
 }
@@ -293,6 +270,18 @@ fn an_odd_radius_is_said_before() {
         assert!(!told.contains("more than white"), "{told}");
         assert!(word.map_or(!told.contains("radius"), |word| told.contains(word)), "{radius}: {told}");
     }
+}
+
+/// What the photons of a sample take is counted before anything is allocated.
+#[test]
+fn more_photons_than_fit_are_refused() {
+    let mut world = mapped(|| caustics(true), 0.0)();
+    let camera = named(&mut world, "camera");
+    let size = Resolution { width: 8192, height: 8192 };
+    world.entity_mut(camera).insert((PhotonMapping { paths: 1024.0, radius: 0.0 }, size));
+    let said = render(&world, &offer(), &Execution::default(), &()).err().expect("refused").to_string();
+    eprintln!("{said}");
+    assert!(said.contains("photon") && said.contains("fits") && said.lines().count() == 1, "{said}");
 }
 
 /// Radii from nearly none to all of the scene, one photon a pixel in a thousand, and cameras without an image plane.

@@ -6,7 +6,7 @@ use super::pen::{INK, Pen};
 use super::svg::{Drawing, Svg};
 use glam::DVec2;
 use pinhole::material::IndexCurve;
-use pinhole::sample::{SPECTRUM, white_share};
+use pinhole::sample::{SPECTRUM, Spectrum};
 use pinhole::scene::Dispersion;
 use pinhole::{Chapter, Result};
 
@@ -82,8 +82,8 @@ pub fn draw_weights(_: &Chapter, figure: &Figure) -> Result<Drawing> {
     for (name, channel, colour, wavelength, side) in
         [("red", 0, RED, 622.0, DVec2::X), ("green", 1, GREEN, 560.0, DVec2::X), ("blue", 2, BLUE, 462.0, DVec2::X)]
     {
-        axes.curve((name, wavelength, side), Pen::new(colour, 2.2), &|own| white_share(own).0[channel]);
+        axes.curve((name, wavelength, side), Pen::new(colour, 2.2), &|own| Spectrum::get().white_share(own).0[channel]);
     }
-    axes.curve(("sampled", 645.0, DVec2::X), Pen::new(INK, 1.4), &|own| white_share(own).1);
+    axes.curve(("sampled", 645.0, DVec2::X), Pen::new(INK, 1.4), &|own| Spectrum::get().white_share(own).1);
     Ok(axes.finish(figure))
 }

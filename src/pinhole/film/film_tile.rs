@@ -56,9 +56,9 @@ pub struct FilmTile {
     pub first_rejected: Vec<Rejected>,
     /// The sums over earlier blocks of samples; none before the second block.
     pub earlier: Option<Box<EarlierBlocks>>,
-    /// The least radiance that a sample may have: 0, or, where paths have wavelengths, whose weights may be negative, the
-    /// least number.
-    pub least: f32,
+    /// The minimum of a component of a sample: 0, or, where paths have wavelengths, whose weights may be negative, that of
+    /// all numbers.
+    pub min: f32,
 }
 
 impl FilmTile {
@@ -82,7 +82,7 @@ impl FilmTile {
     /// Whether a sample is valid: all components are finite, and not negative unless they may be.
     #[inline(always)]
     pub fn accepts(&self, radiance: [f32; 3]) -> bool {
-        let [r, g, b] = radiance.map(|value| (value >= self.least) & (value < f32::INFINITY));
+        let [r, g, b] = radiance.map(|value| (value >= self.min) & (value < f32::INFINITY));
         r & g & b
     }
 
@@ -286,7 +286,7 @@ impl Film {
     /// A film of the same size and contents without samples.
     pub fn emptied(&self) -> Self {
         let mut film = Self::of_part(self.part(), self.tile_side);
-        film.tiles.iter_mut().zip(&self.tiles).for_each(|(tile, own)| tile.least = own.least);
+        film.tiles.iter_mut().zip(&self.tiles).for_each(|(tile, own)| tile.min = own.min);
         let rows = |tile: &FilmTile| tile.tile.rows();
         if !self.moments.is_empty() {
             film.moments = film.tiles.iter().map(|tile| FilmMoments::new(rows(tile))).collect();

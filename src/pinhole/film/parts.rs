@@ -372,7 +372,7 @@ impl Film {
         UnitFilm {
             unit,
             planned: self.planned.get(unit.tile as usize).cloned(),
-            tile: FilmTile { least: self.tiles[unit.tile as usize].least, ..FilmTile::new(place) },
+            tile: FilmTile { min: self.tiles[unit.tile as usize].min, ..FilmTile::new(place) },
             moments: (!self.moments.is_empty()).then(|| FilmMoments::new(rows)),
             layers: self.layers.first().map(|layers| FilmLayers::new(rows, &layers.kinds)),
         }

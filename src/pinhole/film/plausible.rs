@@ -62,7 +62,7 @@ fn is_plausible_part(
     let negative = tile.negative_count.iter().zip(&tile.count).all(|(negative, count)| negative <= count);
     let rejected = tile.rejected <= tile.count.len() as u64 * u64::from(max);
     let earlier = tile.earlier.iter().flat_map(|earlier| earlier.sum.iter().chain(&earlier.negative));
-    let is_sum = |component: &Vec<f64>| is_valid(component, f64::from(tile.least));
+    let is_sum = |component: &Vec<f64>| is_valid(component, f64::from(tile.min));
     let sums = tile.sum.iter().chain(&tile.negative).chain(earlier).all(is_sum);
     let before = tile.earlier.iter().all(|earlier| earlier.count.iter().zip(&tile.count).all(|(own, all)| own <= all));
     let valid = |own: &FilmMoments| own.sum.iter().chain(&own.earlier).all(|component| is_valid(component, 0.0));
@@ -94,7 +94,7 @@ fn are_plausible(splats: &FilmSplats, film: &Film, max: u32) -> bool {
 }
 
 /// Whether sums of samples that are at least 0, or may be negative, are such sums.
-fn is_valid(component: &[f64], least: f64) -> bool {
-    let least = if least < 0.0 { f64::MIN } else { 0.0 };
-    component.iter().all(|sum| (least..f64::INFINITY).contains(sum))
+fn is_valid(component: &[f64], min: f64) -> bool {
+    let min = if min < 0.0 { f64::MIN } else { 0.0 };
+    component.iter().all(|sum| (min..f64::INFINITY).contains(sum))
 }

@@ -15,8 +15,8 @@ pub struct FilmSplats {
     pub paths: u64,
     /// Number of splats rejected, because a component was negative or not finite.
     pub rejected: u64,
-    /// The least component that a splat may have: 0, or the least number, as for a [`FilmTile`](super::FilmTile).
-    pub least: f64,
+    /// The minimum of a component of a splat: 0, or that of all numbers, as for a [`FilmTile`](super::FilmTile).
+    pub min: f64,
 }
 
 impl FilmSplats {
@@ -28,7 +28,7 @@ impl FilmSplats {
 
     /// The same without what was added.
     pub(super) fn emptied(&self) -> Self {
-        Self { least: self.least, ..Self::new(self.size[0], self.size[1]) }
+        Self { min: self.min, ..Self::new(self.size[0], self.size[1]) }
     }
 
     // ANCHOR: add_splat
@@ -37,7 +37,7 @@ impl FilmSplats {
     /// A camera sample at that point has the same expected weight in those pixels, so light from both kinds of paths
     /// passes through the same filter.
     pub fn add(&mut self, filter: &mut SplatFilter, [x, y]: [f64; 2], light: [f64; 3]) {
-        if !light.iter().all(|value| (self.least..f64::INFINITY).contains(value)) {
+        if !light.iter().all(|value| (self.min..f64::INFINITY).contains(value)) {
             self.rejected += 1;
             return;
         }

@@ -71,7 +71,7 @@ pub use paths::{
     sum_bounces, sum_bounces_stage, survival_probability, times_stage, trace_bounces,
 };
 pub use photons::{
-    Photon, PhotonMap, Photons, first_radius, gather_photons, gather_photons_stage, mark_photon_paths,
+    PHOTON_BYTES, Photon, PhotonMap, Photons, first_radius, gather_photons, gather_photons_stage, mark_photon_paths,
     mark_photon_paths_stage, photon_radius, start_photon_paths, start_photon_paths_stage, store_photons,
     store_photons_stage,
 };

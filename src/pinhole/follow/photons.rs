@@ -81,7 +81,7 @@ pub fn store_photons_stage() -> Stage {
 }
 
 /// The power of one light path where it ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Photon {
     /// Where, in render space.
     pub position: Vec3,
@@ -92,6 +92,10 @@ pub struct Photon {
     /// The segments of its path.
     pub segments: u32,
 }
+
+/// Bytes of a light path that ends as a photon: in its batch's columns, in the list of all, and in the map.
+pub const PHOTON_BYTES: u64 =
+    (size_of::<[f32; 6]>() + size_of::<[f64; 3]>() + size_of::<u32>() + 2 * size_of::<Photon>()) as u64;
 
 /// The photons of one sample, in a grid whose cells are twice the radius wide.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -121,8 +125,9 @@ impl PhotonMap {
     // ANCHOR: photon_grid
     /// The map of these photons, those of each bucket in the order that they have here.
     pub fn new(photons: &[Photon], radius: f64) -> Self {
-        let buckets = photons.len().next_power_of_two().max(1);
-        let mut map = Self { photons: photons.to_vec(), first: vec![0; buckets + 1], radius };
+        let buckets = photons.len().next_power_of_two();
+        let room = vec![Photon::default(); photons.len()];
+        let mut map = Self { photons: room, first: vec![0; buckets + 1], radius };
         let bucket_of = |photon: &Photon| bucket(cell_of(photon.position.as_dvec3(), radius), buckets);
         // How many lie in each bucket, then where each bucket ends, then back to where it begins.
         for photon in photons {
@@ -209,10 +214,11 @@ pub fn photon_radius(first: f64, sample: u32) -> f64 {
 }
 // ANCHOR_END: photon_radius
 
-/// How many photons the first radius is to hold, and of how many photons the distances are measured to how many others.
+/// How many photons the first radius is to hold.
 const HELD: usize = 10;
-const ASKED: usize = 256;
-const MOST: usize = 1 << 16;
+/// Of at most how many photons the distances are measured, and to how many others.
+const MAX_ASKED: usize = 256;
+const MAX_OTHERS: usize = 1 << 16;
 
 /// The fewest pixels of a radius: what is smaller does not show, and where photons lie far apart each would.
 const PIXELS: f64 = 1.5;
@@ -231,7 +237,7 @@ pub fn first_radius(photons: &[Photon], [pixel, by_distance]: [f64; 2]) -> f64 {
 /// The radius that holds about ten photons around half of these photons; 1 where there are too few to tell.
 fn radius_of_ten(photons: &[Photon]) -> f64 {
     // Of every how many of them the distances are measured; the others are taken to lie as densely.
-    let step = photons.len().div_ceil(MOST).max(1);
+    let step = photons.len().div_ceil(MAX_OTHERS).max(1);
     let others: Vec<DVec3> = photons.iter().step_by(step).map(|photon| photon.position.as_dvec3()).collect();
     let nth = HELD.div_ceil(step);
     if others.len() <= nth {
@@ -241,7 +247,7 @@ fn radius_of_ten(photons: &[Photon]) -> f64 {
         let mut squares: Vec<f64> = others.iter().map(|to| (*to - *from).length_squared()).collect();
         *squares.select_nth_unstable_by(nth, f64::total_cmp).1
     };
-    let mut squares: Vec<f64> = others.iter().step_by(others.len().div_ceil(ASKED)).map(distance).collect();
+    let mut squares: Vec<f64> = others.iter().step_by(others.len().div_ceil(MAX_ASKED)).map(distance).collect();
     let middle = squares.len() / 2;
     let square = *squares.select_nth_unstable_by(middle, f64::total_cmp).1;
     let radius = (square * HELD as f64 / (nth * step) as f64).sqrt();

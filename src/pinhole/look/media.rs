@@ -8,7 +8,7 @@ use crate::plan::Census;
 use crate::scene::DirectionalLight;
 use bevy_ecs::prelude::*;
 
-/// How many of the least steps of single precision light should go between two scattering events.
+/// How many of the smallest steps of single precision light should go between two scattering events.
 const STEPS: f64 = 8.0;
 
 /// Says that a medium without an end keeps out what shines from infinitely far away, and that one is so dense that single

@@ -15,19 +15,19 @@ use std::sync::Arc;
 #[inline(always)]
 pub fn henyey_greenstein(g: f64, one_minus_cosine: f64) -> f64 {
     let (size, off) = if g < 0.0 { (-g, 2.0 - one_minus_cosine) } else { (g, one_minus_cosine) };
-    let least = 1.0 - size;
-    let square = least * least + 2.0 * size * off;
-    least * (1.0 + size) / (4.0 * PI * square * square.sqrt())
+    let one_minus_g = 1.0 - size;
+    let square = one_minus_g * one_minus_g + 2.0 * size * off;
+    one_minus_g * (1.0 + size) / (4.0 * PI * square * square.sqrt())
 }
 
 /// Samples 1 − cos θ of that phase function by a number in [0, 1), by inversion, which needs no division by g.
 #[inline(always)]
 pub fn henyey_greenstein_sample(g: f64, u: f64) -> f64 {
     let size = g.abs();
-    let least = 1.0 - size;
-    let along = least + 2.0 * size * u;
-    let root = least * (1.0 + size) / along;
-    let off = (least * (1.0 - u) * (root + least) / along).clamp(0.0, 2.0);
+    let one_minus_g = 1.0 - size;
+    let along = one_minus_g + 2.0 * size * u;
+    let root = one_minus_g * (1.0 + size) / along;
+    let off = (one_minus_g * (1.0 - u) * (root + one_minus_g) / along).clamp(0.0, 2.0);
     if g < 0.0 { 2.0 - off } else { off }
 }
 // ANCHOR_END: henyey_greenstein
@@ -180,9 +180,9 @@ mod phase_tests {
                 let off = henyey_greenstein_sample(g, u);
                 // From the peak, the cumulative distribution is (1 + g) / 2g · (1 − (1 − g) / √((1 − g)² + 2g off)).
                 let (size, off) = (g.abs(), if g < 0.0 { 2.0 - off } else { off });
-                let (least, u) = (1.0 - size, 1.0 - u);
-                let root = (least * least + 2.0 * size * off).sqrt();
-                let below = (1.0 + size) * off / (root * (root + least));
+                let (one_minus_g, u) = (1.0 - size, 1.0 - u);
+                let root = (one_minus_g * one_minus_g + 2.0 * size * off).sqrt();
+                let below = (1.0 + size) * off / (root * (root + one_minus_g));
                 // With a peak of 1e-12 about −1, 2 − off keeps four digits of its width.
                 let tolerance = if g < -0.99 { 1e-3 } else { 1e-11 };
                 assert!((below - u).abs() < tolerance, "g {g}, {u}: {below}");

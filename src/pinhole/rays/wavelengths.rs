@@ -4,7 +4,7 @@ use super::Paths;
 use super::draws::{DrawsView, draw_one};
 use crate::extract::{SamplingTable, wavelength_evidence};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
-use crate::sample::{Purpose, wavelength_sample};
+use crate::sample::{Purpose, Spectrum};
 use bevy_ecs::prelude::*;
 
 column! {
@@ -44,11 +44,12 @@ pub fn draw_wavelengths(
     sampling: Res<Shared<SamplingTable>>,
     mut tiles: Query<(DrawsView, &Paths, &mut Wavelengths, &mut WavelengthWeights)>,
 ) {
+    let spectrum = Spectrum::get();
     for (draws, paths, mut wavelengths, mut weights) in &mut tiles {
         let (nm, mut weights) = (wavelengths.slices_mut(paths.rows()), weights.slices_mut(paths.rows()));
         draw_one(&draws.draws(&sampling, Some(paths)), Purpose::Wavelength, nm);
         for (row, nm) in nm.iter_mut().enumerate() {
-            let (wavelength, weight) = wavelength_sample(*nm);
+            let (wavelength, weight) = spectrum.sample(*nm);
             *nm = wavelength;
             weights.put(row, weight);
         }

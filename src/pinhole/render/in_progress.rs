@@ -332,8 +332,8 @@ pub(super) fn film_for(scene: &Census<'_>, plan: &Plan, mut film: Film) -> Film 
         film.layers = rows.map(|rows| FilmLayers::new(rows, &kinds)).collect();
     }
     if plan.keeps::<Wavelengths>() {
-        film.tiles.iter_mut().for_each(|tile| tile.least = f32::MIN);
-        film.splats.iter_mut().for_each(|splats| splats.least = f64::MIN);
+        film.tiles.iter_mut().for_each(|tile| tile.min = f32::MIN);
+        film.splats.iter_mut().for_each(|splats| splats.min = f64::MIN);
     }
     film
 }

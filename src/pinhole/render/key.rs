@@ -69,7 +69,7 @@ impl RenderInProgress {
         for y in starts(height) {
             for x in starts(width) {
                 let mut film = FilmTile::new(Tile { x, y, width: SIDE.min(width - x), height: SIDE.min(height - y) });
-                film.least = self.film.tiles.first().map_or(0.0, |own| own.least);
+                film.min = self.film.tiles.first().map_or(0.0, |own| own.min);
                 let rows = film.tile.rows();
                 let mut moments = self.film.moments.first().map(|_| FilmMoments::new(rows));
                 let mut layers = self.film.layers.first().map(|own| FilmLayers::new(rows, &own.kinds));

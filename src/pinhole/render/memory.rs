@@ -1,6 +1,6 @@
-use crate::extract::{FilterTable, ImageFrame, LayerTable, SamplingTable, adaptive_of};
+use crate::extract::{FilterTable, ImageFrame, LayerTable, LightTracingTable, SamplingTable, adaptive_of};
 use crate::film::{BLOCK, FilmLayers, FilmMoments, MATTE_BYTES};
-use crate::follow::Splats;
+use crate::follow::{PHOTON_BYTES, Photons, Splats};
 use crate::plan::{Census, Plan};
 use crate::scene::{Filter, LayerKind, SceneError, TooLittleMemory, called, check_memory};
 use bevy_ecs::prelude::*;
@@ -13,7 +13,7 @@ pub fn peak_memory() -> Option<u64> {
     Some(kibibytes * 1024)
 }
 
-/// Bytes that a render of a scene takes per pixel of its film.
+/// Bytes that a render of a scene takes per pixel of its film, and of photons for each sample of a pixel.
 pub fn film_bytes_per_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, SceneError> {
     const THREE: u64 = 3 * size_of::<f64>() as u64;
     const COUNT: u64 = size_of::<u32>() as u64;
@@ -28,6 +28,10 @@ pub fn film_bytes_per_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, Scen
     }
     if plan.keeps::<Splats>() {
         film += THREE;
+    }
+    if plan.keeps::<Photons>() {
+        // As many light paths as pixel samples, times a factor, each of which may end as a photon.
+        film += (PHOTON_BYTES as f64 * scene.table::<LightTracingTable>()?.paths).ceil() as u64;
     }
     if plan.keeps::<FilmLayers>() {
         let kinds = LayerTable::kinds_of(scene);
@@ -57,7 +61,8 @@ pub fn check_film_fits(scene: &Census<'_>, plan: &Plan) -> Result<(), SceneError
     check_memory(pixels * a_pixel).map_err(|too_little| {
         let who = crate::extract::camera_entity(scene)
             .map_or("camera".into(), |own| format!("camera {}", called(scene, own)));
-        let accepted = format!("such a film {too_little}; {}", fitting([width, height], a_pixel, too_little));
+        let what = if plan.keeps::<Photons>() { "such a film with its photons" } else { "such a film" };
+        let accepted = format!("{what} {too_little}; {}", fitting([width, height], a_pixel, too_little));
         SceneError::new(who, "resolution", format!("{width} × {height}"), accepted)
     })
 }

@@ -35,7 +35,7 @@ pub use mean_error::{INTEGRANDS, Integrand, MeanError, mean_error, slope};
 pub use owen::owen_scrambled;
 pub use purpose::{DIMENSIONS, Purpose};
 pub use sobol::{Sobol, sobol_bits};
-pub use spectrum::{SPECTRUM, colour_matching, wavelength_sample, white_share};
+pub use spectrum::{SPECTRUM, Spectrum, colour_matching};
 pub use stratified::{Stratified, permuted, strata_of};
 
 /// Which of a pixel's samples random numbers are for.

@@ -42,7 +42,7 @@ fn rgb_of(wavelength: f64) -> [f64; 3] {
 }
 
 /// The spectrum by intervals of 1 nm.
-struct Spectrum {
+pub struct Spectrum {
     /// What each interval adds to white: red, green, blue, which sum up to 1 each.
     share: Vec<[f64; 3]>,
     /// The probability that a wavelength is below the end of an interval.
@@ -72,30 +72,36 @@ static TABLE: LazyLock<Spectrum> = LazyLock::new(|| {
     Spectrum { below: below.collect(), size: all, share }
 });
 
-/// A wavelength in nm by a number in [0, 1), and its weight: for each channel what the nanometre around it adds to white,
-/// over the probability of that nanometre.
-///
-/// The mean of the weights of all wavelengths is 1 in each channel; the weight of one of them may be negative.
-pub fn wavelength_sample(number: f64) -> (f64, [f64; 3]) {
-    let table = &*TABLE;
-    let interval = table.below.partition_point(|&below| below <= number).min(INTERVALS - 1);
-    let from = if interval == 0 { 0.0 } else { table.below[interval - 1] };
-    let within = ((number - from) / (table.below[interval] - from)).clamp(0.0, 1.0);
-    let (share, probability) = spectrum_at(interval);
-    (f64::from(SPECTRUM[0]) + interval as f64 + within, share.map(|part| part / probability))
-}
-// ANCHOR_END: spectrum
+impl Spectrum {
+    /// The one that all paths sample.
+    pub fn get() -> &'static Self {
+        &TABLE
+    }
 
-/// What an interval adds to white, and its probability.
-fn spectrum_at(interval: usize) -> ([f64; 3], f64) {
-    let share = TABLE.share[interval];
-    (share, size(share) / TABLE.size)
-}
+    /// A wavelength in nm by a number in [0, 1), and its weight: for each channel what the nanometre around it adds to
+    /// white, over the probability of that nanometre.
+    ///
+    /// The mean of the weights of all wavelengths is 1 in each channel; the weight of one of them may be negative.
+    pub fn sample(&self, number: f64) -> (f64, [f64; 3]) {
+        let interval = self.below.partition_point(|&below| below <= number).min(INTERVALS - 1);
+        let from = if interval == 0 { 0.0 } else { self.below[interval - 1] };
+        let within = ((number - from) / (self.below[interval] - from)).clamp(0.0, 1.0);
+        let (share, probability) = self.at(interval);
+        (f64::from(SPECTRUM[0]) + interval as f64 + within, share.map(|part| part / probability))
+    }
+    // ANCHOR_END: spectrum
 
-/// What the nanometre around a wavelength adds to white, red, green and blue, and its probability.
-pub fn white_share(wavelength: f64) -> ([f64; 3], f64) {
-    let interval = (wavelength - f64::from(SPECTRUM[0])).clamp(0.0, INTERVALS as f64 - 1.0);
-    spectrum_at(interval as usize)
+    /// What an interval adds to white, and its probability.
+    fn at(&self, interval: usize) -> ([f64; 3], f64) {
+        let share = self.share[interval];
+        (share, size(share) / self.size)
+    }
+
+    /// What the nanometre around a wavelength adds to white, red, green and blue, and its probability.
+    pub fn white_share(&self, wavelength: f64) -> ([f64; 3], f64) {
+        let interval = (wavelength - f64::from(SPECTRUM[0])).clamp(0.0, INTERVALS as f64 - 1.0);
+        self.at(interval as usize)
+    }
 }
 
 #[cfg(test)]
@@ -152,11 +158,11 @@ mod tests {
     /// The mean weight is 1 in each channel, exactly: strata of the unit interval that no interval of 1 nm crosses.
     #[test]
     fn white_in_is_white_out() {
-        let table = &*TABLE;
+        let table = Spectrum::get();
         let mut mean = [0.0; 3];
         for interval in 0..INTERVALS {
             let probability = table.below[interval] - if interval == 0 { 0.0 } else { table.below[interval - 1] };
-            let (wavelength, weight) = wavelength_sample(table.below[interval] - 0.5 * probability);
+            let (wavelength, weight) = Spectrum::get().sample(table.below[interval] - 0.5 * probability);
             assert_eq!(wavelength.floor(), f64::from(SPECTRUM[0]) + interval as f64);
             (0..3).for_each(|channel| mean[channel] += probability * weight[channel]);
         }
@@ -170,13 +176,13 @@ mod tests {
     fn wavelengths_ascend_over_the_whole_spectrum() {
         let mut last = f64::from(SPECTRUM[0]);
         for own in 0..100_000 {
-            let (wavelength, weight) = wavelength_sample(f64::from(own) / 1e5);
+            let (wavelength, weight) = Spectrum::get().sample(f64::from(own) / 1e5);
             assert!(wavelength >= last && wavelength <= f64::from(SPECTRUM[1]), "{wavelength} after {last}");
             assert!(weight.iter().all(|part| part.is_finite()) && weight != [0.0; 3]);
             last = wavelength;
         }
-        assert_eq!(wavelength_sample(0.0).0, f64::from(SPECTRUM[0]));
-        assert!(wavelength_sample(1.0 - f64::EPSILON).0 > f64::from(SPECTRUM[1]) - 1.0);
+        assert_eq!(Spectrum::get().sample(0.0).0, f64::from(SPECTRUM[0]));
+        assert!(Spectrum::get().sample(1.0 - f64::EPSILON).0 > f64::from(SPECTRUM[1]) - 1.0);
     }
 
     /// The variance of a channel's weight, summed over the channels, beside that of wavelengths sampled uniformly.
@@ -184,7 +190,7 @@ mod tests {
     fn sampling_by_size_varies_less_than_uniform_sampling() {
         let (mut by_size, mut uniform) = ([0.0; 3], [0.0; 3]);
         for interval in 0..INTERVALS {
-            let (share, probability) = spectrum_at(interval);
+            let (share, probability) = Spectrum::get().at(interval);
             for channel in 0..3 {
                 by_size[channel] += share[channel] * share[channel] / probability;
                 uniform[channel] += share[channel] * share[channel] * INTERVALS as f64;
