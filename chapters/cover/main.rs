@@ -34,7 +34,8 @@ fn scene(world: &mut World) {
         Sampling { samples: 80, ..Sampling::default() },
         // Paths that survive roulette count for more, and one that then hits the light is a speck: so roulette begins late.
         Integrator::Path { max_depth: 1 << 12, lights: LightStrategy::Mis, roulette: 8 },
-        LightTracing { paths: 0.5 },
+        // What the globe shows of the light that it focuses is found by photons only.
+        PhotonMapping { paths: 0.25, ..PhotonMapping::default() },
     ));
     world.spawn((Name::new("globe"), Sphere { radius: 1.5 }, Placement::at(0.0, 1.5, 0.0), Glass::default()));
     for seed in 0..55 {

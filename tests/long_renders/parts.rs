@@ -21,7 +21,7 @@ struct Case {
 }
 
 const PLAIN: Case = Case { name: "", chapter: "", samples: 70, filter: None, error: None, layers: false };
-const CASES: [Case; 11] = [
+const CASES: [Case; 12] = [
     Case { name: "ray casting, one ray a pixel", chapter: "05_pinhole", samples: 0, ..PLAIN },
     Case { name: "ray casting, layers", chapter: "10_light_and_shadow", samples: 150, layers: true, ..PLAIN },
     Case { name: "Whitted", chapter: "20_glass", ..PLAIN },
@@ -36,6 +36,7 @@ const CASES: [Case; 11] = [
         ..PLAIN
     },
     Case { name: "light tracing", chapter: "27_caustics", samples: 66, ..PLAIN },
+    Case { name: "photons", chapter: "cover", samples: 66, ..PLAIN },
     Case { name: "wavelengths", chapter: "38_dispersion", samples: 66, ..PLAIN },
     Case { name: "adaptive", chapter: "21_soft_shadows", samples: 300, error: Some(0.05), ..PLAIN },
     Case {

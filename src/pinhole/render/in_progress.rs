@@ -4,7 +4,7 @@ use super::light_pass::{LightPass, Means, PhotonPass, batches};
 use super::memory::check_film_fits;
 use super::moments::Moments;
 use super::render_world::{RenderWorld, prepare};
-use super::steps::{Run, WHOLE, runs, samples_after, steps_of};
+use super::steps::{Run, WHOLE, next_sample, runs, steps_of};
 use super::{Execution, Rendered, Watch, Worlds};
 use crate::extract::{ImageFrame, LayerTable, SamplingTable, adaptive_of};
 use crate::film::{BLOCK, Curve, FileAttributes, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
@@ -182,9 +182,8 @@ impl RenderInProgress {
         } else {
             // Each sample has photons of its own, so that all tiles take it before any takes the next.
             while self.film.least_done() < to && !watch.stopped() {
-                let done = self.film.least_done();
-                let next = if done < WHOLE { to.min(WHOLE) } else { done + 1 };
-                if !self.trace_photons(samples_after(next).max(1) - 1, watch) {
+                let (next, sample) = next_sample(self.film.least_done(), to);
+                if !self.trace_photons(sample, watch) {
                     break;
                 }
                 self.advance_tiles(next, watch);
@@ -201,7 +200,7 @@ impl RenderInProgress {
     }
 
     /// Gives the worlds the photons of a sample; returns whether they were traced.
-    fn trace_photons(&mut self, sample: u32, watch: &dyn Watch) -> bool {
+    pub(super) fn trace_photons(&mut self, sample: u32, watch: &dyn Watch) -> bool {
         let Some(photons) = &self.photons else { return true };
         let means = Means { plan: &self.plan, tables: &self.tables, pool: self.pool.as_ref() };
         let Some(map) = photons.map(sample, &means, watch) else { return false };

@@ -1,15 +1,17 @@
 //! Parts of a render, each of which another machine may compute.
 
+use super::in_progress::FilmPart;
 use super::light_pass::Means;
 use super::render_world::RenderWorld;
-use super::steps::steps_of;
+use super::steps::{next_sample, steps_of};
 use super::{RenderInProgress, Watch, planned_samples};
 use crate::film::{BLOCK, Film, LightUnit, Part, PartEntry, PartFilm, Unit, UnitFilm};
 use crate::follow::{Splats, Stop};
-use crate::plan::VectorRows;
+use crate::plan::{Shared, VectorRows};
 use crate::scene::Adaptive;
 use crate::{Error, Result};
 use std::collections::HashSet;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
@@ -28,10 +30,6 @@ impl RenderInProgress {
         watch: &dyn Watch,
         keep: &mut dyn FnMut(&Film) -> Result,
     ) -> Result<PartFilm> {
-        if self.photons.is_some() {
-            let why = "each sample needs all of its photons, so render on one machine, or use light_tracing";
-            return Err(Error::Usage(format!("cannot render a part of a scene with photon_mapping: {why}")));
-        }
         let (mut samples, _) = self.expected();
         if let Some(adaptive) = adaptive {
             if !self.film.pilot {
@@ -87,6 +85,11 @@ impl RenderInProgress {
     pub fn advance_part(&mut self, own: &mut PartFilm, until: Instant, watch: &dyn Watch) -> Result<bool> {
         let began = Instant::now();
         let units = self.units_left(own);
+        if self.photons.is_some() {
+            let complete = self.advance_by_photons(own, &units, until, watch);
+            self.time += began.elapsed();
+            return if watch.stopped() { Err(Error::Interrupted) } else { Ok(complete) };
+        }
         let (left, samples) = (units.len(), own.samples);
         let done = Mutex::new(Vec::new());
         let queue = Mutex::new(units.into_iter());
@@ -129,6 +132,47 @@ impl RenderInProgress {
         if watch.stopped() { Err(Error::Interrupted) } else { Ok(complete) }
     }
 
+    /// Advances units, of which those of one block go together from sample to sample, since each sample has photons of its
+    /// own; returns whether all of them are complete.
+    fn advance_by_photons(&mut self, own: &mut PartFilm, units: &[Unit], until: Instant, watch: &dyn Watch) -> bool {
+        let (samples, stop) = (own.samples, Stop::at_flag(watch.stop_flag()));
+        for (number, block) in units.chunk_by(|one, other| one.block == other.block).enumerate() {
+            if number > 0 && Instant::now() >= until {
+                return false;
+            }
+            let [mut done, to] = steps_of_unit(block[0], samples);
+            let films: Vec<_> = block.iter().map(|&unit| Mutex::new((self.film.unit(unit), done))).collect();
+            while done < to {
+                let (next, sample) = next_sample(done, to);
+                if !self.trace_photons(sample, watch) {
+                    return false;
+                }
+                let queue = AtomicUsize::new(0);
+                let work = |worker: usize| {
+                    let mut world = self.worlds[worker].lock().unwrap_or_else(PoisonError::into_inner);
+                    let world = world.get_or_insert_with(|| RenderWorld::new(&self.plan, &self.tables, 1, &[]));
+                    world.stop_at(stop.clone());
+                    while let Some(film) = films.get(queue.fetch_add(1, Ordering::Relaxed)) {
+                        let (film, done) = &mut *film.lock().unwrap_or_else(PoisonError::into_inner);
+                        run_unit_to(world, film, done, next, watch);
+                    }
+                };
+                match &self.pool {
+                    Some(pool) => _ = pool.broadcast(|context| work(context.index())),
+                    None => work(0),
+                }
+                if watch.stopped() {
+                    return false;
+                }
+                done = next;
+            }
+            let films = films.into_iter().map(|film| film.into_inner().unwrap_or_else(PoisonError::into_inner).0);
+            own.units.extend(films.map(without_earlier_blocks));
+            own.units.sort_by_key(|own| own.unit);
+        }
+        true
+    }
+
     /// Whether a piece of a part is what this render computes, of a render of so many samples.
     pub fn computes(&self, entry: &PartEntry, samples: u32) -> bool {
         match (entry, &self.light) {
@@ -155,26 +199,48 @@ impl RenderInProgress {
         samples: u32,
         watch: &dyn Watch,
     ) -> Option<UnitFilm> {
-        let unit = own.unit;
-        let first = unit.block.map_or(0, |block| block * BLOCK);
-        let mut done = if first == 0 { 0 } else { steps_of(first) };
-        let to = steps_of(unit.block.map_or(samples, |_| (first + BLOCK).min(samples)));
-        let mut part = super::in_progress::FilmPart {
-            film: &mut own.tile,
-            moments: own.moments.as_mut(),
-            layers: own.layers.as_mut(),
-            done: &mut done,
-            planned: own.planned.as_deref(),
-        };
-        world.run_part(&mut part, to, watch);
-        if first > 0 {
-            // The blocks before it are those of other units.
-            own.tile.earlier = None;
-            own.moments.iter_mut().for_each(|moments| moments.earlier.iter_mut().for_each(Vec::clear));
-            own.layers.iter_mut().for_each(|layers| layers.earlier.clear());
+        let [mut done, to] = steps_of_unit(own.unit, samples);
+        if let Some(photons) = &self.photons {
+            let means = Means { plan: &self.plan, tables: &self.tables, pool: self.pool.as_ref() };
+            while done < to && !watch.stopped() {
+                let (next, sample) = next_sample(done, to);
+                world.world.insert_resource(Shared::new(photons.map(sample, &means, watch)?));
+                run_unit_to(world, &mut own, &mut done, next, watch);
+            }
+        } else {
+            run_unit_to(world, &mut own, &mut done, to, watch);
         }
-        (done >= to).then_some(own)
+        (done >= to).then(|| without_earlier_blocks(own))
     }
+}
+
+/// The steps at which a unit begins and ends, of so many samples.
+fn steps_of_unit(unit: Unit, samples: u32) -> [u32; 2] {
+    let first = unit.block.map_or(0, |block| block * BLOCK);
+    let begins = if first == 0 { 0 } else { steps_of(first) };
+    [begins, steps_of(unit.block.map_or(samples, |_| (first + BLOCK).min(samples)))]
+}
+
+/// Advances a unit that has done so many steps.
+fn run_unit_to(world: &mut RenderWorld, own: &mut UnitFilm, done: &mut u32, to: u32, watch: &dyn Watch) {
+    let mut part = FilmPart {
+        film: &mut own.tile,
+        moments: own.moments.as_mut(),
+        layers: own.layers.as_mut(),
+        done,
+        planned: own.planned.as_deref(),
+    };
+    world.run_part(&mut part, to, watch);
+}
+
+/// A unit without the blocks before it, which are those of other units.
+fn without_earlier_blocks(mut own: UnitFilm) -> UnitFilm {
+    if own.unit.block.is_some_and(|block| block > 0) {
+        own.tile.earlier = None;
+        own.moments.iter_mut().for_each(|moments| moments.earlier.iter_mut().for_each(Vec::clear));
+        own.layers.iter_mut().for_each(|layers| layers.earlier.clear());
+    }
+    own
 }
 
 fn unit_of(first: u64, batches: u64, lists: &[Splats]) -> LightUnit {

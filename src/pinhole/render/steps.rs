@@ -18,6 +18,12 @@ pub fn samples_after(steps: u32) -> u32 {
     steps.saturating_sub(WHOLE - 1)
 }
 
+/// The step at which the next sample after so many steps ends, or the last one that is asked for, and the sample's number.
+pub fn next_sample(done: u32, to: u32) -> (u32, u32) {
+    let next = if done < WHOLE { to.min(WHOLE) } else { done + 1 };
+    (next, samples_after(next).max(1) - 1)
+}
+
 /// One run of the schedule over a tile: the number of a sample, for the pixels of some lattices or for all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Run {
