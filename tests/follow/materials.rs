@@ -1,15 +1,15 @@
 //! Every material that lights are sampled for, under several lights: it looks the same by every light strategy.
 
-use super::{ALL, NOT_BY_BSDF, strategies_agree};
-use crate::scenes::offer;
+use super::{ALL, NOT_BY_BSDF, assert_agree, renders, strategies_agree};
+use crate::scenes::{named, offer};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::material::{BsdfClass, MaterialTable, REGISTERED, Registration, ShadingContext, Spawn};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, render};
 use pinhole::scene::{
-    Cuboid, Emissive, Environment, Integrator, LightStrategy, LookAt, OrthographicCamera, Placement, Rectangle,
-    Resolution, Rgb, Sampling, Sphere,
+    Cuboid, Emissive, Environment, Glass, Integrator, LightStrategy, LookAt, OrthographicCamera, PhotonMapping,
+    Placement, Rectangle, Resolution, Rgb, Sampling, Sphere,
 };
 use pinhole_lab::measure::draws::Draws;
 use std::fs;
@@ -123,4 +123,34 @@ fn light_strategies_agree_at_every_material() {
         }
         strategies_agree(name, &|| scene(lights, narrow), strategies, 32, SIDE);
     }
+}
+
+/// Photons that come through a pane, on every material with a broad lobe, against paths from the camera, which come through
+/// the pane as well.
+#[test]
+fn photons_agree_with_paths_at_every_material() {
+    const SETS: u64 = 12;
+    let make = |photons: bool| {
+        move || {
+            let under_a_pane = |world: &mut World, middle: f64| {
+                let width = 2.0 * middle + 8.0;
+                let light = Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() };
+                world.spawn((Rectangle { width, depth: 6.0 }, Placement::at(middle, 2.0, -1.0), light));
+                let pane = Cuboid { size: DVec3::new(width, 0.2, 9.0) };
+                world.spawn((pane, Placement::at(middle, 1.0, 0.0), Glass::default()));
+            };
+            let mut world = scene(&under_a_pane, false);
+            let camera = named(&mut world, "camera");
+            let integrator = Integrator::Path { max_depth: 8, lights: LightStrategy::Mis, roulette: 0 };
+            world.entity_mut(camera).insert(integrator);
+            if photons {
+                world.entity_mut(camera).insert(PhotonMapping { paths: 8.0, radius: 0.1 });
+            }
+            world
+        }
+    };
+    let alone = renders(&make(false), LightStrategy::Mis, 128, 0..SETS);
+    let photons = renders(&make(true), LightStrategy::Mis, 16, SETS..2 * SETS);
+    let found = assert_agree("photons and paths at every material", &alone, &photons, SIDE);
+    assert_eq!(found.tests as usize, 3 * plates(false).len(), "a block for each material and channel");
 }
