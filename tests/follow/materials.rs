@@ -152,5 +152,5 @@ fn photons_agree_with_paths_at_every_material() {
     let alone = renders(&make(false), LightStrategy::Mis, 128, 0..SETS);
     let photons = renders(&make(true), LightStrategy::Mis, 16, SETS..2 * SETS);
     let found = assert_agree("photons and paths at every material", &alone, &photons, SIDE);
-    assert_eq!(found.tests as usize, 3 * plates(false).len(), "a block for each material and channel");
+    assert_eq!(found.tests, 3 * plates(false).len(), "a block for each material and channel");
 }
