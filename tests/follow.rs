@@ -6,6 +6,8 @@
 
 #[path = "follow/accepted.rs"]
 mod accepted;
+#[path = "follow/bidirectional.rs"]
+mod bidirectional;
 #[path = "follow/broken.rs"]
 mod broken;
 #[path = "follow/bsdfs.rs"]

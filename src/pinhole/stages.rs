@@ -21,8 +21,8 @@ use crate::plan::Stage;
 use crate::shapes::Listed;
 use crate::{film, follow, intersect, rasterise, rays, shade};
 use registered::{
-    bsdf_rows, bsdf_samples, direct_light_of_bsdfs, image_masks, image_plane_rays, intersections, light_samples,
-    raster_boxes, shadow_rays, surface_points, wide_rays,
+    bsdf_rows, bsdf_samples, carried_ratios, direct_light_of_bsdfs, image_masks, image_plane_rays, intersections,
+    joins, light_samples, raster_boxes, shadow_rays, surface_points, wide_rays,
 };
 use std::any::TypeId;
 use std::collections::BTreeMap;
@@ -59,6 +59,7 @@ enum Group {
     Mis,
     LightTracing,
     PhotonMapping,
+    Bidirectional,
     Media,
     Film,
 }
@@ -161,13 +162,19 @@ const LIST: &[Part] = &[Part(&[
 
     // Lights are sampled: a ray from each surface towards each of them, or towards the camera.
     (LightTracing, shade::join_point_stage),
+    (Bidirectional, follow::arrive_from_camera_stage),
+    (Bidirectional, follow::arrive_from_light_stage),
 ], || light_samples(true)), Part(&[
     (AreaLights, shade::area_light_stage),
 ], || light_samples(false)), Part(&[
     (LightTracing, shade::camera_join_stage),
     (PhotonMapping, follow::store_photons_stage),
+    (Bidirectional, follow::store_vertices_stage),
+    (Bidirectional, follow::camera_ratios_stage),
     (AreaLights, shade::environment_light_stage),
     (AmbientOcclusion, follow::sky_rays_stage),
+    (Bidirectional, follow::join_ratios_stage),
+], joins), Part(&[
 
     // Shadow rays are traced.
     (Glass, follow::leave_contacts_to_lights_stage),
@@ -185,6 +192,7 @@ const LIST: &[Part] = &[Part(&[
     (Media, follow::phase_direct_light_stage),
     (Lights, shade::emissive_stage),
     (AreaLights, follow::mis_emission_stage),
+    (Bidirectional, follow::found_emission_stage),
     (AmbientOcclusion, follow::sky_stage),
     (Unlit, shade::unlit_stage),
 
@@ -192,6 +200,8 @@ const LIST: &[Part] = &[Part(&[
 ], bsdf_samples), Part(&[
     (Media, follow::phase_sample_stage),
     (LightTracing, follow::shading_adjoint_stage),
+    (Bidirectional, follow::leave_specular_stage),
+], carried_ratios), Part(&[
     (PathContinuation, follow::roulette_stage),
     (Bounces, follow::add_bounce_stage),
     (LightTracing, follow::splat_stage),
@@ -378,6 +388,13 @@ pub fn light_tracing() -> Vec<Stage> {
 /// To be offered beside [`light_tracing`], whose paths they are.
 pub fn photon_mapping() -> Vec<Stage> {
     of(PhotonMapping)
+}
+
+/// Bidirectional path tracing: paths from the lights that are joined to paths from the camera, vertex to vertex.
+///
+/// To be offered beside [`light_tracing`], whose connections to the camera it weights.
+pub fn bidirectional_path_tracing() -> Vec<Stage> {
+    of(Bidirectional)
 }
 
 /// Participating media such as fog: distances sampled along each ray, light scattered by phase functions, and attenuated

@@ -93,8 +93,8 @@ pub use model::{Mesh, load_meshes};
 #[doc(hidden)]
 pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, opened_files, read_file};
 pub use picture::{
-    Adaptive, Filter, Layers, LightTracing, PhotonMapping, Rasterisation, Resolution, Sampler, Sampling, Statistics,
-    View,
+    Adaptive, BidirectionalPathTracing, Filter, Layers, LightTracing, PhotonMapping, Rasterisation, Resolution,
+    Sampler, Sampling, Statistics, View,
 };
 #[doc(hidden)]
 pub use picture::{LayerKind, OPEN_END, TracePixel};

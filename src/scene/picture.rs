@@ -391,6 +391,26 @@ impl Default for PhotonMapping {
     }
 }
 
+/// On the camera, beside [`Integrator::Path`](super::Integrator::Path): paths from the camera are joined to paths from the
+/// lights, each vertex to each (bidirectional path tracing; Lafortune and Willems 1993, Veach and Guibas 1995).
+///
+/// The same light is found in many ways, from a path of the camera that hits a lamp to one of a lamp that is joined to the
+/// camera; each counts by its MIS weight.
+/// Paths start on lights with a position or an area; light of a sky, an environment image or a directional light is found
+/// as without it.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct BidirectionalPathTracing {
+    /// Light paths per camera path, from 1/1024 to 1024.
+    pub paths: f64,
+}
+
+impl Default for BidirectionalPathTracing {
+    fn default() -> Self {
+        Self { paths: 1.0 }
+    }
+}
+
 /// On the camera: paint this column instead of the picture.
 ///
 /// Stages that the column does not need are left out.

@@ -11,7 +11,7 @@ use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::torus_knot::torus_knot;
 
 /// A ground and a ball under an emitting knot of 200 triangles, one side of which is dark.
-fn under_a_knot(ball: impl Bundle) -> World {
+pub(super) fn under_a_knot(ball: impl Bundle) -> World {
     let mut world = ground_and_ball(ball, Placement::at(0.1, 0.5, 0.4));
     let mut knot = torus_knot(20, 5);
     // Its front is the outside.

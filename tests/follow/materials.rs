@@ -154,3 +154,23 @@ fn photons_agree_with_paths_at_every_material() {
     let found = assert_agree("photons and paths at every material", &alone, &photons, SIDE);
     assert_eq!(found.tests, 3 * plates(false).len(), "a block for each material and channel");
 }
+
+/// Paths from a lamp that are joined to those of the camera, on every material with a broad lobe and with a narrow one.
+#[test]
+fn joined_paths_agree_with_paths_at_every_material() {
+    const SETS: u64 = 12;
+    let lamp = |world: &mut World, middle: f64| {
+        let light = Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() };
+        world.spawn((Rectangle { width: 2.0 * middle + 8.0, depth: 6.0 }, Placement::at(middle, 2.0, -1.0), light));
+    };
+    let mut tried = 0;
+    for narrow in [false, true] {
+        let make = || scene(&lamp, narrow);
+        let alone = renders(&make, LightStrategy::Mis, 64, 0..SETS);
+        let both = renders(&super::bidirectional::joined(&make), LightStrategy::Mis, 16, SETS..2 * SETS);
+        let found = assert_agree("joined paths at every material", &alone, &both, SIDE);
+        assert_eq!(found.tests, 3 * plates(narrow).len(), "a block for each material and channel");
+        tried += plates(narrow).len();
+    }
+    eprintln!("joined paths: {tried} materials, 0 blocks apart");
+}

@@ -12,7 +12,7 @@ use super::{
     glass_evidence, material_evidence, medium_evidence, motion_evidence, specular_evidence,
 };
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{Integrator, LightTracing, PhotonMapping, SceneError, called};
+use crate::scene::{BidirectionalPathTracing, Integrator, LightTracing, PhotonMapping, SceneError, called};
 use bevy_ecs::prelude::*;
 
 /// The integrator of a scene, and the reason for it.
@@ -184,6 +184,9 @@ fn eta_scale_in_glass(scene: &Census<'_>) -> Result<f64, SceneError> {
     Ok(densest * densest)
 }
 
+/// The number of light paths in a batch.
+pub const LIGHT_PATHS: u32 = 1024;
+
 /// The greatest number of light paths per camera path.
 const MAX_PATHS: f64 = 1024.0;
 
@@ -197,31 +200,52 @@ pub struct LightTracingTable {
     pub paths: f64,
     /// The radius of photons for the first sample, in scene units; 0 where it follows from them.
     pub radius: f64,
+    /// Light paths for a sample of all pixels, where each sample has its own: whole batches of them.
+    pub each_sample: f64,
+}
+
+/// What messages call each way to start paths on lights: the field, the field of its number, and the noun.
+const TRACING: [&str; 3] = ["light_tracing", "light_tracing paths", "light tracing"];
+const MAPPING: [&str; 3] = ["photon_mapping", "photon_mapping paths", "photon mapping"];
+const BIDIRECTIONAL: [&str; 3] =
+    ["bidirectional_path_tracing", "bidirectional_path_tracing paths", "bidirectional path tracing"];
+
+/// The number of light paths for so many samples of pixels: whole batches of them.
+fn paths_of(samples: f64, paths: f64) -> f64 {
+    (samples * paths / f64::from(LIGHT_PATHS)).ceil() * f64::from(LIGHT_PATHS)
 }
 
 impl Table for LightTracingTable {
     const NAME: &'static str = "light tracing";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let tracing = at_most_one::<LightTracing>(scene, "light_tracing", "LightTracing")?;
-        let mapping = at_most_one::<PhotonMapping>(scene, "photon_mapping", "PhotonMapping")?;
-        let (entity, [field, paths_field, kind]) = match (tracing, mapping) {
-            (None, None) => return Ok(Self::default()),
-            (Some(entity), None) => (entity, ["light_tracing", "light_tracing paths", "light tracing"]),
-            (None, Some(entity)) => (entity, ["photon_mapping", "photon_mapping paths", "photon mapping"]),
-            (Some(_), Some(entity)) => {
-                let who = kind_and_name(scene, "photon mapping", entity);
-                let accepted = "either finds the same light: keep one of the two";
-                return Err(SceneError::new(who, "photon_mapping", "beside light_tracing", accepted));
-            }
-        };
+        let asked = [
+            (at_most_one::<LightTracing>(scene, "light_tracing", "LightTracing")?, TRACING),
+            (at_most_one::<PhotonMapping>(scene, "photon_mapping", "PhotonMapping")?, MAPPING),
+            (
+                at_most_one::<BidirectionalPathTracing>(
+                    scene,
+                    "bidirectional_path_tracing",
+                    "BidirectionalPathTracing",
+                )?,
+                BIDIRECTIONAL,
+            ),
+        ];
+        let mut asked = asked.into_iter().filter_map(|(entity, names)| Some((entity?, names)));
+        let Some((entity, [field, paths_field, kind])) = asked.next() else { return Ok(Self::default()) };
+        if let Some((other, [other_field, _, other_kind])) = asked.next() {
+            let (who, beside) = (kind_and_name(scene, other_kind, other), format!("beside {field}"));
+            return Err(SceneError::new(who, other_field, beside, "either finds the same light: keep one of the two"));
+        }
         let camera = camera_of(scene)?;
         if camera != entity {
             let who = kind_and_name(scene, kind, entity);
             return Err(SceneError::new(who, field, "on no camera", "it must be on the camera"));
         }
         let photons = scene.get::<PhotonMapping>(camera).copied();
+        let joined = scene.get::<BidirectionalPathTracing>(camera).copied();
         let paths = scene.get::<LightTracing>(camera).map(|own| own.paths).or(photons.map(|own| own.paths));
+        let paths = paths.or(joined.map(|own| own.paths));
         let paths = paths.unwrap_or_default();
         let who = kind_and_name(scene, "camera", camera);
         if !(1.0 / MAX_PATHS..=MAX_PATHS).contains(&paths) {
@@ -244,9 +268,18 @@ impl Table for LightTracingTable {
                 "paths from the lights complement the camera's: give it the integrator Path()",
             );
         }
-        if photons.is_some() && dispersion_evidence(scene).needed {
-            let accepted = "a photon and the path that finds it have each a wavelength: use light_tracing";
+        if (photons.is_some() || joined.is_some()) && dispersion_evidence(scene).needed {
+            let accepted = "the two paths that meet have each a wavelength: use light_tracing";
             return refused("beside dispersion", accepted);
+        }
+        if joined.is_some() && !integrator_of(scene).integrator.transport().is_mis() {
+            let accepted = "each way to find light counts by its MIS weight: give it Path(), whose lights are Mis";
+            return refused("without MIS", accepted);
+        }
+        if joined.is_some() && light_kinds(scene).any(|kind| !kind.is_distant && kind.is_chosen_of_many(scene)) {
+            let accepted = "with more than 64 lights of a kind without an area one is chosen for each surface: use fewer, or \
+                            small spheres that emit";
+            return refused("with so many lights", accepted);
         }
         if photons.is_none() && !camera_kind(scene)?.has_image_plane {
             return no_image_plane(scene);
@@ -259,8 +292,8 @@ impl Table for LightTracingTable {
                 "a path from a light may contribute to any pixel, so none can request more: remove the Adaptive";
             return refused("with adaptive sampling", accepted);
         }
-        scene.table::<ImageFrame>()?;
-        Ok(Self { paths, radius })
+        let image = scene.table::<ImageFrame>()?;
+        Ok(Self { paths, radius, each_sample: paths_of(f64::from(image.width) * f64::from(image.height), paths) })
     }
 
     fn bytes(&self) -> usize {
@@ -274,25 +307,57 @@ pub(super) fn no_image_plane<T>(scene: &Census<'_>) -> Result<T, SceneError> {
     let planes = CAMERA_KINDS.iter().filter(|kind| kind.has_image_plane).map(|kind| kind.names.noun);
     let accepted = format!("light paths are connected to {} camera", any_of(planes));
     let value = format!("on {} camera", with_article(camera_kind(scene)?.names.noun));
-    Err(SceneError::new(who, "light_tracing", value, accepted))
+    let field = if bidirectional_request(scene).needed { BIDIRECTIONAL[0] } else { TRACING[0] };
+    Err(SceneError::new(who, field, value, accepted))
+}
+
+fn tracing_request(scene: &Census<'_>) -> Evidence {
+    Evidence::of::<LightTracing>(scene, "light-tracing camera")
+}
+
+fn bidirectional_request(scene: &Census<'_>) -> Evidence {
+    Evidence::of::<BidirectionalPathTracing>(scene, "camera for bidirectional path tracing")
+}
+
+/// Evidence that paths start on lights: for caustics alone, or for all light.
+pub fn traced_evidence(scene: &Census<'_>) -> Evidence {
+    let caustics = caustics_evidence(scene);
+    if caustics.needed { caustics } else { either(bidirectional_evidence(scene), caustics) }
 }
 
 /// Evidence that caustics are traced from the lights: the camera requests it, and there are a light to start on,
 /// mirrors or glass, and non-specular surfaces.
-pub fn traced_evidence(scene: &Census<'_>) -> Evidence {
-    let requested = Evidence::of::<LightTracing>(scene, "light-tracing camera");
+pub fn caustics_evidence(scene: &Census<'_>) -> Evidence {
     let photons = Evidence::of::<PhotonMapping>(scene, "photon-mapping camera");
-    let requested = if photons.needed { photons } else { requested };
+    let requested = if photons.needed { photons } else { tracing_request(scene) };
     if !requested.needed {
         return requested;
     }
     requested.and(|| specular_evidence(scene)).and(|| material_evidence(scene)).and(|| started_on_evidence(scene))
 }
 
-/// Evidence that they are connected to the camera by straight lines.
+/// Evidence that paths from the lights and from the camera are joined vertex by vertex: the camera requests it, and there
+/// are a light to start on and surfaces that are not specular.
+pub fn bidirectional_evidence(scene: &Census<'_>) -> Evidence {
+    let started = || area_light_evidence(scene).or(shadowed_point_evidence(scene));
+    bidirectional_request(scene).and(|| material_evidence(scene)).and(started)
+}
+
+/// Evidence that light paths are connected to the camera by straight lines.
 pub fn joined_evidence(scene: &Census<'_>) -> Evidence {
-    let requested = Evidence::of::<LightTracing>(scene, "light-tracing camera");
-    if requested.needed { traced_evidence(scene) } else { requested }
+    let caustics = joined_caustics_evidence(scene);
+    if caustics.needed { caustics } else { either(bidirectional_evidence(scene), caustics) }
+}
+
+/// Evidence that those of them that come from mirrors and glass are.
+pub fn joined_caustics_evidence(scene: &Census<'_>) -> Evidence {
+    let requested = tracing_request(scene);
+    if requested.needed { caustics_evidence(scene) } else { requested }
+}
+
+/// The first evidence where something asked for it, or else the second.
+fn either(one: Evidence, other: Evidence) -> Evidence {
+    if one.needed { one } else { other }
 }
 
 /// Evidence that they are found by photons.
@@ -318,5 +383,5 @@ pub fn shadowed_distant_evidence(scene: &Census<'_>) -> Evidence {
 
 /// Evidence that light paths start on an environment image, so that the camera's paths must not find the same light.
 pub fn environment_traced_evidence(scene: &Census<'_>) -> Evidence {
-    traced_evidence(scene).and(|| environment_light_evidence(scene)).and(|| distant_start_evidence(scene))
+    caustics_evidence(scene).and(|| environment_light_evidence(scene)).and(|| distant_start_evidence(scene))
 }

@@ -1,16 +1,17 @@
-use super::area_lights::light_distribution;
+use super::area_lights::{EVEN, light_distribution};
 use super::cameras::eye;
 use super::lights_of::{light_kinds, shadowed_evidence};
 use super::shapes::{listed_kind, one_shape, shape_entities};
 use super::{
     AreaLightTable, EnvironmentLightTable, EnvironmentTable, MaterialTable, MeshLights, NO_ROW, ShapeTable,
-    environment_light_evidence, luminance,
+    bidirectional_evidence, environment_light_evidence, luminance,
 };
 use crate::lights::{AnyLight, MAX_TARGETS, Target, Targets};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::SceneError;
 use crate::shapes::{Bounds, Emitter};
 use bevy_ecs::prelude::*;
+use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -55,9 +56,13 @@ pub struct LightPathTable {
     pub mesh: Vec<MeshLights>,
     /// The cumulative distribution in units of 2⁻³², as in [`super::AreaLightTable`].
     pub until: Vec<u64>,
-    /// The probability of choosing each light: a quarter in proportion to its power, the rest uniform.
+    /// The probability of choosing each light: a quarter in proportion to its power, the rest uniform; all of it by power
+    /// where light paths are joined to those of the camera.
     pub probability: Vec<f64>,
-    /// The mirrors and the glass, towards which they start.
+    /// The luminance of the power of all lights together.
+    pub power: f64,
+    /// The mirrors and the glass, towards which they start; none where light paths are joined to those of the camera,
+    /// which start in all directions.
     pub targets: Targets,
 }
 
@@ -66,6 +71,27 @@ impl LightPathTable {
     #[inline(always)]
     pub fn chosen(&self, fraction: u32) -> usize {
         self.until.partition_point(|&until| until <= u64::from(fraction))
+    }
+
+    /// The number that a light has among those with an area, and the luminance of its radiance; none for one without.
+    pub fn area_light(&self, areas: &AreaLightTable, light: usize) -> Option<(usize, f64)> {
+        match self.light.get(light) {
+            Some(LightSource::Area { radiance, .. }) => Some((light, luminance(*radiance))),
+            Some(_) => None,
+            None => {
+                let at = self.mesh.partition_point(|mesh| mesh.first as usize <= light) - 1;
+                let own = light - self.mesh[at].first as usize + areas.mesh[at].first as usize;
+                Some((own, luminance(self.mesh[at].radiance)))
+            }
+        }
+    }
+
+    /// The luminance of the irradiance at normal incidence that a light without an area sends to a point; 0 from another.
+    pub fn delta_irradiance(&self, light: usize, point: DVec3) -> f64 {
+        match self.light.get(light) {
+            Some(LightSource::Delta(own)) => luminance(own.irradiance(point)),
+            _ => 0.0,
+        }
     }
 
     /// The mesh of a light that is one of its triangles.
@@ -87,7 +113,8 @@ impl Table for LightPathTable {
             powers.push(luminance(radiance) * emitter.area() * PI * sides);
             light.push(LightSource::Area { emitter: *emitter, radiance, one_sided });
         }
-        let targets = targets(scene)?;
+        let is_for_all_light = bidirectional_evidence(scene).needed;
+        let targets = if is_for_all_light { Arc::default() } else { targets(scene)? };
         let across = targets.across();
         let is_started = |is_distant: bool| !is_distant || !targets.sphere.is_empty();
         for kind in light_kinds(scene).filter(|kind| is_started(kind.is_distant)) {
@@ -107,8 +134,9 @@ impl Table for LightPathTable {
             let own = lights.first as usize..lights.first as usize + lights.triangles();
             powers.extend(own.map(|light| lights.power(light)));
         }
-        let (until, probability) = light_distribution(&powers);
-        Ok(Self { light, mesh, until, probability, targets: Targets::clone(&targets) })
+        let (until, probability) = light_distribution(&powers, if is_for_all_light { 0.0 } else { EVEN });
+        let power = powers.iter().filter(|power| !power.is_nan()).sum();
+        Ok(Self { light, mesh, until, probability, power, targets: Targets::clone(&targets) })
     }
 
     fn bytes(&self) -> usize {

@@ -1,6 +1,6 @@
 //! Which entities are a light without an area, and what extraction asks of each kind.
 
-use super::area_lights::{LightChoice, hierarchy_of_lights, light_distribution};
+use super::area_lights::{EVEN, LightChoice, hierarchy_of_lights, light_distribution};
 use super::check::kind_and_name;
 use super::pose::ahead;
 use super::{eye, world_from_entity};
@@ -62,7 +62,7 @@ impl<L: ListedLight> Table for LightsOf<L> {
         if table.row.len() > MAX_SUMMED {
             let powers = || table.row.iter().map(|light| luminance(light.power(1.0))).collect::<Vec<f64>>();
             table.choice = Some(if L::IS_DISTANT {
-                let (until, probability) = light_distribution(&powers());
+                let (until, probability) = light_distribution(&powers(), EVEN);
                 LightChoice::Power { until, probability }
             } else {
                 let bounds_of = |light: usize| table.row[light].bounds();
@@ -93,6 +93,8 @@ pub struct LightKind {
     pub(super) entities: fn(&Census<'_>) -> Arc<[Entity]>,
     /// Extracts its table, which checks its components.
     pub(super) check: fn(&Census<'_>) -> Result<(), SceneError>,
+    /// Whether one of many is chosen for each surface.
+    is_chosen: fn(&Census<'_>) -> bool,
     /// Whether one of its lights is not black.
     shines: fn(&Census<'_>) -> Result<bool, SceneError>,
     /// Those of its lights that cast shadows.
@@ -108,6 +110,7 @@ impl LightKind {
             casts_shadows: |entity| entity.get::<L::Component>().is_some_and(SceneLight::casts_shadows),
             entities: |scene| scene.entities::<With<L::Component>>(),
             check: |scene| scene.table::<LightsOf<L>>().map(drop),
+            is_chosen: |scene| many_lights_evidence::<L>(scene).needed,
             shines: |scene| {
                 let lights = scene.table::<LightsOf<L>>()?;
                 Ok(lights.row.iter().any(|light| luminance(light.power(1.0)) > 0.0))
@@ -119,6 +122,13 @@ impl LightKind {
                 Ok(shadowed.map(|(light, _)| light.clone().into_any()).collect())
             },
         }
+    }
+}
+
+impl LightKind {
+    /// Whether there are so many lights of this kind that one of them is chosen for each surface.
+    pub(super) fn is_chosen_of_many(&self, scene: &Census<'_>) -> bool {
+        (self.is_chosen)(scene)
     }
 }
 

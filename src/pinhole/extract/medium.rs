@@ -10,7 +10,9 @@ use super::{GlassBodyTable, GlassTable, glass_evidence, shape_entities};
 use crate::check::triple;
 use crate::material::{Bsdf, PhaseTable, interior_of, is_material, material_entities, media_entities, one_material};
 use crate::plan::{Census, Evidence, Table, united};
-use crate::scene::{Disabled, Emissive, LightTracing, Medium, PhotonMapping, SceneError, UsesMaterial, called};
+use crate::scene::{
+    BidirectionalPathTracing, Disabled, Emissive, LightTracing, Medium, PhotonMapping, SceneError, UsesMaterial, called,
+};
 use crate::shapes::{AnyShape, Bounds};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -214,6 +216,7 @@ fn check_followed(scene: &Census<'_>, first: Entity) -> Result<(), SceneError> {
     let traced = [
         ("light_tracing", scene.get::<LightTracing>(camera).is_some()),
         ("photon_mapping", scene.get::<PhotonMapping>(camera).is_some()),
+        ("bidirectional_path_tracing", scene.get::<BidirectionalPathTracing>(camera).is_some()),
     ];
     if let Some((field, _)) = traced.into_iter().find(|(_, is_asked)| *is_asked) {
         let value = format!("with the medium {medium}");

@@ -69,10 +69,10 @@ pub use glass::{
 };
 pub use image_files::{ImageHead, RemarkedTexels, image_head, image_remarks, one_line, read_exr};
 pub use integrator::{
-    ChosenIntegrator, IntegratorTable, LightTracingTable, environment_traced_evidence, followed_evidence,
-    integrator_of, joined_evidence, light_sampling_evidence, mis_evidence, needed_if, occlusion_evidence,
-    photon_evidence, shadowed_distant_evidence, shadowed_point_evidence, started_on_evidence, traced_evidence,
-    unless_occlusion,
+    ChosenIntegrator, IntegratorTable, LIGHT_PATHS, LightTracingTable, bidirectional_evidence, caustics_evidence,
+    environment_traced_evidence, followed_evidence, integrator_of, joined_caustics_evidence, joined_evidence,
+    light_sampling_evidence, mis_evidence, needed_if, occlusion_evidence, photon_evidence, shadowed_distant_evidence,
+    shadowed_point_evidence, started_on_evidence, traced_evidence, unless_occlusion,
 };
 pub use light_path::{LightPathTable, LightSource, distant_start_evidence};
 pub use lights_of::{

@@ -1,13 +1,16 @@
 //! The stages of BSDFs, each generic over the BSDF.
 
+use super::bidirectional::join_stage;
 use super::interface::{Interface, InterfaceView};
 use super::media::{deeper_media_evidence, media_evidence};
 use super::photons::gather_photons_stage;
+use super::recursive_mis::{join_weight_stage, leave_with_ratios_stage};
 use super::specular::{specular_from_lights_stage, specular_stage, split_stage};
 use super::{DeeperMedia, Media, Scattered, ScatteredRay, power_heuristic};
 use crate::extract::{
-    GlassTable, MaterialTable, NO_ROW, SamplingTable, ShapeTable, area_light_evidence, bsdf_evidence,
-    environment_light_evidence, glass_contact_evidence, joined_evidence, mis_evidence, needed_if, traced_evidence,
+    GlassTable, MaterialTable, NO_ROW, SamplingTable, ShapeTable, area_light_evidence, bidirectional_evidence,
+    bsdf_evidence, environment_light_evidence, glass_contact_evidence, joined_evidence, mis_evidence, needed_if,
+    traced_evidence,
 };
 use crate::intersect::{Contacts, Hits, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces, rows_of_kind};
 use crate::material::{
@@ -198,7 +201,9 @@ pub fn mis_stage<B: Bsdf>() -> Stage {
         .kind(StageKind::Alternative)
         .when(|scene| {
             let lights = area_light_evidence(scene).or(environment_light_evidence(scene));
-            lights.and(|| mis_evidence(scene)).and(|| bsdf_evidence::<B>(scene))
+            let weighted = lights.and(|| mis_evidence(scene)).and(|| bsdf_evidence::<B>(scene));
+            let joined = bidirectional_evidence(scene);
+            if joined.needed { Evidence { needed: false, ..joined } } else { weighted }
         })
 }
 
@@ -301,6 +306,12 @@ pub enum BsdfRole {
     Connections,
     /// Gathering photons.
     Gather,
+    /// Joining surfaces to light vertices with it.
+    Join,
+    /// Weighting what is joined to surfaces with it.
+    JoinWeights,
+    /// Carrying MIS ratios on from surfaces with it.
+    Ratios,
     /// Following all of its specular directions.
     Split,
     /// Sampling it for further rays.
@@ -342,6 +353,9 @@ pub fn stages_of<B: Bsdf>() -> Vec<BsdfStage> {
     stages.push(of(Sample, sample_stage::<B>));
     stages.push(of(Evaluate, direct_light_stage::<B>));
     stages.push(of(Gather, gather_photons_stage::<B>));
+    stages.push(of(Join, join_stage::<B>));
+    stages.push(of(JoinWeights, join_weight_stage::<B>));
+    stages.push(of(Ratios, leave_with_ratios_stage::<B>));
     if B::TRANSMITS {
         stages.push(of(Connections, connections_stage::<B>));
         stages.push(of(SampleFromLights, sample_from_lights_stage::<B>));

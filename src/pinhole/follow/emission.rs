@@ -1,9 +1,9 @@
 use super::previous_surfaces::previous_surface_evidence;
 use super::{CausticPaths, PreviousSurfaces};
 use crate::extract::{
-    AreaLightTable, EmissiveTable, EnvironmentLightTable, EnvironmentTable, IntegratorTable, emissive_evidence,
-    environment_light_evidence, followed_evidence, light_sampling_evidence, one_sided_evidence, primitive_evidence,
-    traced_evidence,
+    AreaLightTable, EmissiveTable, EnvironmentLightTable, EnvironmentTable, IntegratorTable, bidirectional_evidence,
+    caustics_evidence, emissive_evidence, environment_light_evidence, followed_evidence, light_sampling_evidence,
+    one_sided_evidence, primitive_evidence,
 };
 use crate::intersect::{EmissiveRows, HitPrimitives, Hits, NO_SHAPE, SurfaceSides};
 use crate::lights::Receiver;
@@ -99,7 +99,7 @@ pub fn mis_emission_stage() -> Stage {
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .reads_where::<SurfaceSides>(one_sided_evidence)
-        .reads_where::<CausticPaths>(traced_evidence)
+        .reads_where::<CausticPaths>(caustics_evidence)
         .reads_where::<HitPrimitives>(primitive_evidence)
         .reads_where::<PreviousSurfaces>(previous_surface_evidence)
         .when(mis_emission_evidence)
@@ -108,7 +108,11 @@ pub fn mis_emission_stage() -> Stage {
 /// Evidence that some emitting surfaces are sampled as lights, so that their emission must not be counted twice.
 pub(super) fn mis_emission_evidence(scene: &Census<'_>) -> Evidence {
     let emits = emissive_evidence(scene).and(|| followed_evidence(scene));
-    let traced = emits.clone().and(|| traced_evidence(scene));
+    let joined = bidirectional_evidence(scene);
+    if joined.needed {
+        return Evidence { needed: false, ..joined };
+    }
+    let traced = emits.clone().and(|| caustics_evidence(scene));
     if traced.needed { traced } else { emits.and(|| light_sampling_evidence(scene)) }
 }
 

@@ -3,8 +3,9 @@
 use super::Scattered;
 use super::specular::mirroring_normal;
 use crate::extract::{
-    CameraJoinTable, LightPathTable, LightSource, MaterialTable, SamplingTable, environment_traced_evidence,
-    joined_evidence, lens_evidence, normal_map_evidence, traced_evidence,
+    CameraJoinTable, LightPathTable, LightSource, MaterialTable, SamplingTable, caustics_evidence,
+    environment_traced_evidence, joined_caustics_evidence, joined_evidence, lens_evidence, normal_map_evidence,
+    traced_evidence,
 };
 use crate::intersect::{Hits, MaterialRows, NO_SHAPE, ShadingNormals, Surfaces, vertex_normal_evidence};
 use crate::lights::{LightStart, MAX_TARGETS_SOLID_ANGLE, StartDraws, direction_to_targets};
@@ -19,8 +20,7 @@ use bevy_ecs::query::QueryData;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// The number of light paths in a batch.
-pub const LIGHT_PATHS: u32 = 1024;
+pub use crate::extract::LIGHT_PATHS;
 
 column! {
     /// The power with which each light path leaves its light, divided by the pdf of that start.
@@ -34,6 +34,22 @@ impl LightPower {
     /// The light's colour at its full brightness.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         self.rgb(row).map(|part| part as f32)
+    }
+}
+
+column! {
+    /// The light that each light path starts on; exists where its pdf is asked for.
+    pub struct StartedOn("started on", "light", "a row of the light paths' table", Path) {
+        /// The row of the light.
+        light: u32,
+    }
+}
+
+impl StartedOn {
+    /// Grey, brighter for later lights.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        let light = self.light[row] as f32;
+        [(1.0 + light) / (2.0 + light); 3]
     }
 }
 
@@ -97,6 +113,7 @@ pub struct LightStartView {
     rays: &'static mut WorldRays,
     paths: &'static mut Paths,
     power: &'static mut LightPower,
+    started: Option<&'static mut StartedOn>,
     radiance: &'static mut Radiance,
 }
 
@@ -106,11 +123,13 @@ pub fn start_on_lights(
     sampling: Res<Shared<SamplingTable>>,
     mut tiles: Query<LightStartView>,
 ) {
-    for LightStartViewItem { tile, number, mut depth, mut rays, mut paths, mut power, mut radiance } in &mut tiles {
+    for LightStartViewItem { tile, number, mut depth, mut rays, mut paths, mut power, mut started, mut radiance } in
+        &mut tiles
+    {
         *depth = Depth(0);
         let purposes = [Purpose::LightChoice, Purpose::LightPoint, Purpose::Pixel, Purpose::Lens];
         let of = (&**table, tile, sampling.seed);
-        let to = (&mut *rays, &mut *paths, &mut *power);
+        let to = (&mut *rays, &mut *paths, &mut *power, started.as_deref_mut());
         let sample = SampleIndex { number: number.0, samples: sampling.samples, depth: 0 };
         with_sampler!(sampling.sampler, D => start_rows(of, purposes.map(|own| D::of(sample, own)), to));
         let rows = crate::plan::Column::rows(&*rays);
@@ -119,14 +138,14 @@ pub fn start_on_lights(
 }
 
 /// The columns that a path's start is written to.
-type StartColumns<'a> = (&'a mut WorldRays, &'a mut Paths, &'a mut LightPower);
+type StartColumns<'a> = (&'a mut WorldRays, &'a mut Paths, &'a mut LightPower, Option<&'a mut StartedOn>);
 
 /// Every row is written, and the next one overwrites it unless it has power, so that no branch depends on the light.
 #[inline(always)]
 fn start_rows<D: Draw>(
     (table, tile, seed): (&LightPathTable, &Tile, u64),
     [choice, place, pixel, lens]: [D; 4],
-    (rays, paths, power): StartColumns<'_>,
+    (rays, paths, power, started): StartColumns<'_>,
 ) {
     let rows = tile.rows();
     let (mut origin, mut direction) = rays.slices_mut(rows);
@@ -134,6 +153,7 @@ fn start_rows<D: Draw>(
     let mut powers = power.slices_mut(rows);
     throughput.set_all([1.0; 3]);
     pdf.fill(f64::INFINITY);
+    let mut lights = started.map(|started| started.slices_mut(rows));
     let mut at = 0;
     for row in 0..rows {
         let key = PixelKey::new(seed, tile.pixel_of(row));
@@ -141,6 +161,9 @@ fn start_rows<D: Draw>(
         let draws = [place.two(key), pixel.two(key)].map(|draws| draws.map(unit));
         let draws = StartDraws { light: choice.one(key), point: draws[0], direction: draws[1], target, side };
         let start = light_start(table, &draws);
+        if let Some(lights) = &mut lights {
+            lights[row] = table.chosen(draws.light) as u32;
+        }
         origin.put(at, start.origin);
         direction.put(at, start.direction.as_vec3());
         first[at] = row as u32;
@@ -191,7 +214,7 @@ pub fn caustic_paths_stage() -> Stage {
         .on_camera_paths()
         .on_first_bounce()
         .kind(StageKind::Alternative)
-        .when(joined_evidence)
+        .when(joined_caustics_evidence)
 }
 
 /// The paths that hit nothing, and the radiance of the environment that they found.
@@ -263,7 +286,7 @@ pub fn keep_specular_stage() -> Stage {
         .on_first_bounce()
         .kind(StageKind::Alternative)
         .changes::<MaterialRows>()
-        .when(traced_evidence)
+        .when(caustics_evidence)
 }
 
 /// Rays that reached the camera, what they carry, and the splats that become of them.

@@ -17,6 +17,7 @@
 
 mod absorb;
 mod beyond_contacts;
+mod bidirectional;
 mod bsdf;
 mod dispersion;
 mod distances;
@@ -29,6 +30,7 @@ mod participating;
 mod paths;
 mod photons;
 mod previous_surfaces;
+mod recursive_mis;
 mod specular;
 mod starts_on_glass;
 mod unsampled;
@@ -40,6 +42,10 @@ pub use absorb::{
 pub use beyond_contacts::{
     leave_contacts, leave_contacts_stage, leave_contacts_to_lights, leave_contacts_to_lights_stage,
 };
+pub use bidirectional::{
+    LIGHT_VERTEX_BYTES, LightVertex, LightVertexMap, LightVertices, join_stage, join_vertices, store_vertices,
+    store_vertices_stage,
+};
 pub use bsdf::{
     BsdfRole, BsdfRows, BsdfStage, LightWeightView, add_direct_light, bsdf_stages, classify_bsdf, classify_bsdf_stage,
     connections_stage, direct_light_stage, matte_direct_light_stage, mis_bsdf, mis_stage, sample_bsdf,
@@ -49,7 +55,7 @@ pub use dispersion::{carry_wavelengths, carry_wavelengths_stage, weight_by_wavel
 pub use distances::{MediaAlong, SampledDistance, Stretch, emission_along, sample_distance, transmittance_along};
 pub use emission::{add_mis_emission, add_mis_environment, mis_emission_stage, mis_environment_stage, power_heuristic};
 pub use light_paths::{
-    CausticPaths, LIGHT_PATHS, LightPower, Splats, caustic_paths_stage, correct_for_shading_normals,
+    CausticPaths, LIGHT_PATHS, LightPower, Splats, StartedOn, caustic_paths_stage, correct_for_shading_normals,
     environment_caustics_stage, keep_specular, keep_specular_stage, leave_environment_caustics, light_start,
     light_start_stage, mark_caustic_paths, shading_adjoint, shading_adjoint_stage, splat_light, splat_stage,
     start_on_lights,
@@ -78,6 +84,12 @@ pub use photons::{
 pub use previous_surfaces::{
     PreviousSurfaces, keep_previous_surfaces, keep_previous_surfaces_stage, start_previous_surfaces,
     start_previous_surfaces_stage,
+};
+pub use recursive_mis::{
+    JoinRatios, RecursiveMis, add_found_emission, arrive_from_camera, arrive_from_camera_stage, arrive_from_light,
+    arrive_from_light_stage, begin_camera_ratios, begin_join_ratios, camera_ratios_stage, found_emission_stage,
+    join_ratios_stage, join_weight_stage, leave_specular, leave_specular_stage, leave_with_ratios,
+    leave_with_ratios_stage, weight_joins,
 };
 pub use specular::{sample_specular, specular_from_lights_stage, specular_stage, split_rays, split_stage};
 #[doc(hidden)]

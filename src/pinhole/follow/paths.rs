@@ -2,10 +2,10 @@
 
 use super::media::{deeper_media_evidence, media_evidence};
 use super::previous_surfaces::previous_surface_evidence;
-use super::{CausticPaths, DeeperMedia, Media, PreviousSurfaces};
+use super::{CausticPaths, DeeperMedia, Media, PreviousSurfaces, RecursiveMis};
 use crate::extract::{
-    IntegratorTable, SamplingTable, filtered_evidence, followed_evidence, motion_evidence, needed_if, photon_evidence,
-    wavelength_evidence,
+    IntegratorTable, SamplingTable, bidirectional_evidence, filtered_evidence, followed_evidence, motion_evidence,
+    needed_if, photon_evidence, wavelength_evidence,
 };
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces};
 use crate::material::{Bsdf, BsdfSample};
@@ -271,6 +271,7 @@ pub fn remaining_bounces_stage() -> Stage {
         .reads_where::<DeeperMedia>(deeper_media_evidence)
         .reads_where::<PreviousSurfaces>(previous_surface_evidence)
         .reads_where::<CausticPaths>(photon_evidence)
+        .reads_where::<RecursiveMis>(bidirectional_evidence)
         .reads_where::<RayTimes>(motion_evidence)
         .reads_where::<Wavelengths>(wavelength_evidence)
         .reads_where::<WavelengthWeights>(wavelength_evidence)

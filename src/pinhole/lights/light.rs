@@ -160,6 +160,14 @@ macro_rules! registry {
                 }
             }
 
+            /// The irradiance of a surface at a point that faces the light.
+            pub fn irradiance(&self, at: DVec3) -> [f64; 3] {
+                match self {
+                    $(Self::$kind(light) => light.irradiance_at(at),)+
+                    Self::Custom(light) => light.0.irradiance_at(at),
+                }
+            }
+
             /// From where it shines; none for a light without a position.
             pub fn position(&self) -> Option<DVec3> {
                 let bounds = match self {
@@ -221,6 +229,7 @@ trait StartsPaths: Debug + Send + Sync {
     fn start(&self, targets: &Targets, draws: &StartDraws) -> LightStart;
     fn bounds(&self) -> Option<LightBounds>;
     fn power(&self, across: f64) -> [f64; 3];
+    fn irradiance_at(&self, point: DVec3) -> [f64; 3];
 }
 
 impl<L: Light> StartsPaths for L {
@@ -232,6 +241,9 @@ impl<L: Light> StartsPaths for L {
     }
     fn power(&self, across: f64) -> [f64; 3] {
         Light::power(self, across)
+    }
+    fn irradiance_at(&self, point: DVec3) -> [f64; 3] {
+        L::irradiance(&Light::sample(self, point), 1.0)
     }
 }
 

@@ -128,6 +128,12 @@ pub struct StageNames {
     pub connections: &'static str,
     /// Gathering photons.
     pub photons: &'static str,
+    /// Joining surfaces to light vertices with it.
+    pub join: &'static str,
+    /// Weighting what is joined to surfaces with it.
+    pub join_weights: &'static str,
+    /// Carrying MIS ratios on from surfaces with it.
+    pub ratios: &'static str,
     /// Weighting light samples against sampling it.
     pub mis: &'static str,
     /// Listing the rows that hit it.

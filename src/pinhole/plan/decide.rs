@@ -293,7 +293,12 @@ fn collect(scene: &Census<'_>, decided: Vec<Decided<'_>>, view: Option<ColumnKin
     let mut passes = vec![Pass { name: "camera", row: RowKind::Pixel, product: "film" }];
     if stages.iter().any(|stage: &Stage| !stage.runs_in(RowKind::Pixel)) {
         let are_photons = columns.iter().any(|column| column.name == "photons");
-        let product = if are_photons { "photons for each sample" } else { "splats on the film" };
+        let are_vertices = columns.iter().any(|column| column.name == "light vertices");
+        let product = match (are_photons, are_vertices) {
+            (true, _) => "photons for each sample",
+            (_, true) => "vertices for each sample, and splats on the film",
+            _ => "splats on the film",
+        };
         passes.push(Pass { name: "light", row: RowKind::LightPath, product });
     }
     Plan {

@@ -166,6 +166,12 @@ impl Stage {
         self
     }
 
+    /// Has it run for paths from the camera and from lights, whatever its set.
+    pub fn on_all_paths(mut self) -> Self {
+        self.passes = &[RowKind::Pixel, RowKind::LightPath];
+        self
+    }
+
     /// Restricts it to the pass over light paths.
     pub fn on_light_paths(mut self) -> Self {
         self.passes = &[RowKind::LightPath];

@@ -1,6 +1,6 @@
 use super::clock::{Lap, StageClock, laps_of};
 use super::execution::{tile_side, workers};
-use super::light_pass::{LightPass, Means, PhotonPass, batches};
+use super::light_pass::{LightPass, Means, SamplePass, batches};
 use super::memory::check_film_fits;
 use super::moments::Moments;
 use super::render_world::{RenderWorld, prepare};
@@ -8,15 +8,15 @@ use super::steps::{Run, WHOLE, next_sample, runs, steps_of};
 use super::{Execution, Rendered, Watch, Worlds};
 use crate::extract::{ImageFrame, LayerTable, SamplingTable, adaptive_of};
 use crate::film::{BLOCK, Curve, FileAttributes, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
-use crate::follow::{PhotonMap, Splats, Stop};
-use crate::plan::{Census, ExtractedTable, Plan, Shared, Stage, Table};
+use crate::follow::{Splats, Stop};
+use crate::plan::{Census, ExtractedTable, Plan, Shared, Stage};
 use crate::rays::{PixelSamples, Tile, Wavelengths};
 use crate::scene::check_workers;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use rayon::ThreadPool;
 use std::any::TypeId;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A render that advances step by step; between two calls its film may be displayed, saved, or replaced.
@@ -41,8 +41,8 @@ pub struct RenderInProgress {
     pub(super) worlds: Vec<Mutex<Option<RenderWorld>>>,
     /// The pass that traces paths from the lights, where the plan has one.
     pub(super) light: Option<LightPass<Splats>>,
-    /// The pass that traces the photons of each sample, where the plan has one.
-    pub(super) photons: Option<PhotonPass>,
+    /// The pass that traces light paths for each sample, where the plan has one.
+    pub(super) of_sample: Option<SamplePass>,
     /// The moments of a scene that changes while the shutter is open.
     pub(super) moments: Option<Moments>,
     pub(super) time: Duration,
@@ -83,10 +83,10 @@ impl RenderInProgress {
         };
         let worlds = pool.as_ref().map_or(1, ThreadPool::current_num_threads);
         let light = LightPass::of(scene, &plan, worlds)?;
-        let photons = PhotonPass::of(scene, &plan, worlds)?;
+        let of_sample = SamplePass::of(scene, &plan, worlds)?;
         Ok(Self {
             light,
-            photons,
+            of_sample,
             moments: None,
             curve: Curve::of(scene, &plan)?,
             attributes: FileAttributes::of(scene)?,
@@ -110,7 +110,7 @@ impl RenderInProgress {
     pub fn begin_frame(&mut self, scene: &Census<'_>, offer: &[Stage]) -> Result {
         let (plan, tables) = prepare(scene, offer)?;
         if self.light.is_some()
-            || self.photons.is_some()
+            || self.of_sample.is_some()
             || plan.rows != self.plan.rows
             || plan.columns != self.plan.columns
         {
@@ -177,13 +177,13 @@ impl RenderInProgress {
     /// The same with the scene whose tables the worlds have.
     pub(super) fn advance_scene(&mut self, to: u32, watch: &dyn Watch) -> Result {
         let started = Instant::now();
-        if self.photons.is_none() {
+        if self.of_sample.is_none() {
             self.advance_tiles(to, watch);
         } else {
-            // Each sample has photons of its own, so that all tiles take it before any takes the next.
+            // Each sample has light paths of its own, so that all tiles take it before any takes the next.
             while self.film.least_done() < to && !watch.stopped() {
                 let (next, sample) = next_sample(self.film.least_done(), to);
-                if !self.trace_photons(sample, watch) {
+                if !self.trace_light_paths(sample, watch) {
                     break;
                 }
                 self.advance_tiles(next, watch);
@@ -199,20 +199,15 @@ impl RenderInProgress {
         if watch.stopped() { Err(Error::Interrupted) } else { Ok(()) }
     }
 
-    /// Gives the worlds the photons of a sample; returns whether they were traced.
-    pub(super) fn trace_photons(&mut self, sample: u32, watch: &dyn Watch) -> bool {
-        let Some(photons) = &self.photons else { return true };
+    /// Gives the worlds what the light paths of a sample become; returns whether they were traced.
+    pub(super) fn trace_light_paths(&mut self, sample: u32, watch: &dyn Watch) -> bool {
+        let Some(pass) = &self.of_sample else { return true };
         let means = Means { plan: &self.plan, tables: &self.tables, pool: self.pool.as_ref() };
-        let Some(map) = photons.map(sample, &means, watch) else { return false };
-        let map = Arc::new(map);
-        for table in self.tables.iter_mut().filter(|table| table.id == TypeId::of::<PhotonMap>()) {
-            let map = Arc::clone(&map);
-            table.bytes = map.bytes();
-            table.insert = Box::new(move |world| world.insert_resource(Shared::from(Arc::clone(&map))));
-        }
+        let Some(map) = pass.map(sample, self.film.splats.as_mut(), &means, watch) else { return false };
+        map.replace(&mut self.tables);
         for world in &mut self.worlds {
             if let Some(world) = world.get_mut().unwrap_or_else(PoisonError::into_inner) {
-                world.world.insert_resource(Shared::from(Arc::clone(&map)));
+                map.insert(&mut world.world);
             }
         }
         true
@@ -279,8 +274,8 @@ impl RenderInProgress {
     /// The laps so far: one per kept stage, summed over workers; empty where no statistics were requested.
     pub fn laps(&self) -> Vec<Lap> {
         let of_lights = self.light.iter().flat_map(LightPass::laps);
-        let of_photons = self.photons.iter().flat_map(PhotonPass::laps);
-        sum_laps(self.worlds.iter().filter_map(laps_of).chain(of_lights).chain(of_photons).collect())
+        let of_samples = self.of_sample.iter().flat_map(SamplePass::laps);
+        sum_laps(self.worlds.iter().filter_map(laps_of).chain(of_lights).chain(of_samples).collect())
     }
 
     /// Ends the render and returns its result.

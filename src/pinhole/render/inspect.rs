@@ -2,14 +2,14 @@ use super::Execution;
 use super::clock::thread_time;
 use super::execution::tile_side;
 use super::in_progress::{film_for, film_parts};
-use super::light_pass::{Means, PhotonPass};
+use super::light_pass::{Means, SamplePass};
 use super::render_world::{Hook, RenderWorld, prepare};
 use super::steps::Run;
 use crate::Result;
 use crate::extract::ImageFrame;
 use crate::film::{Film, FilmTile};
 use crate::follow::Stop;
-use crate::plan::{Census, ExtractedTable, Plan, Shared, Stage, TileSystems};
+use crate::plan::{Census, ExtractedTable, Plan, Stage, TileSystems};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
@@ -151,9 +151,10 @@ fn inspect_film(
         frame.activate(tile, &run, None);
     }
     let started = Instant::now();
-    if let Some(photons) = PhotonPass::of(scene, &plan, 1)? {
-        let map = photons.map(run.sample, &Means { plan: &plan, tables: &tables, pool: None }, &());
-        frame.world.insert_resource(Shared::new(map.unwrap_or_default()));
+    if let Some(pass) = SamplePass::of(scene, &plan, 1)?
+        && let Some(map) = pass.map(run.sample, None, &Means { plan: &plan, tables: &tables, pool: None }, &())
+    {
+        map.insert(&mut frame.world);
     }
     frame.run();
     Ok(Inspection { plan, time: started.elapsed(), world: frame.world, tiles: frame.tiles, image })

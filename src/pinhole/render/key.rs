@@ -45,9 +45,9 @@ impl RenderInProgress {
                 hash = fnv(hash, &number.to_le_bytes());
             }
         }
-        if let Some(photons) = &self.photons {
+        if let Some(pass) = &self.of_sample {
             let means = Means { plan: &self.plan, tables: &self.tables, pool: None };
-            for number in photons.first_photons(&means, watch) {
+            for number in pass.first_bits(&means, watch) {
                 hash = fnv(hash, &number.to_le_bytes());
             }
         }

@@ -1,22 +1,63 @@
 use super::clock::{Lap, laps_of, thread_time};
 use super::render_world::{Hook, RenderWorld};
 use crate::extract::{FilterTable, ImageFrame, LightTracingTable, SamplingTable, pixel_width};
-use crate::film::{Film, SplatFilter};
-use crate::follow::{LIGHT_PATHS, Photon, PhotonMap, Photons, Splats, Stop, first_radius, photon_radius};
-use crate::plan::{Census, Column, ExtractedTable, Plan, RowKind, Shared, VectorRows};
+use crate::film::{Film, FilmSplats, SplatFilter};
+use crate::follow::{
+    LIGHT_PATHS, LightVertexMap, LightVertices, Photon, PhotonMap, Photons, Splats, Stop, first_radius, photon_radius,
+};
+use crate::plan::{Census, Column, ExtractedTable, Plan, RowKind, Shared, Table, VectorRows};
 use crate::rays::{SampleNumber, Tile};
 use crate::render::Watch;
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use rayon::ThreadPool;
+use std::any::TypeId;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// The number of batches whose splats are added together: a few for every worker, so that memory stays bounded.
 const BATCHES_AT_ONCE: u64 = 64;
 
-/// The pass whose rows are paths from the lights, and what they leave: splats or photons.
+/// What a batch of light paths leaves: a column, or several.
+pub(super) trait Left: Default + Send {
+    /// Whether the plan has it.
+    fn is_kept(plan: &Plan) -> bool;
+    /// Exchanges it with that of a tile.
+    fn swap(&mut self, tile: &mut EntityWorldMut<'_>);
+}
+
+impl<C: Column> Left for C {
+    fn is_kept(plan: &Plan) -> bool {
+        plan.keeps::<C>()
+    }
+
+    fn swap(&mut self, tile: &mut EntityWorldMut<'_>) {
+        if let Some(mut own) = tile.get_mut::<C>() {
+            std::mem::swap(&mut *own, self);
+        }
+    }
+}
+
+/// The light vertices of a batch, and what its paths add to the film by themselves.
+#[derive(Default)]
+pub(super) struct VerticesAndSplats {
+    vertices: LightVertices,
+    splats: Splats,
+}
+
+impl Left for VerticesAndSplats {
+    fn is_kept(plan: &Plan) -> bool {
+        plan.keeps::<LightVertices>()
+    }
+
+    fn swap(&mut self, tile: &mut EntityWorldMut<'_>) {
+        self.vertices.swap(tile);
+        self.splats.swap(tile);
+    }
+}
+
+/// The pass whose rows are paths from the lights, and what they leave: splats, photons or vertices.
 ///
 /// Its batches are numbered throughout the render, independently of the image's tiles, and what they leave is added in
 /// that order.
@@ -27,6 +68,8 @@ pub(super) struct LightPass<C> {
     lists: Vec<Mutex<C>>,
     /// The number of light paths per pixel sample.
     paths: f64,
+    /// The pixels of the image, and the batches for a sample of each, where each sample has its own.
+    each_sample: Option<[u64; 2]>,
     filter: SplatFilter,
     sampling: SamplingTable,
 }
@@ -61,16 +104,21 @@ pub(super) struct Means<'a> {
     pub pool: Option<&'a ThreadPool>,
 }
 
-impl<C: Column + Default> LightPass<C> {
+impl<C: Left> LightPass<C> {
     /// The pass, where the plan has one that leaves these.
     pub fn of(scene: &Census<'_>, plan: &Plan, workers: usize) -> Result<Option<Self>, SceneError> {
-        if !plan.keeps::<C>() {
+        if !C::is_kept(plan) {
             return Ok(None);
         }
+        let (image, tracing) = (scene.table::<ImageFrame>()?, scene.table::<LightTracingTable>()?);
+        let pixels = u64::from(image.width) * u64::from(image.height);
+        let batches = (tracing.each_sample / f64::from(LIGHT_PATHS)) as u64;
+        let is_for_samples = plan.keeps::<LightVertices>() || plan.keeps::<Photons>();
         Ok(Some(Self {
             worlds: (0..workers).map(|_| Mutex::new(None)).collect(),
             lists: (0..BATCHES_AT_ONCE).map(|_| Mutex::default()).collect(),
-            paths: scene.table::<LightTracingTable>()?.paths,
+            paths: tracing.paths,
+            each_sample: is_for_samples.then_some([pixels, batches]),
             filter: SplatFilter::new(scene.table::<FilterTable>()?.filter),
             sampling: scene.table::<SamplingTable>()?.for_light_paths(),
         }))
@@ -78,7 +126,10 @@ impl<C: Column + Default> LightPass<C> {
 
     /// The number of batches that corresponds to so many pixel samples.
     pub fn batches(&self, samples: u64) -> u64 {
-        batches_for(samples as f64, self.paths)
+        match self.each_sample {
+            Some([pixels, batches]) => samples.div_ceil(pixels) * batches,
+            None => batches_for(samples as f64, self.paths),
+        }
     }
 
     /// Lets the worlds go, so that the next batches are those of another scene.
@@ -148,7 +199,6 @@ impl LightPass<Splats> {
     /// progress when it is stopped do not contribute.
     pub fn advance(&self, film: &mut Film, samples: u64, means: &Means<'_>, watch: &dyn Watch) {
         let Some(splats) = &mut film.splats else { return };
-        let mut filter = self.filter.clone();
         let batch = u64::from(LIGHT_PATHS);
         let all = self.batches(samples);
         while splats.paths / batch < all && !watch.stopped() {
@@ -156,9 +206,7 @@ impl LightPass<Splats> {
             let Some(count) = self.run(first, all - first, means, watch) else { return };
             for list in &self.lists[..count as usize] {
                 let mut list = list.lock().unwrap_or_else(PoisonError::into_inner);
-                for at in 0..list.rows() {
-                    splats.add(&mut filter, list.raster.at(at), list.rgb(at));
-                }
+                add_splats(splats, &self.filter, &list);
                 list.clear();
             }
             splats.paths += count * batch;
@@ -174,76 +222,187 @@ impl LightPass<Splats> {
     }
 }
 
-/// The pass that traces the photons of each sample before its paths from the camera.
-pub(super) struct PhotonPass {
-    pass: LightPass<Photons>,
-    /// The batches of a sample.
-    batches: u64,
-    /// How wide a pixel is, in scene units, and for each at which it is seen.
-    pixel: [f64; 2],
-    /// The radius for the first sample: the one that the scene gives, or that follows from its photons.
-    first_radius: OnceLock<f64>,
+/// Adds the splats of a batch to the film's, in their order.
+fn add_splats(film: &mut FilmSplats, filter: &SplatFilter, list: &Splats) {
+    let mut filter = filter.clone();
+    for at in 0..list.rows() {
+        film.add(&mut filter, list.raster.at(at), list.rgb(at));
+    }
 }
 
-impl PhotonPass {
+/// The pass that traces light paths for each sample before its paths from the camera.
+pub(super) struct SamplePass {
+    kind: SampleKind,
+    /// The batches of a sample.
+    batches: u64,
+}
+
+/// What the light paths of a sample become.
+enum SampleKind {
+    /// Photons.
+    Photons {
+        pass: LightPass<Photons>,
+        /// How wide a pixel is, in scene units, and for each at which it is seen.
+        pixel: [f64; 2],
+        /// The radius for the first sample: the one that the scene gives, or that follows from its photons.
+        first_radius: OnceLock<f64>,
+    },
+    /// Vertices that are joined, for an image of this size.
+    Vertices { pass: LightPass<VerticesAndSplats>, size: [u32; 2] },
+}
+
+/// What paths from the camera find of the light paths of their sample.
+#[derive(Clone)]
+pub(super) enum SampleMap {
+    /// Photons.
+    Photons(Arc<PhotonMap>),
+    /// Light vertices.
+    Vertices(Arc<LightVertexMap>),
+}
+
+impl SampleMap {
+    /// Puts the table into a world.
+    pub fn insert(&self, world: &mut World) {
+        match self {
+            Self::Photons(map) => world.insert_resource(Shared::from(Arc::clone(map))),
+            Self::Vertices(map) => world.insert_resource(Shared::from(Arc::clone(map))),
+        }
+    }
+
+    /// Puts it in the place of the empty one among the tables of a render.
+    pub fn replace(&self, tables: &mut [ExtractedTable]) {
+        let (id, bytes) = match self {
+            Self::Photons(map) => (TypeId::of::<PhotonMap>(), map.bytes()),
+            Self::Vertices(map) => (TypeId::of::<LightVertexMap>(), map.bytes()),
+        };
+        for table in tables.iter_mut().filter(|table| table.id == id) {
+            let map = self.clone();
+            table.bytes = bytes;
+            table.insert = Box::new(move |world| map.insert(world));
+        }
+    }
+}
+
+impl SamplePass {
     /// The pass, where the plan has one.
     pub fn of(scene: &Census<'_>, plan: &Plan, workers: usize) -> Result<Option<Self>, SceneError> {
-        let Some(pass) = LightPass::of(scene, plan, workers)? else { return Ok(None) };
         let image = scene.table::<ImageFrame>()?;
-        let batches = batches_for(f64::from(image.width) * f64::from(image.height), pass.paths);
-        let given = scene.table::<LightTracingTable>()?.radius;
-        let first_radius = if given > 0.0 { OnceLock::from(given) } else { OnceLock::new() };
-        Ok(Some(Self { pass, batches, pixel: pixel_width(scene)?, first_radius }))
+        let tracing = scene.table::<LightTracingTable>()?;
+        let kind = if let Some(pass) = LightPass::of(scene, plan, workers)? {
+            let first_radius = if tracing.radius > 0.0 { OnceLock::from(tracing.radius) } else { OnceLock::new() };
+            SampleKind::Photons { pass, pixel: pixel_width(scene)?, first_radius }
+        } else if let Some(pass) = LightPass::of(scene, plan, workers)? {
+            SampleKind::Vertices { pass, size: [image.width, image.height] }
+        } else {
+            return Ok(None);
+        };
+        Ok(Some(Self { kind, batches: (tracing.each_sample / f64::from(LIGHT_PATHS)) as u64 }))
+    }
+
+    /// What the light paths of a sample become; none if they were abandoned.
+    ///
+    /// Where they add to the film by themselves, they do so here, unless the film has them already.
+    pub fn map(
+        &self,
+        sample: u32,
+        film: Option<&mut FilmSplats>,
+        means: &Means<'_>,
+        watch: &dyn Watch,
+    ) -> Option<SampleMap> {
+        match &self.kind {
+            SampleKind::Photons { pass, pixel, first_radius } => {
+                let map = self.photon_map(sample, (pass, *pixel, first_radius), means, watch)?;
+                Some(SampleMap::Photons(Arc::new(map)))
+            }
+            SampleKind::Vertices { pass, size } => {
+                let lists = self.lists(pass, sample, means, watch)?;
+                let paths = u64::from(LIGHT_PATHS);
+                if let Some(film) = film.filter(|film| film.paths == u64::from(sample) * self.batches * paths) {
+                    lists.iter().for_each(|list| add_splats(film, &pass.filter, &list.splats));
+                    film.paths += self.batches * paths;
+                }
+                let vertices: Vec<LightVertices> = lists.into_iter().map(|list| list.vertices).collect();
+                Some(SampleMap::Vertices(Arc::new(LightVertexMap::new(&vertices, LIGHT_PATHS, *size))))
+            }
+        }
     }
 
     // ANCHOR: photon_map_of_a_sample
     /// The photons of a sample; none if they were abandoned.
-    pub fn map(&self, sample: u32, means: &Means<'_>, watch: &dyn Watch) -> Option<PhotonMap> {
-        let own = self.photons(sample, means, watch)?;
-        let first = match self.first_radius.get() {
+    fn photon_map(
+        &self,
+        sample: u32,
+        (pass, pixel, radius): (&LightPass<Photons>, [f64; 2], &OnceLock<f64>),
+        means: &Means<'_>,
+        watch: &dyn Watch,
+    ) -> Option<PhotonMap> {
+        let own = self.photons(pass, sample, means, watch)?;
+        let first = match radius.get() {
             Some(&radius) => radius,
-            None if sample == 0 => *self.first_radius.get_or_init(|| first_radius(&own, self.pixel)),
+            None if sample == 0 => *radius.get_or_init(|| first_radius(&own, pixel)),
             None => {
-                let of_first = self.photons(0, means, watch)?;
-                *self.first_radius.get_or_init(|| first_radius(&of_first, self.pixel))
+                let of_first = self.photons(pass, 0, means, watch)?;
+                *radius.get_or_init(|| first_radius(&of_first, pixel))
             }
         };
         Some(PhotonMap::new(&own, photon_radius(first, sample)))
     }
     // ANCHOR_END: photon_map_of_a_sample
 
-    fn photons(&self, sample: u32, means: &Means<'_>, watch: &dyn Watch) -> Option<Vec<Photon>> {
-        let (mut found, start) = (Vec::new(), u64::from(sample) * self.batches);
+    fn photons(
+        &self,
+        pass: &LightPass<Photons>,
+        sample: u32,
+        means: &Means<'_>,
+        watch: &dyn Watch,
+    ) -> Option<Vec<Photon>> {
         let each = 1.0 / (self.batches * u64::from(LIGHT_PATHS)) as f64;
-        let mut next = start;
-        while next < start + self.batches {
-            let (count, lists) = self.pass.lists(next, start + self.batches - next, means, watch)?;
-            for list in lists {
-                found.extend((0..list.rows()).map(|row| Photon {
-                    position: list.position(row),
-                    to_light: list.to_light(row),
-                    power: list.power(row).map(|part| (part * each) as f32),
-                    segments: list.segments(row),
-                }));
-            }
-            next += count;
+        let mut found = Vec::new();
+        for list in self.lists(pass, sample, means, watch)? {
+            found.extend((0..list.rows()).map(|row| Photon {
+                position: list.position(row),
+                to_light: list.to_light(row),
+                power: list.power(row).map(|part| (part * each) as f32),
+                segments: list.segments(row),
+            }));
+        }
+        Some(found)
+    }
+
+    /// What the batches of a sample leave; none if they were abandoned.
+    fn lists<C: Left>(&self, pass: &LightPass<C>, sample: u32, means: &Means<'_>, watch: &dyn Watch) -> Option<Vec<C>> {
+        let (mut found, first) = (Vec::new(), u64::from(sample) * self.batches);
+        while (found.len() as u64) < self.batches {
+            let done = found.len() as u64;
+            found.extend(pass.lists(first + done, self.batches - done, means, watch)?.1);
         }
         Some(found)
     }
 
     /// The bits of the first batch.
-    pub fn first_photons(&self, means: &Means<'_>, watch: &dyn Watch) -> Vec<u64> {
-        let lists = self.pass.lists(0, 1, means, watch).map_or_else(Vec::new, |(_, lists)| lists);
-        let bits = |list: &Photons, row: usize| {
-            let place = list.position(row).to_array().map(|part| u64::from(part.to_bits()));
-            place.into_iter().chain(list.power(row).map(f64::to_bits))
-        };
-        lists.iter().flat_map(|list| (0..list.rows()).flat_map(|row| bits(list, row)).collect::<Vec<_>>()).collect()
+    pub fn first_bits(&self, means: &Means<'_>, watch: &dyn Watch) -> Vec<u64> {
+        fn bits(places: &[Vec<f32>; 3], powers: &[Vec<f64>; 3]) -> Vec<u64> {
+            let places = places.iter().flatten().map(|part| u64::from(part.to_bits()));
+            places.chain(powers.iter().flatten().map(|part| part.to_bits())).collect()
+        }
+        match &self.kind {
+            SampleKind::Photons { pass, .. } => {
+                let lists = pass.lists(0, 1, means, watch).map_or_else(Vec::new, |(_, lists)| lists);
+                lists.iter().flat_map(|list| bits(&list.position, &list.power)).collect()
+            }
+            SampleKind::Vertices { pass, .. } => {
+                let lists = pass.lists(0, 1, means, watch).map_or_else(Vec::new, |(_, lists)| lists);
+                lists.iter().flat_map(|list| bits(&list.vertices.position, &list.vertices.power)).collect()
+            }
+        }
     }
 
     /// The laps of each worker so far.
-    pub fn laps(&self) -> impl Iterator<Item = Vec<Lap>> {
-        self.pass.laps()
+    pub fn laps(&self) -> Vec<Vec<Lap>> {
+        match &self.kind {
+            SampleKind::Photons { pass, .. } => pass.laps().collect(),
+            SampleKind::Vertices { pass, .. } => pass.laps().collect(),
+        }
     }
 }
 
@@ -268,6 +427,8 @@ pub fn probe_light_paths(
     made.stop_at(Stop::at_deadline(Instant::now() + patience));
     if plan.keeps::<Photons>() {
         run_batch(&mut made, 0, &mut Photons::default());
+    } else if plan.keeps::<LightVertices>() {
+        run_batch(&mut made, 0, &mut VerticesAndSplats::default());
     } else {
         run_batch(&mut made, 0, &mut Splats::default());
     }
@@ -276,7 +437,7 @@ pub fn probe_light_paths(
 }
 
 /// Runs a batch of light paths and moves what they leave to `list`, which is empty; returns whether the run was completed.
-fn run_batch<C: Column + Default>(world: &mut RenderWorld, batch: u64, list: &mut C) -> bool {
+fn run_batch<C: Left>(world: &mut RenderWorld, batch: u64, list: &mut C) -> bool {
     let tile = world.tiles[0];
     let mut entity = world.world.entity_mut(tile);
     if let Some(mut place) = entity.get_mut::<Tile>() {
@@ -287,8 +448,6 @@ fn run_batch<C: Column + Default>(world: &mut RenderWorld, batch: u64, list: &mu
         *number = SampleNumber(batch as u32);
     }
     let whole = world.run();
-    if let Some(mut own) = world.world.get_mut::<C>(tile) {
-        std::mem::swap(&mut *own, list);
-    }
+    list.swap(&mut world.world.entity_mut(tile));
     whole
 }

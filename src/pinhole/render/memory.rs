@@ -1,6 +1,6 @@
 use crate::extract::{FilterTable, ImageFrame, LayerTable, LightTracingTable, SamplingTable, adaptive_of};
 use crate::film::{BLOCK, FilmLayers, FilmMoments, MATTE_BYTES};
-use crate::follow::{PHOTON_BYTES, Photons, Splats};
+use crate::follow::{LIGHT_VERTEX_BYTES, LightVertices, PHOTON_BYTES, Photons, Splats};
 use crate::plan::{Census, Plan};
 use crate::scene::{Filter, LayerKind, SceneError, TooLittleMemory, called, check_memory};
 use bevy_ecs::prelude::*;
@@ -13,7 +13,10 @@ pub fn peak_memory() -> Option<u64> {
     Some(kibibytes * 1024)
 }
 
-/// Bytes that a render of a scene takes per pixel of its film, and of photons for each sample of a pixel.
+/// The light vertices of a path that are reckoned with.
+const VERTICES: f64 = 8.0;
+
+/// Bytes that a render of a scene takes per pixel of its film, and of photons or light vertices for each sample of a pixel.
 pub fn film_bytes_per_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, SceneError> {
     const THREE: u64 = 3 * size_of::<f64>() as u64;
     const COUNT: u64 = size_of::<u32>() as u64;
@@ -32,6 +35,11 @@ pub fn film_bytes_per_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, Scen
     if plan.keeps::<Photons>() {
         // As many light paths as pixel samples, times a factor, each of which may end as a photon.
         film += (PHOTON_BYTES as f64 * scene.table::<LightTracingTable>()?.paths).ceil() as u64;
+    }
+    if plan.keeps::<LightVertices>() {
+        // Russian roulette leaves a path few vertices; it may have more in a white room, where they are white.
+        let vertices = VERTICES * scene.table::<LightTracingTable>()?.paths;
+        film += (LIGHT_VERTEX_BYTES as f64 * vertices).ceil() as u64;
     }
     if plan.keeps::<FilmLayers>() {
         let kinds = LayerTable::kinds_of(scene);

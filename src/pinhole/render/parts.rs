@@ -7,7 +7,7 @@ use super::steps::{next_sample, steps_of};
 use super::{RenderInProgress, Watch, planned_samples};
 use crate::film::{BLOCK, Film, LightUnit, Part, PartEntry, PartFilm, Unit, UnitFilm};
 use crate::follow::{Splats, Stop};
-use crate::plan::{Shared, VectorRows};
+use crate::plan::VectorRows;
 use crate::scene::Adaptive;
 use crate::{Error, Result};
 use std::collections::HashSet;
@@ -85,11 +85,28 @@ impl RenderInProgress {
     pub fn advance_part(&mut self, own: &mut PartFilm, until: Instant, watch: &dyn Watch) -> Result<bool> {
         let began = Instant::now();
         let units = self.units_left(own);
-        if self.photons.is_some() {
-            let complete = self.advance_by_photons(own, &units, until, watch);
-            self.time += began.elapsed();
-            return if watch.stopped() { Err(Error::Interrupted) } else { Ok(complete) };
+        let mut complete = if self.of_sample.is_some() {
+            self.advance_by_samples(own, &units, until, watch)
+        } else {
+            self.advance_units(own, units, until, watch)
+        };
+        if let Some(light) = &self.light {
+            let means = Means { plan: &self.plan, tables: &self.tables, pool: self.pool.as_ref() };
+            let all = own.part.batches(own.batches);
+            let mut first = own.light.last().map_or(all.start, |last| last.first + last.batches);
+            while first < all.end && complete && !watch.stopped() && Instant::now() < until {
+                let Some((batches, lists)) = light.lists(first, all.end - first, &means, watch) else { break };
+                own.light.push(unit_of(first, batches, &lists));
+                first += batches;
+            }
+            complete &= first >= all.end;
         }
+        self.time += began.elapsed();
+        if watch.stopped() { Err(Error::Interrupted) } else { Ok(complete) }
+    }
+
+    /// Advances units, each by itself; returns whether all of them are complete.
+    fn advance_units(&mut self, own: &mut PartFilm, units: Vec<Unit>, until: Instant, watch: &dyn Watch) -> bool {
         let (left, samples) = (units.len(), own.samples);
         let done = Mutex::new(Vec::new());
         let queue = Mutex::new(units.into_iter());
@@ -113,28 +130,16 @@ impl RenderInProgress {
             None => work(0),
         }
         let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let mut complete = done.len() == left;
+        let complete = done.len() == left;
         own.units.extend(done);
         // The order in which workers finish, and the stops between, are nobody's concern.
         own.units.sort_by_key(|own| own.unit);
-        if let Some(light) = &self.light {
-            let means = Means { plan: &self.plan, tables: &self.tables, pool: self.pool.as_ref() };
-            let all = own.part.batches(own.batches);
-            let mut first = own.light.last().map_or(all.start, |last| last.first + last.batches);
-            while first < all.end && complete && !watch.stopped() && Instant::now() < until {
-                let Some((batches, lists)) = light.lists(first, all.end - first, &means, watch) else { break };
-                own.light.push(unit_of(first, batches, &lists));
-                first += batches;
-            }
-            complete &= first >= all.end;
-        }
-        self.time += began.elapsed();
-        if watch.stopped() { Err(Error::Interrupted) } else { Ok(complete) }
+        complete
     }
 
-    /// Advances units, of which those of one block go together from sample to sample, since each sample has photons of its
+    /// Advances units, of which those of one block go together from sample to sample, since each sample has light paths of its
     /// own; returns whether all of them are complete.
-    fn advance_by_photons(&mut self, own: &mut PartFilm, units: &[Unit], until: Instant, watch: &dyn Watch) -> bool {
+    fn advance_by_samples(&mut self, own: &mut PartFilm, units: &[Unit], until: Instant, watch: &dyn Watch) -> bool {
         let (samples, stop) = (own.samples, Stop::at_flag(watch.stop_flag()));
         for (number, block) in units.chunk_by(|one, other| one.block == other.block).enumerate() {
             if number > 0 && Instant::now() >= until {
@@ -144,7 +149,7 @@ impl RenderInProgress {
             let films: Vec<_> = block.iter().map(|&unit| Mutex::new((self.film.unit(unit), done))).collect();
             while done < to {
                 let (next, sample) = next_sample(done, to);
-                if !self.trace_photons(sample, watch) {
+                if !self.trace_light_paths(sample, watch) {
                     return false;
                 }
                 let queue = AtomicUsize::new(0);
@@ -200,11 +205,11 @@ impl RenderInProgress {
         watch: &dyn Watch,
     ) -> Option<UnitFilm> {
         let [mut done, to] = steps_of_unit(own.unit, samples);
-        if let Some(photons) = &self.photons {
+        if let Some(pass) = &self.of_sample {
             let means = Means { plan: &self.plan, tables: &self.tables, pool: self.pool.as_ref() };
             while done < to && !watch.stopped() {
                 let (next, sample) = next_sample(done, to);
-                world.world.insert_resource(Shared::new(photons.map(sample, &means, watch)?));
+                pass.map(sample, None, &means, watch)?.insert(&mut world.world);
                 run_unit_to(world, &mut own, &mut done, next, watch);
             }
         } else {

@@ -56,6 +56,7 @@ fn of_bsdfs(role: BsdfRole) -> Vec<Grouped> {
     let group = |stage: &BsdfStage| match (role, stage.class) {
         (MisWeights, _) => Mis,
         (Gather, _) => PhotonMapping,
+        (Join | JoinWeights | Ratios, _) => Bidirectional,
         (Connections | SampleFromLights, _) => LightTracing,
         (_, _) if stage.transmits => Glass,
         (_, BsdfClass::Specular) => SpecularReflection,
@@ -74,7 +75,15 @@ pub(super) fn bsdf_rows() -> Vec<Grouped> {
 }
 
 pub(super) fn direct_light_of_bsdfs() -> Vec<Grouped> {
-    [MisWeights, Evaluate, Connections, Gather].into_iter().flat_map(of_bsdfs).collect()
+    [MisWeights, JoinWeights, Evaluate, Connections, Gather].into_iter().flat_map(of_bsdfs).collect()
+}
+
+pub(super) fn joins() -> Vec<Grouped> {
+    of_bsdfs(Join)
+}
+
+pub(super) fn carried_ratios() -> Vec<Grouped> {
+    of_bsdfs(Ratios)
 }
 
 pub(super) fn bsdf_samples() -> Vec<Grouped> {

@@ -1,11 +1,11 @@
 use crate::material::MATERIALS;
 use crate::{
-    Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, Dispersion, EmissionMap, Emissive,
-    Environment, EquirectangularCamera, Exposure, FisheyeCamera, Gradient, ImageTexture, Integrator, Keys, Layers,
-    Lens, LightTracing, LookAt, Medium, Mesh, MetallicRoughnessMap, Motion, NormalMap, Opacity, OpacityMap,
-    OrthographicCamera, PerspectiveCamera, PhotonMapping, Placement, Plane, PointLight, Rasterisation, Rectangle,
-    Resolution, Sampling, Shutter, SingleSided, Sphere, SpotLight, Statistics, Stripes, Tint, ToneMapping, Torus,
-    Triangle, View,
+    Adaptive, Background, BidirectionalPathTracing, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk,
+    Dispersion, EmissionMap, Emissive, Environment, EquirectangularCamera, Exposure, FisheyeCamera, Gradient,
+    ImageTexture, Integrator, Keys, Layers, Lens, LightTracing, LookAt, Medium, Mesh, MetallicRoughnessMap, Motion,
+    NormalMap, Opacity, OpacityMap, OrthographicCamera, PerspectiveCamera, PhotonMapping, Placement, Plane, PointLight,
+    Rasterisation, Rectangle, Resolution, Sampling, Shutter, SingleSided, Sphere, SpotLight, Statistics, Stripes, Tint,
+    ToneMapping, Torus, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -50,6 +50,7 @@ const WORDS: &[Word] = &[
     Word::of::<Integrator>("integrator"),
     Word::of::<LightTracing>("light_tracing"),
     Word::of::<PhotonMapping>("photon_mapping"),
+    Word::of::<BidirectionalPathTracing>("bidirectional_path_tracing"),
     Word::of::<Exposure>("exposure"),
     Word::of::<ToneMapping>("tone_mapping"),
     Word::of::<Emissive>("emissive"),

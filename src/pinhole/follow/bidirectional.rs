@@ -1,0 +1,417 @@
+//! Bidirectional path tracing: every vertex of a path from the camera is joined to every vertex of a path from a light.
+//!
+//! Reads: surfaces of light paths; then, of camera paths, [`MaterialRows`] at every bounce.
+//! Writes: [`LightVertices`], which between the two passes become [`LightVertexMap`]; then [`ShadowRays`] that carry the
+//! light of each vertex.
+//! Space: render space.
+//!
+//! A light vertex is a light that is as bright in each direction as its BSDF says, so that everything from shadow rays on
+//! is as for other lights.
+
+use super::bsdf::at_interfaces_where;
+use super::interface::{Interface, InterfaceView};
+use super::recursive_mis::{JoinRatios, RecursiveMis, bounded, reverse_pdf, squared};
+use super::{LightPower, bsdf::without_sides};
+use crate::extract::{
+    GlassTable, IntegratorTable, MaterialTable, bidirectional_evidence, bsdf_evidence, lit_from_behind_evidence,
+};
+use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine};
+use crate::material::{Bsdf, Parameters, ShadingContext, Transport};
+use crate::plan::{Census, Column, Shared, Stage, StageKind, Table, TileSystems, VectorRowsMut, column};
+use crate::rays::{Depth, Paths, PixelSamples, Tile, WorldRays, pixel_of_row};
+use crate::scene::SceneError;
+use crate::shade::{ParameterColumns, ShadowRays, TransmissiveRows, join_cosine, shadow_t_max};
+use crate::shapes::offset_origin;
+use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
+use glam::{DVec3, Vec3};
+
+column! {
+    /// The vertices of a batch of light paths on surfaces that are not specular, in the order of bounces and paths.
+    pub struct LightVertices("light vertices", "world, from the eye", "scene units; linear Rec. 709", Film) {
+        /// The path, counted in the batch.
+        path: u32,
+        /// Where it is.
+        position: Vec3 as [px, py, pz],
+        /// The geometric normal, on the side that the light comes from.
+        normal: Vec3 as [nx, ny, nz],
+        /// The shading normal.
+        shading: Vec3 as [sx, sy, sz],
+        /// Where the light comes from; a unit vector.
+        to_light: Vec3 as [tx, ty, tz],
+        /// How far along the normal a ray must start to be certainly off the surface.
+        bound: f32,
+        /// The row of the material table.
+        material: u32,
+        /// The surface's colour.
+        colour: [f64; 3] as [cr, cg, cb],
+        /// How much of it is metal.
+        metallic: f64,
+        /// Its perceived roughness.
+        roughness: f64,
+        /// The index of refraction beyond the surface over that on this side.
+        eta: f64,
+        /// The power that the path carries here, divided by the pdf of its start.
+        power: [f64; 3] as [r, g, b],
+        /// What the path knows of other ways to find its light.
+        arrival: f64,
+        /// The same of those that are joined at earlier vertices.
+        earlier: f64,
+        /// The segments of the path from the light to here.
+        segments: u32,
+    }
+}
+
+impl LightVertices {
+    /// The power that is carried.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        self.power(row).map(|part| part as f32)
+    }
+
+    /// A row.
+    pub fn get(&self, row: usize) -> LightVertex {
+        LightVertex {
+            position: self.position(row),
+            normal: self.normal(row),
+            shading: self.shading(row),
+            to_light: self.to_light(row),
+            bound: self.bound[row],
+            material: self.material[row],
+            parameters: Parameters {
+                colour: self.colour(row),
+                metallic: self.metallic[row],
+                roughness: self.roughness[row],
+            },
+            eta: self.eta[row],
+            power: self.power(row),
+            arrival: self.arrival[row],
+            earlier: self.earlier[row],
+            segments: self.segments[row],
+        }
+    }
+}
+
+/// A vertex of a light path; its fields are those of a row of [`LightVertices`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LightVertex {
+    /// Where it is, in render space.
+    pub position: Vec3,
+    /// The geometric normal, on the side that the light comes from.
+    pub normal: Vec3,
+    /// The shading normal.
+    pub shading: Vec3,
+    /// Where the light comes from; a unit vector.
+    pub to_light: Vec3,
+    /// The error bound of its position along the normal.
+    pub bound: f32,
+    /// The row of the material table.
+    pub material: u32,
+    /// The parameters of the surface there.
+    pub parameters: Parameters,
+    /// The relative index of refraction.
+    pub eta: f64,
+    /// The power that arrives, divided by the pdf of the path's start.
+    pub power: [f64; 3],
+    /// As in [`RecursiveMis`].
+    pub arrival: f64,
+    /// As in [`RecursiveMis`].
+    pub earlier: f64,
+    /// The segments of its path.
+    pub segments: u32,
+}
+
+/// Bytes of a light vertex: in its batch's columns, in the list of all, and in the map.
+pub const LIGHT_VERTEX_BYTES: u64 = (3 * size_of::<LightVertex>() + size_of::<u32>()) as u64;
+
+/// Surfaces that light paths hit, and the vertices that become of them.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct StoreVerticesView {
+    depth: &'static Depth,
+    rays: &'static WorldRays,
+    paths: &'static Paths,
+    surfaces: &'static Surfaces,
+    shading: Option<&'static ShadingNormals>,
+    power: &'static LightPower,
+    list: &'static MaterialRows,
+    mis: &'static RecursiveMis,
+    vertices: &'static mut LightVertices,
+}
+
+// ANCHOR: store_vertices
+/// Stores a vertex wherever a light path hits a surface that is not specular, with all that is asked when it is joined.
+pub fn store_vertices(
+    (materials, glass): (Res<Shared<MaterialTable>>, Option<Res<Shared<GlassTable>>>),
+    mut tiles: Query<(StoreVerticesView, ParameterColumns, InterfaceView)>,
+) {
+    for (view, columns, interface) in &mut tiles {
+        let interface = Interface::new(interface, glass.as_deref());
+        let StoreVerticesViewItem { depth, rays, paths, surfaces, shading, power, list, mis, mut vertices } = view;
+        for &row in &list.row {
+            let row = row as usize;
+            let (surface, path) = (surfaces.get(row), paths.first[row] as usize);
+            let material = surface.material as usize;
+            let (whole, carried) = (power.rgb(path), paths.throughput(row));
+            vertices.append(
+                path as u32,
+                &LightVertex {
+                    position: surface.position,
+                    normal: surface.normal,
+                    shading: shading.map_or(surface.normal, |shading| shading.normal(row)),
+                    to_light: -rays.direction_of(row).as_vec3(),
+                    bound: surface.bound,
+                    material: surface.material,
+                    parameters: columns.get(&materials, row, material),
+                    eta: interface.eta(materials.interior[material], row),
+                    power: [0, 1, 2].map(|part| whole[part] * carried[part]),
+                    arrival: mis.arrival[path],
+                    earlier: mis.earlier[path],
+                    segments: depth.0 + 1,
+                },
+            );
+        }
+    }
+}
+// ANCHOR_END: store_vertices
+
+impl LightVertices {
+    /// Appends a vertex of a path.
+    fn append(&mut self, path: u32, own: &LightVertex) {
+        let vectors = [
+            (&mut self.position, own.position),
+            (&mut self.normal, own.normal),
+            (&mut self.shading, own.shading),
+            (&mut self.to_light, own.to_light),
+        ];
+        for (columns, vector) in vectors {
+            columns.iter_mut().zip(vector.to_array()).for_each(|(column, part)| column.push(part));
+        }
+        for (columns, colour) in [(&mut self.colour, own.parameters.colour), (&mut self.power, own.power)] {
+            columns.iter_mut().zip(colour).for_each(|(column, part)| column.push(part));
+        }
+        let numbers = [
+            (&mut self.metallic, own.parameters.metallic),
+            (&mut self.roughness, own.parameters.roughness),
+            (&mut self.eta, own.eta),
+            (&mut self.arrival, own.arrival),
+            (&mut self.earlier, own.earlier),
+        ];
+        numbers.into_iter().for_each(|(column, number)| column.push(number));
+        let counts = [(&mut self.path, path), (&mut self.material, own.material), (&mut self.segments, own.segments)];
+        counts.into_iter().for_each(|(column, number)| column.push(number));
+        self.bound.push(own.bound);
+    }
+}
+
+/// The stage that runs [`store_vertices`].
+pub fn store_vertices_stage() -> Stage {
+    let stage = Stage::new("Store light vertices", TileSystems::SampleLights, store_vertices);
+    at_interfaces_where(stage, lit_from_behind_evidence)
+        .on_light_paths()
+        .kind(StageKind::Alternative)
+        .when(bidirectional_evidence)
+}
+
+/// The light vertices of one sample, path by path.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LightVertexMap {
+    /// The vertices of each path, one path after another.
+    vertices: Vec<LightVertex>,
+    /// Where those of each path begin, and the end.
+    first: Vec<u32>,
+    /// The width of the image and the number of its pixels, between which the paths are divided.
+    image: [u64; 2],
+}
+
+impl Table for LightVertexMap {
+    const NAME: &'static str = "light vertices of a sample";
+
+    /// Without vertices: each sample has its own, which are traced before it.
+    fn extract(_: &Census<'_>) -> Result<Self, SceneError> {
+        Ok(Self::default())
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(&self.vertices[..]) + size_of_val(&self.first[..])
+    }
+}
+
+impl LightVertexMap {
+    /// The map of the vertices that batches of so many paths have left, for an image of this size.
+    pub fn new(batches: &[LightVertices], paths_each: u32, [width, height]: [u32; 2]) -> Self {
+        let paths = batches.len() * paths_each as usize;
+        let mut first = vec![0_u32; paths + 1];
+        let path_of = |batch: usize, path: u32| batch * paths_each as usize + path as usize;
+        for (batch, own) in batches.iter().enumerate() {
+            own.path.iter().for_each(|&path| first[path_of(batch, path) + 1] += 1);
+        }
+        for path in 0..paths {
+            first[path + 1] += first[path];
+        }
+        let (mut next, mut vertices) = (first.clone(), vec![LightVertex::default(); first[paths] as usize]);
+        for (batch, own) in batches.iter().enumerate() {
+            for (row, &path) in own.path.iter().enumerate() {
+                let place = &mut next[path_of(batch, path)];
+                vertices[*place as usize] = own.get(row);
+                *place += 1;
+            }
+        }
+        Self { vertices, first, image: [u64::from(width), u64::from(width) * u64::from(height)] }
+    }
+
+    // ANCHOR: path_of_pixel
+    /// The vertices of the light path that is joined to the paths of a pixel.
+    ///
+    /// There are as many light paths as pixels or another number of them; each pixel has one, and neighbours different ones
+    /// where there are enough.
+    #[inline(always)]
+    pub fn of_pixel(&self, [x, y]: [u32; 2]) -> &[LightVertex] {
+        let paths = self.first.len().saturating_sub(1) as u64;
+        if paths == 0 {
+            return &[];
+        }
+        let pixel = u64::from(y) * self.image[0] + u64::from(x);
+        let path = (u128::from(pixel) * u128::from(paths) / u128::from(self.image[1])) as usize;
+        let path = path.min(paths as usize - 1);
+        &self.vertices[self.first[path] as usize..self.first[path + 1] as usize]
+    }
+    // ANCHOR_END: path_of_pixel
+}
+
+/// Surfaces of camera paths, and the rays that join them to light vertices.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct JoinView {
+    tile: &'static Tile,
+    depth: &'static Depth,
+    samples: Option<&'static PixelSamples>,
+    paths: &'static Paths,
+    surfaces: &'static Surfaces,
+    shading: Option<&'static ShadingNormals>,
+    list: &'static MaterialRows,
+    far: Option<&'static TransmissiveRows>,
+    rays: &'static mut ShadowRays,
+    ratios: &'static mut JoinRatios,
+}
+
+/// A shadow ray to a light vertex.
+struct Join {
+    origin: Vec3,
+    direction: Vec3,
+    distance: f64,
+    irradiance: [f64; 3],
+    onward: f64,
+    reverse: f64,
+}
+
+// ANCHOR: join_vertex
+/// The ray from a surface to a light vertex with this BSDF, and the irradiance that it carries: what the vertex sends here
+/// is its power, times its BSDF and the cosines of both ends over the square of the distance.
+#[inline(always)]
+fn join_vertex<B: Bsdf>(
+    bsdf: &B,
+    vertex: &LightVertex,
+    bsdf_row: usize,
+    [origin, normal, shaded]: [DVec3; 3],
+) -> Option<Join> {
+    let own = vertex.normal.as_dvec3();
+    let seen = (origin - vertex.position.as_dvec3()).dot(own);
+    if seen == 0.0 || (seen < 0.0 && !B::TRANSMITS) {
+        return None;
+    }
+    let side = if seen < 0.0 { -vertex.normal } else { vertex.normal };
+    let to_light = offset_origin(vertex.position, side, vertex.bound).as_dvec3() - origin;
+    let square = to_light.length_squared();
+    let direction = to_light * (1.0 / square.sqrt());
+    let (leaving, arriving) = (own.dot(direction).abs(), falling_cosine(normal, shaded, direction));
+    if !(square >= f64::MIN_POSITIVE && arriving > 0.0 && side.as_dvec3().dot(direction) < 0.0) {
+        return None;
+    }
+
+    // A shading normal counts arriving light by its own cosine (Veach 1997, 5.3).
+    let (source, shading) = (vertex.to_light.as_dvec3(), vertex.shading.as_dvec3());
+    let sent = join_cosine(leaving, own.dot(source), falling_cosine(own, shading, source));
+    let local_from_world = B::frame(shading).transpose();
+    let (onward, to_source) = (local_from_world * -direction, local_from_world * source);
+    let opaque = ShadingContext::opaque(bsdf_row, vertex.parameters);
+    let context = ShadingContext { eta: vertex.eta, transport: Transport::Importance, ..opaque };
+    let scattered = bsdf.eval(&context, onward, to_source);
+    if scattered == [0.0; 3] {
+        return None;
+    }
+    let geometry = sent * arriving / square;
+
+    // As many paths from either end come along the ray as its BSDF samples this direction.
+    let from_light = bsdf.pdf(&context, onward, to_source) * normal.dot(direction).abs() / square;
+    let back = squared(reverse_pdf(bsdf, &context, onward, to_source));
+    let known = bounded(vertex.arrival + vertex.earlier * back);
+    Some(Join {
+        origin: origin.as_vec3(),
+        direction: direction.as_vec3(),
+        distance: square.sqrt(),
+        irradiance: [0, 1, 2].map(|part| vertex.power[part] * scattered[part] * geometry),
+        onward: bounded(squared(leaving / square) * known),
+        reverse: squared(from_light),
+    })
+}
+// ANCHOR_END: join_vertex
+
+// ANCHOR: join_vertices
+/// Appends a ray from every surface to each vertex with this BSDF of its pixel's light path.
+pub fn join_vertices<B: Bsdf>(
+    (materials, bsdf): (Res<Shared<MaterialTable>>, Res<Shared<B>>),
+    (map, integrator): (Res<Shared<LightVertexMap>>, Res<Shared<IntegratorTable>>),
+    mut tiles: Query<JoinView>,
+) {
+    for view in &mut tiles {
+        let JoinViewItem { tile, depth, samples, paths, surfaces, shading, list, far, mut rays, mut ratios } = view;
+        let behind: &[u32] = far.map_or(&[], |far| &far.row);
+        for (rows, side) in [(&list.row[..], 1.0), (behind, -1.0)] {
+            for &row in rows {
+                let (of, row) = (row, row as usize);
+                let vertices = map.of_pixel(pixel_of_row(tile, samples, Some(paths), row));
+                if vertices.is_empty() {
+                    continue;
+                }
+                let surface = surfaces.get(row);
+                let normal = surface.normal * side as f32;
+                let shaded = shading.map_or(surface.normal.as_dvec3(), |shading| shading.get(row)) * side;
+                let origin = offset_origin(surface.position, normal, surface.bound).as_dvec3();
+                for vertex in vertices {
+                    let (kind, bsdf_row) =
+                        (materials.kind[vertex.material as usize], materials.row[vertex.material as usize]);
+                    let segments = depth.0.saturating_add(2).saturating_add(vertex.segments);
+                    if kind != B::KIND || segments > integrator.max_depth {
+                        continue;
+                    }
+                    let ends = [origin, normal.as_dvec3(), shaded];
+                    let Some(join) = join_vertex(&**bsdf, vertex, bsdf_row as usize, ends) else { continue };
+                    append(&mut rays, of, &join);
+                    ratios.append(join.onward, join.reverse);
+                }
+            }
+        }
+    }
+}
+// ANCHOR_END: join_vertices
+
+#[inline(always)]
+fn append(rays: &mut ShadowRays, row: u32, join: &Join) {
+    let at = rays.rows();
+    let (rows, mut origin, mut direction, t_max, mut irradiance) = rays.slices_mut(at + 1);
+    rows[at] = row;
+    origin.put(at, join.origin);
+    direction.put(at, join.direction);
+    t_max[at] = shadow_t_max(join.distance);
+    irradiance.put(at, join.irradiance.map(|part| part.min(f64::from(f32::MAX)) as f32));
+}
+
+/// The stage that joins surfaces to light vertices with a BSDF.
+pub fn join_stage<B: Bsdf>() -> Stage {
+    without_sides(Stage::new(B::NAMES.join, TileSystems::SampleLights, join_vertices::<B>))
+        .on_camera_paths()
+        .kind(StageKind::Alternative)
+        .appends::<ShadowRays>()
+        .changes::<JoinRatios>()
+        .when(|scene| bidirectional_evidence(scene).and(|| bsdf_evidence::<B>(scene)))
+}

@@ -1,0 +1,488 @@
+//! The MIS weight of every way to find a path, from two numbers that each of its halves carries along.
+//!
+//! A path of k segments is found in up to k + 1 ways: its first s vertices by a path from a light, the others by a path from
+//! the camera.
+//! The weight of a way is its squared pdf over the sum of the squares of all (the power heuristic; Veach and Guibas 1995).
+//! Ratios of pdfs of ways that are next to each other have nearly all factors in common, so that the sum is built up vertex
+//! by vertex (van Antwerpen 2011; Georgiev 2012, whose d_VCM and d_VC are the roots of `arrival` and `earlier`).
+//!
+//! Reads: hits, surfaces and scattered rays of paths from either side.
+//! Writes: [`RecursiveMis`], [`JoinRatios`], and the weights of [`ShadowRays`].
+//! Space: 1/pdf in the units of area and solid angle; what is joined has none.
+
+use super::bsdf::{at_interfaces, shading_context, transport};
+use super::interface::{Interface, InterfaceView};
+use super::light_paths::StartedOn;
+use super::{Scattered, previous_surfaces::previous_surface_evidence};
+use crate::extract::{
+    AreaLightTable, CameraJoinTable, EmissiveTable, GlassTable, LightPathTable, LightTracingTable, MaterialTable,
+    bidirectional_evidence, bsdf_evidence, emissive_evidence, lens_evidence, luminance, one_sided_evidence,
+    primitive_evidence,
+};
+use crate::follow::PreviousSurfaces;
+use crate::intersect::{EmissiveRows, HitPrimitives, Hits, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces};
+use crate::lights::Receiver;
+use crate::material::{Bsdf, ShadingContext, Transport};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
+use crate::rays::{Depth, LensPoints, Paths, WorldRays, join_camera};
+use crate::shade::{EmissionFactors, LightPdfs, ParameterColumns, Radiance, ShadowRays, area_light_pdf};
+use crate::shapes::offset_origin;
+use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
+use glam::{DVec2, DVec3};
+
+column! {
+    /// What a path knows of the other ways to find its light: squares of sums of ratios of pdfs, up to the vertex where it is.
+    pub struct RecursiveMis("recursive MIS", "path", "1 over squared pdf", Path, begun in Join) {
+        /// 1 over the pdf with which the path has come to its last vertex, squared; for the first vertex, times that of the
+        /// light sample or the connection to the camera in its place. 0 behind a specular surface, where nothing is joined.
+        arrival: f64,
+        /// The same sum for all earlier vertices, but for the pdf with which the last one would be left towards the one
+        /// before.
+        earlier: f64,
+    }
+}
+
+impl RecursiveMis {
+    /// Grey, brighter where other ways are more likely.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        let sum = (self.arrival[row] + self.earlier[row]).sqrt();
+        [(sum / (1.0 + sum)) as f32; 3]
+    }
+}
+
+column! {
+    /// What each shadow ray knows of the ways to find its path beside the one that made it, row by row as in
+    /// [`ShadowRays`].
+    pub struct JoinRatios("join ratios", "path", "squared ratio of pdfs", Ray) {
+        /// The factor of the squared pdf of the ray's direction by BSDF sampling: ways whose part from the camera goes on
+        /// along the ray.
+        onward: f64,
+        /// The factor of what the path so far knows: ways whose part from the light goes on along the ray, in reverse.
+        reverse: f64,
+    }
+}
+
+impl JoinRatios {
+    /// Both, from 0 to 1.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        let [onward, reverse] = [self.onward[row], self.reverse[row]].map(|own| (own / (1.0 + own)) as f32);
+        [onward, reverse, 0.0]
+    }
+
+    /// Appends the ratios of a ray.
+    #[inline(always)]
+    pub(super) fn append(&mut self, onward: f64, reverse: f64) {
+        let at = self.rows();
+        let (onwards, reverses) = self.slices_mut(at + 1);
+        (onwards[at], reverses[at]) = (onward, reverse);
+    }
+}
+
+/// The greatest squared ratio, which leaves room for products.
+const MAX: f64 = 1e200;
+
+/// A squared ratio that is finite and not NaN.
+#[inline(always)]
+pub(super) fn bounded(square: f64) -> f64 {
+    square.max(0.0).min(MAX)
+}
+
+/// The square of a ratio.
+#[inline(always)]
+pub(super) fn squared(ratio: f64) -> f64 {
+    bounded(ratio * ratio)
+}
+
+// ANCHOR: reverse_pdf
+/// The pdf with which a path would go from a surface to the eye if it came from the light.
+///
+/// A transmitted path comes from the other side, where the index of refraction is the inverse.
+#[inline(always)]
+pub(super) fn reverse_pdf<B: Bsdf>(bsdf: &B, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> f64 {
+    if to_light.z >= 0.0 {
+        return bsdf.pdf(context, to_eye, to_light);
+    }
+    let flipped = |direction: DVec3| DVec3::new(direction.x, direction.y, -direction.z);
+    let behind = ShadingContext { eta: 1.0 / context.eta, ..*context };
+    bsdf.pdf(&behind, flipped(to_eye), flipped(to_light))
+}
+// ANCHOR_END: reverse_pdf
+
+/// Surfaces where paths arrive.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct ArrivalView {
+    depth: &'static Depth,
+    rays: &'static WorldRays,
+    paths: &'static Paths,
+    hits: &'static Hits,
+    surfaces: &'static Surfaces,
+    mis: &'static mut RecursiveMis,
+}
+
+impl ArrivalViewItem<'_, '_> {
+    /// Carries the ratios of every path that hit something to its surface; `first` gives them at the first one, from the
+    /// row, the place and |cos θ|.
+    #[inline(always)]
+    fn arrive(&mut self, first: impl Fn(usize, DVec3, f64) -> [f64; 2]) {
+        let is_first = self.depth.0 == 0;
+        // The rows of the first bounce ascend by path.
+        let paths = self.paths.first.last().map_or(0, |&last| last as usize + 1);
+        let length = if is_first { paths } else { self.mis.rows() };
+        let (arrival, earlier) = self.mis.slices_mut(length);
+        for row in (0..self.rays.rows()).filter(|&row| self.hits.shape[row] != NO_SHAPE) {
+            let (path, direction) = (self.paths.first[row] as usize, self.rays.direction_of(row));
+            let surface = self.surfaces.get(row);
+            let cosine = surface.normal.as_dvec3().dot(direction).abs();
+            if is_first {
+                [arrival[path], earlier[path]] = first(row, surface.position.as_dvec3(), cosine).map(squared);
+            } else {
+                // From a unit of solid angle there to a unit of area here.
+                let distance = self.hits.t[row];
+                arrival[path] = bounded(arrival[path] * squared(distance * distance / cosine));
+                earlier[path] = bounded(earlier[path] / (cosine * cosine));
+            }
+        }
+    }
+}
+
+// ANCHOR: arrive_from_camera
+/// Carries the ratios of paths from the camera to the surfaces that they hit.
+///
+/// The first one may be found by connecting light paths to the camera as well: so many of them a sample, against as many
+/// camera rays a unit of area as the importance says.
+pub fn arrive_from_camera(
+    (join, tracing): (Res<Shared<CameraJoinTable>>, Res<Shared<LightTracingTable>>),
+    mut tiles: Query<(ArrivalView, Option<&LensPoints>)>,
+) {
+    for (mut view, lens) in &mut tiles {
+        view.arrive(|row, point, cosine| {
+            let lens = lens.map_or(DVec2::ZERO, |lens| lens.point(row));
+            let importance = join_camera(&join, lens, point).map_or(0.0, |joined| joined.importance);
+            let rays = importance * cosine;
+            [if rays > 0.0 { tracing.each_sample / rays } else { 0.0 }, 0.0]
+        });
+    }
+}
+// ANCHOR_END: arrive_from_camera
+
+/// The stage that runs [`arrive_from_camera`].
+pub fn arrive_from_camera_stage() -> Stage {
+    Stage::new("Carry MIS ratios to surfaces", TileSystems::Join, arrive_from_camera)
+        .on_camera_paths()
+        .kind(StageKind::Alternative)
+        .reads_where::<LensPoints>(lens_evidence)
+        .when(bidirectional_evidence)
+}
+
+// ANCHOR: arrive_from_light
+/// Carries the ratios of paths from lights to the surfaces that they hit.
+///
+/// Lights are chosen by power, and a path leaves one as its light does.
+/// As many paths therefore arrive at a unit of area as its share of all power: E / Φ.
+/// Light samples find the same light with their own pdf, or surely where the light has no area.
+pub fn arrive_from_light(
+    (starts, areas): (Res<Shared<LightPathTable>>, Res<Shared<AreaLightTable>>),
+    mut tiles: Query<(ArrivalView, &StartedOn)>,
+) {
+    for (mut view, started) in &mut tiles {
+        let (rays, paths, surfaces) = (view.rays, view.paths, view.surfaces);
+        view.arrive(|row, point, cosine| {
+            let light = started.light[paths.first[row] as usize] as usize;
+            match starts.area_light(&areas, light) {
+                Some((own, radiance)) => {
+                    // From where a light sample would start, which is off the surface.
+                    let surface = surfaces.get(row);
+                    let from = offset_origin(surface.position, surface.normal, surface.bound);
+                    let receiver = Receiver { position: from.as_dvec3(), normal: surface.normal.as_dvec3() };
+                    let by_light = area_light_pdf(&areas, own, &receiver, rays.origin_of(row));
+                    let paths = radiance * cosine / starts.power;
+                    [by_light / paths, 1.0 / paths]
+                }
+                None => [starts.power / (starts.delta_irradiance(light, point) * cosine), 0.0],
+            }
+        });
+    }
+}
+// ANCHOR_END: arrive_from_light
+
+/// The stage that runs [`arrive_from_light`].
+pub fn arrive_from_light_stage() -> Stage {
+    Stage::new("Carry MIS ratios to surfaces, from lights", TileSystems::Join, arrive_from_light)
+        .on_light_paths()
+        .kind(StageKind::Alternative)
+        .when(bidirectional_evidence)
+}
+
+/// Light samples, and what is known of other ways to find their paths.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct LightSampleView {
+    surfaces: &'static Surfaces,
+    shading: Option<&'static ShadingNormals>,
+    pdfs: &'static LightPdfs,
+    rays: &'static ShadowRays,
+    ratios: &'static mut JoinRatios,
+}
+
+/// |cos θ| by the geometric normal over that by the shading normal.
+#[inline(always)]
+fn cosines(surfaces: &Surfaces, shading: Option<&ShadingNormals>, row: usize, direction: DVec3) -> f64 {
+    let Some(shading) = shading else { return 1.0 };
+    (surfaces.normal(row).as_dvec3().dot(direction) / shading.get(row).dot(direction)).abs()
+}
+
+// ANCHOR: light_sample_ratios
+/// Begins the list of ratios with those of the light samples: as many light paths arrive along a ray as its share of all
+/// power says, E / Φ; none from an environment, a distant light or one without shadows.
+pub fn begin_join_ratios(starts: Res<Shared<LightPathTable>>, mut tiles: Query<LightSampleView>) {
+    for LightSampleViewItem { surfaces, shading, pdfs, rays, mut ratios } in &mut tiles {
+        let (onward, reverse) = ratios.slices_mut(rays.rows());
+        for ray in 0..rays.rows() {
+            let (row, direction) = (rays.row[ray] as usize, rays.direction_of(ray));
+            let by_light = pdfs.pdf[ray];
+            onward[ray] = if by_light > 0.0 { squared(1.0 / by_light) } else { 0.0 };
+            let is_started_on = rays.t_max[ray] > 0.0 && rays.t_max[ray] < f32::INFINITY;
+            let share = luminance(rays.irradiance(ray).map(f64::from)) / starts.power;
+            reverse[ray] =
+                if is_started_on { squared(share * cosines(surfaces, shading, row, direction)) } else { 0.0 };
+        }
+    }
+}
+// ANCHOR_END: light_sample_ratios
+
+/// The stage that runs [`begin_join_ratios`].
+pub fn join_ratios_stage() -> Stage {
+    Stage::new("Compute MIS ratios of light samples", TileSystems::SampleLights, begin_join_ratios)
+        .on_camera_paths()
+        .kind(StageKind::Alternative)
+        .when(bidirectional_evidence)
+}
+
+/// Connections to the camera, and what is known of other ways to find their paths.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct CameraConnectionView {
+    arriving: &'static WorldRays,
+    surfaces: &'static Surfaces,
+    shading: Option<&'static ShadingNormals>,
+    rays: &'static ShadowRays,
+    ratios: &'static mut JoinRatios,
+}
+
+/// The same for connections to the camera, where the irradiance is the importance: as many camera rays come along one, to
+/// the light paths of a sample.
+pub fn begin_camera_ratios(tracing: Res<Shared<LightTracingTable>>, mut tiles: Query<CameraConnectionView>) {
+    for CameraConnectionViewItem { arriving, surfaces, shading, rays, mut ratios } in &mut tiles {
+        let (onward, reverse) = ratios.slices_mut(rays.rows());
+        onward.fill(0.0);
+        for ray in 0..rays.rows() {
+            let row = rays.row[ray] as usize;
+            let importance = f64::from(rays.irradiance(ray)[0]);
+            let by_geometry = cosines(surfaces, shading, row, arriving.direction_of(row));
+            reverse[ray] = squared(importance * by_geometry / tracing.each_sample);
+        }
+    }
+}
+
+/// The stage that runs [`begin_camera_ratios`].
+pub fn camera_ratios_stage() -> Stage {
+    Stage::new("Compute MIS ratios of connections to the camera", TileSystems::SampleLights, begin_camera_ratios)
+        .on_light_paths()
+        .kind(StageKind::Alternative)
+        .when(bidirectional_evidence)
+}
+
+/// Surfaces from which something is joined, and the shadow rays that are weighted.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct JoinWeightView {
+    eye: &'static WorldRays,
+    paths: &'static Paths,
+    surfaces: &'static Surfaces,
+    shading: Option<&'static ShadingNormals>,
+    mis: &'static RecursiveMis,
+    ratios: &'static JoinRatios,
+    rays: &'static mut ShadowRays,
+}
+
+// ANCHOR: weight_joins
+/// Weights every shadow ray from a surface with this BSDF against all other ways to find its path.
+pub fn weight_joins<B: Bsdf>(
+    (materials, bsdf, glass): (Res<Shared<MaterialTable>>, Res<Shared<B>>, Option<Res<Shared<GlassTable>>>),
+    mut tiles: Query<(JoinWeightView, ParameterColumns, InterfaceView)>,
+) {
+    for (JoinWeightViewItem { eye, paths, surfaces, shading, mis, ratios, mut rays }, columns, interface) in &mut tiles
+    {
+        let interface = Interface::new(interface, glass.as_deref());
+        for ray in 0..rays.rows() {
+            let row = rays.row[ray] as usize;
+            let material = surfaces.material[row] as usize;
+            if materials.kind[material] != B::KIND {
+                continue;
+            }
+            let normal = shading.map_or_else(|| surfaces.normal(row).as_dvec3(), |shading| shading.get(row));
+            let local_from_world = B::frame(normal).transpose();
+            let to_light = local_from_world * rays.direction_of(ray);
+            let to_eye = local_from_world * -eye.direction_of(row);
+            let of_row = (columns.get(&materials, row, material), row, material);
+            let context = shading_context::<B>(&materials, &interface, of_row, Transport::Radiance);
+            let onward = ratios.onward[ray] * squared(bsdf.pdf(&context, to_light, to_eye));
+            let path = paths.first[row] as usize;
+            let back = squared(reverse_pdf(&**bsdf, &context, to_light, to_eye));
+            let others = onward + ratios.reverse[ray] * bounded(mis.arrival[path] + mis.earlier[path] * back);
+            rays.weight_by(ray, [1.0 / (1.0 + others); 3]);
+        }
+    }
+}
+// ANCHOR_END: weight_joins
+
+/// The stage that weights what is joined to surfaces with a BSDF.
+pub fn join_weight_stage<B: Bsdf>() -> Stage {
+    at_interfaces::<B>(Stage::new(B::NAMES.join_weights, TileSystems::MisWeights, weight_joins::<B>))
+        .on_all_paths()
+        .kind(StageKind::Alternative)
+        .when(|scene| bidirectional_evidence(scene).and(|| bsdf_evidence::<B>(scene)))
+}
+
+/// Surfaces from which paths go on, and the rays.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct LeavingView {
+    rays: &'static WorldRays,
+    paths: &'static Paths,
+    surfaces: &'static Surfaces,
+    shading: Option<&'static ShadingNormals>,
+    scattered: &'static Scattered,
+    mis: &'static mut RecursiveMis,
+}
+
+// ANCHOR: leave_with_ratios
+/// Carries the ratios of paths on from surfaces with this BSDF: the way that is joined here has the pdf of the sampled
+/// direction in place of a connection, and all earlier ones that of the reversed path.
+pub fn leave_with_ratios<B: Bsdf, const FROM_LIGHT: bool>(
+    (materials, bsdf, glass): (Res<Shared<MaterialTable>>, Res<Shared<B>>, Option<Res<Shared<GlassTable>>>),
+    mut tiles: Query<(LeavingView, ParameterColumns, InterfaceView)>,
+) {
+    for (LeavingViewItem { rays, paths, surfaces, shading, scattered, mut mis }, columns, interface) in &mut tiles {
+        let interface = Interface::new(interface, glass.as_deref());
+        let length = mis.rows();
+        let (arrival, earlier) = mis.slices_mut(length);
+        for ray in 0..scattered.rows() {
+            let row = scattered.row[ray] as usize;
+            let material = surfaces.material[row] as usize;
+            if materials.kind[material] != B::KIND {
+                continue;
+            }
+            let path = paths.first[row] as usize;
+            let onward = scattered.direction_of(ray);
+            let own = surfaces.normal(row).as_dvec3();
+            let local_from_world = B::frame(shading.map_or(own, |shading| shading.get(row))).transpose();
+            let to_eye = local_from_world * -rays.direction_of(row);
+            let of_row = (columns.get(&materials, row, material), row, material);
+            let context = shading_context::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
+            let back = squared(reverse_pdf(&**bsdf, &context, local_from_world * onward, to_eye));
+            let pdf = scattered.pdf[ray];
+            earlier[path] = bounded(squared(own.dot(onward) / pdf) * (earlier[path] * back + arrival[path]));
+            arrival[path] = squared(1.0 / pdf);
+        }
+    }
+}
+// ANCHOR_END: leave_with_ratios
+
+/// The stage that carries ratios on from surfaces with a BSDF.
+pub fn leave_with_ratios_stage<B: Bsdf>() -> Stage {
+    at_interfaces::<B>(Stage::new(B::NAMES.ratios, TileSystems::Roulette, leave_with_ratios::<B, false>))
+        .kind(StageKind::Alternative)
+        .when(|scene| bidirectional_evidence(scene).and(|| bsdf_evidence::<B>(scene)))
+}
+
+/// The same behind mirrors and glass, where nothing can be joined, and the pdfs of both directions cancel.
+pub fn leave_specular(mut tiles: Query<(&Paths, &Surfaces, &Scattered, &mut RecursiveMis)>) {
+    for (paths, surfaces, scattered, mut mis) in &mut tiles {
+        let length = mis.rows();
+        let (arrival, earlier) = mis.slices_mut(length);
+        for ray in (0..scattered.rows()).filter(|&ray| scattered.pdf[ray] == f64::INFINITY) {
+            let row = scattered.row[ray] as usize;
+            let path = paths.first[row] as usize;
+            let cosine = surfaces.normal(row).as_dvec3().dot(scattered.direction_of(ray));
+            earlier[path] = bounded(earlier[path] * cosine * cosine);
+            arrival[path] = 0.0;
+        }
+    }
+}
+
+/// The stage that runs [`leave_specular`].
+pub fn leave_specular_stage() -> Stage {
+    Stage::new("Carry MIS ratios on: mirrors and glass", TileSystems::Roulette, leave_specular)
+        .kind(StageKind::Alternative)
+        .when(|scene| bidirectional_evidence(scene).and(|| crate::extract::specular_evidence(scene)))
+}
+
+/// Hits on emissive surfaces, and the radiance that emission is added to.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct FoundEmissionView {
+    depth: &'static Depth,
+    paths: &'static Paths,
+    rays: &'static WorldRays,
+    previous: Option<&'static PreviousSurfaces>,
+    hits: &'static Hits,
+    surfaces: &'static Surfaces,
+    primitives: Option<&'static HitPrimitives>,
+    list: &'static EmissiveRows,
+    sides: Option<&'static SurfaceSides>,
+    factors: Option<&'static EmissionFactors>,
+    mis: &'static RecursiveMis,
+    radiance: &'static mut Radiance,
+}
+
+// ANCHOR: add_found_emission
+/// Adds the emission of the surface that a path from the camera hit, weighted against all ways in which paths from lights
+/// find the same light.
+///
+/// What the camera sees directly, and what cannot be sampled as a light, counts in full.
+pub fn add_found_emission(
+    (emissive, lights): (Res<Shared<EmissiveTable>>, Res<Shared<AreaLightTable>>),
+    starts: Res<Shared<LightPathTable>>,
+    mut tiles: Query<FoundEmissionView>,
+) {
+    for view in &mut tiles {
+        let FoundEmissionViewItem { depth, paths, rays, previous, hits, surfaces, primitives, .. } = view;
+        let FoundEmissionViewItem { list, sides, factors, mis, mut radiance, .. } = view;
+        for (&row, &of) in list.row.iter().zip(&list.emissive) {
+            let (row, emitted) = (row as usize, emissive.radiance[of as usize]);
+            if sides.is_some_and(|sides| sides.outside[row] == 0 && emissive.one_sided[of as usize]) {
+                continue;
+            }
+            let light = lights.light_of_hit(hits.shape[row], || primitives.map_or(0, |own| own.primitive[row]));
+            let weight = match light.filter(|_| depth.0 > 0) {
+                Some(light) => {
+                    let normal = previous.map_or(DVec3::ZERO, |previous| previous.normal(row).as_dvec3());
+                    let receiver = Receiver { position: rays.origin_of(row), normal };
+                    let by_light = area_light_pdf(&lights, light, &receiver, rays.point_at(row, hits.t[row]));
+                    let cosine = surfaces.normal(row).as_dvec3().dot(rays.direction_of(row));
+                    let share = luminance(emitted.map(f64::from)) * cosine / starts.power;
+                    let from_light = squared(share) * mis.earlier[paths.first[row] as usize];
+                    1.0 / (1.0 + squared(by_light / paths.pdf[row]) + from_light)
+                }
+                None => 1.0,
+            };
+            let emitted = factors.map_or(emitted, |factors| factors.times(row, emitted));
+            radiance.rgb.add(row, emitted.map(|part| weight as f32 * part));
+        }
+    }
+}
+// ANCHOR_END: add_found_emission
+
+/// The stage that runs [`add_found_emission`].
+pub fn found_emission_stage() -> Stage {
+    Stage::new("Add emission, weighted against light paths", TileSystems::Shade, add_found_emission)
+        .on_camera_paths()
+        .kind(StageKind::Alternative)
+        .reads_where::<SurfaceSides>(one_sided_evidence)
+        .reads_where::<HitPrimitives>(primitive_evidence)
+        .reads_where::<PreviousSurfaces>(previous_surface_evidence)
+        .when(|scene| bidirectional_evidence(scene).and(|| emissive_evidence(scene)))
+}
