@@ -6,12 +6,16 @@ use super::measure::again;
 use super::own_file::write_file;
 use super::report_arguments::ReportErrors;
 use super::subject::Subject;
+use bevy_ecs::prelude::EntityWorldMut;
 use indicatif::{ProgressBar, ProgressStyle};
 use pinhole::extract::{ImageFrame, camera_entity, integrator_of, validate};
 use pinhole::film::{Replaces, check_place};
 use pinhole::plan::{Census, Table};
 use pinhole::render::Watch;
-use pinhole::scene::{Filter, Integrator, LightStrategy, Resolution, Sampler, Sampling, scene_text};
+use pinhole::scene::{
+    BidirectionalPathTracing, Filter, Integrator, LightStrategy, LightTracing, PhotonMapping, Resolution, Sampler,
+    Sampling, scene_text,
+};
 use pinhole::{Chapter, Overrides};
 use pinhole_lab::report::kept::{keep, kept};
 use pinhole_lab::report::ladder::Ladder;
@@ -176,7 +180,19 @@ pub(super) enum Rival<'c> {
     Sampler(&'static str, Sampler),
     Filter(&'static str, Filter),
     Lights(&'static str, LightStrategy),
+    Method(&'static str, Method),
 }
+
+/// Asks a camera for a method to follow light.
+type Method = fn(&mut EntityWorldMut<'_>);
+
+/// The methods that follow light by paths, each in place of the others.
+const METHODS: [(&str, Method); 4] = [
+    ("path_tracing", |_| ()),
+    ("light_tracing", |camera| _ = camera.insert(LightTracing::default())),
+    ("photon_mapping", |camera| _ = camera.insert(PhotonMapping::default())),
+    ("bidirectional_path_tracing", |camera| _ = camera.insert(BidirectionalPathTracing::default())),
+];
 
 pub(super) fn rivals<'c>(chapters: &'c [Chapter], against: &[String]) -> Result<Vec<Rival<'c>>> {
     let rival = |word: &String| match word.split_once('=') {
@@ -196,9 +212,13 @@ pub(super) fn rivals<'c>(chapters: &'c [Chapter], against: &[String]) -> Result<
                 .map(|(word, lights)| Rival::Lights(word, lights))
                 .ok_or_else(|| no_such("light strategy", name, &LightStrategy::ALL))
         }
+        Some(("method", name)) => {
+            let found = METHODS.into_iter().find(|(word, _)| *word == name);
+            found.map(|(word, method)| Rival::Method(word, method)).ok_or_else(|| no_such("method", name, &METHODS))
+        }
         Some((other, _)) => Err(Error::usage(format!(
-            "--against takes a chapter, a scene file, sampler=NAME, filter=NAME or lights=NAME, and {other} is none of \
-             these"
+            "--against takes a chapter, a scene file, sampler=NAME, filter=NAME, lights=NAME or method=NAME, and {other} is \
+             none of these"
         ))),
         None => Subject::find(chapters, word).map(Rival::Subject),
     };
@@ -240,6 +260,18 @@ pub(super) fn variants<'c>(
                     // A scene that renders has one camera.
                     if let Ok(camera) = camera_entity(&world) {
                         world.entity_mut(camera).insert(integrator);
+                    }
+                    world
+                });
+                Variant { scene, ..of(subject, (*word).into(), &|_| (), 0)? }
+            }
+            Rival::Method(word, method) => {
+                let scene = Box::new(move || {
+                    let mut world = subject.world(&asked());
+                    if let Ok(camera) = camera_entity(&world) {
+                        let mut camera = world.entity_mut(camera);
+                        camera.remove::<(LightTracing, PhotonMapping, BidirectionalPathTracing)>();
+                        method(&mut camera);
                     }
                     world
                 });

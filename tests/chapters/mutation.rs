@@ -41,6 +41,7 @@ fn every_stage_of_pinhole_that_a_chapter_runs_has_a_mutation() {
         stages::mis(),
         stages::light_tracing(),
         stages::photon_mapping(),
+        stages::bidirectional_path_tracing(),
         stages::dispersion(),
         stages::media(),
         vec![mis_emission_stage(), mis_environment_stage()],

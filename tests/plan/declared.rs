@@ -10,7 +10,7 @@ use pinhole::shade::{Radiance, image_mask_stage, point_light_stage};
 use std::path::{Path, PathBuf};
 
 /// The most that is declared by hand; 592 before stages declared themselves.
-const MAX: usize = 108;
+const MAX: usize = 114;
 
 /// What a stage says that its system's parameters do not, and what a column says for all that change it.
 const DECLARATIONS: [&str; 9] = [
@@ -127,7 +127,7 @@ fn systems_say_what_stages_touch() {
     let stage = remaining_bounces_stage();
     let [reads, _, reasons, writes, tables, _] = touched(&stage);
     assert_eq!((reads, writes), (vec!["world", "path light"], vec!["path light"]), "an exclusive system declares");
-    assert_eq!((reasons.len(), tables), (8, vec!["integrator"]));
+    assert_eq!((reasons.len(), tables), (9, vec!["integrator"]));
 
     let chapter = chapters::all().into_iter().find(|chapter| chapter.name == "12_how_it_is_built").expect("a chapter");
     let own = chapter.offer.iter().find(|stage| stage.name == "Compute facing ratios").expect("on offer");

@@ -265,6 +265,14 @@ fn a_diamond() -> World {
     world
 }
 
+/// The same light by paths that are joined.
+fn by_joined_paths() -> World {
+    let mut world = by_photons();
+    let camera = named(&mut world, "camera");
+    world.entity_mut(camera).remove::<PhotonMapping>().insert(BidirectionalPathTracing::default());
+    world
+}
+
 /// A ball that is half there, over a floor and its shadow.
 fn half_there() -> World {
     let mut world = toggled(&[Toggle::Sphere, Toggle::Light, Toggle::Shadow, Toggle::Plane]);
@@ -353,6 +361,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("Whitted's rays", followed(Integrator::WHITTED, Setup { size, ..Setup::default() })),
         ("light from lamps", scenes::caustics::traced(|| scenes::caustics::caustics(true))()),
         ("photons", by_photons()),
+        ("joined paths", by_joined_paths()),
         ("light from lamps through a lens", through_a_lens()),
         ("light from an environment", under_an_evening()),
         ("light from lamps on frosted glass", on_frosted_glass()),

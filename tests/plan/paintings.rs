@@ -2,7 +2,7 @@
 
 use super::*;
 use pinhole::extract::NO_ROW;
-use pinhole::follow::{CausticPaths, LightPower, Media, Scattered, Splats};
+use pinhole::follow::{CausticPaths, JoinRatios, LightPower, Media, Scattered, Splats};
 use pinhole::intersect::{
     BoxTests, Contacts, EmissiveRows, GlassCrossing, HitPrimitives, Hits, MaterialRows, NO_SHAPE, PrimitiveTests,
     ShadingNormals, SurfaceSides, SurfaceUvs, Surfaces, TraversalDepths,
@@ -70,6 +70,11 @@ fn each_column_is_painted_as_its_page_says() {
         shown(TransmissiveRows { row: vec![3] }, &[WHITE]),
         shown(CausticPaths { spread: vec![1, 0] }, &[WHITE, BLACK]),
         shown(LightPower { rgb: rgb.clone() }, &[COLOUR]),
+        // x of 1 + x.
+        shown(
+            JoinRatios { row: vec![0; 2], onward: vec![0.0, 1.0], reverse: vec![3.0, 0.0] },
+            &[[0.0, 0.75, 0.0], [0.5, 0.0, 0.0]],
+        ),
         shown(Splats { rgb: rgb.clone(), raster: [vec![9.0], vec![9.0]] }, &[COLOUR]),
         shown(Scattered { row: vec![0], direction: direction.clone(), ..Default::default() }, &[LEANING]),
         shown(Media { stack: [4, 0, 0, 0].map(|row| vec![row, NO_ROW]) }, &[WHITE, BLACK]),

@@ -71,8 +71,8 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
     }
     // No scene of one sample has rough glass; a sample's sign is what the film weights its view by; pdfs of light rays are there only where MIS needs them;
     // the first sample of every pixel has one number; tests are counted only where a view asks (tests/counted.rs).
-    // No scene here has maps, or glass that touches other glass.
-    let maps = ["metallic roughness", "emission factor", "contacts"];
+    // No paths are joined here. No scene here has maps, or glass that touches other glass.
+    let maps = ["metallic roughness", "emission factor", "contacts", "join ratios"];
     let unseen =
         [&["radiance", "sign", "light pdf", "samples", "transmissive rows", "boxes", "tests", "depth"][..], &maps]
             .concat();

@@ -11,15 +11,16 @@ use crate::naive::mistake::{
     light_without_jacobian, metal_counted_as_matte, scatter_matte_by, sky_in_all_directions_alike,
 };
 use crate::naive::path::{uniform_direction, weight_without_cosine, weight_without_pi};
+use crate::naive::ways::{Way, only};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::material::cosine_direction;
 use pinhole::models::TriangleMesh;
 use pinhole::plan::Stage;
 use pinhole::scene::{
-    Cuboid, Degrees, Emissive, Exposure, FovAxis, Glass, Integrator, LightStrategy, LightTracing, LookAt, Matte,
-    Medium, MeshGeometry, MeshInstance, Metal, Mirror, NormalMap, PerspectiveCamera, PhotonMapping, Placement, Plane,
-    Principled, Rgb, RoughGlass, Sampler, Sampling, Sphere, SpotLight,
+    BidirectionalPathTracing, Cuboid, Degrees, Emissive, Exposure, FovAxis, Glass, Integrator, LightStrategy,
+    LightTracing, LookAt, Matte, Medium, MeshGeometry, MeshInstance, Metal, Mirror, NormalMap, PerspectiveCamera,
+    PhotonMapping, Placement, Plane, Principled, Rgb, RoughGlass, Sampler, Sampling, Sphere, SpotLight,
 };
 use pinhole::{Chapter, Result};
 
@@ -255,6 +256,31 @@ pub fn draw_principled(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     };
     let exhibits =
         [of(0.0, "coloured below a clear surface"), of(0.5, "half of each"), of(1.0, "coloured by its surface")];
+    rows(chapter, figure, SMALL, exhibits)
+}
+
+/// The room by paths from the camera, and in the same time by paths from both ends.
+pub fn draw_ends(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let alone = Picture::of(chapter, LARGE, None, |camera| {
+        sampled(64, 39)(camera);
+        camera.remove::<BidirectionalPathTracing>();
+    });
+    let both = Picture::of(chapter, LARGE, None, sampled(16, 39));
+    let exhibits = [
+        exhibit(alone, ["path tracing, 64 samples", "few paths find the keyhole"]),
+        exhibit(both, ["from both ends, 16 samples", "about the same time"]),
+    ];
+    rows(chapter, figure, LARGE, exhibits)
+}
+
+/// The light of each kind of way, weighted, which add up to the picture.
+pub fn draw_ways(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let of = |way, lines| exhibit(Picture::beside(chapter, SMALL, Some(only(way)), sampled(32, 39)), lines);
+    let exhibits = [
+        of(Way::LightSamples, ["light samples", "0 steps from the lamp"]),
+        of(Way::Joins, ["joined vertices", "1 step from either end, or more"]),
+        of(Way::ToTheCamera, ["connected to the camera", "0 steps from the camera"]),
+    ];
     rows(chapter, figure, SMALL, exhibits)
 }
 

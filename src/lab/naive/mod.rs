@@ -41,4 +41,5 @@ pub mod stages;
 pub mod texture;
 pub mod tree;
 pub mod triangle;
+pub mod ways;
 pub mod wide;

@@ -387,7 +387,7 @@ pub fn join_vertices<B: Bsdf>(
                     let ends = [origin, normal.as_dvec3(), shaded];
                     let Some(join) = join_vertex(&**bsdf, vertex, bsdf_row as usize, ends) else { continue };
                     append(&mut rays, of, &join);
-                    ratios.append(join.onward, join.reverse);
+                    ratios.append(of, join.onward, join.reverse);
                 }
             }
         }

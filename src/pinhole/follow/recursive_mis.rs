@@ -55,6 +55,8 @@ column! {
     /// What each shadow ray knows of the ways to find its path beside the one that made it, row by row as in
     /// [`ShadowRays`].
     pub struct JoinRatios("join ratios", "path", "squared ratio of pdfs", Ray) {
+        /// The row of the tile whose surface the shadow ray starts on.
+        row: u32,
         /// The factor of the squared pdf of the ray's direction by BSDF sampling: ways whose part from the camera goes on
         /// along the ray.
         onward: f64,
@@ -72,10 +74,10 @@ impl JoinRatios {
 
     /// Appends the ratios of a ray.
     #[inline(always)]
-    pub(super) fn append(&mut self, onward: f64, reverse: f64) {
+    pub(super) fn append(&mut self, row: u32, onward: f64, reverse: f64) {
         let at = self.rows();
-        let (onwards, reverses) = self.slices_mut(at + 1);
-        (onwards[at], reverses[at]) = (onward, reverse);
+        let (rows, onwards, reverses) = self.slices_mut(at + 1);
+        (rows[at], onwards[at], reverses[at]) = (row, onward, reverse);
     }
 }
 
@@ -238,7 +240,8 @@ fn cosines(surfaces: &Surfaces, shading: Option<&ShadingNormals>, row: usize, di
 /// power says, E / Φ; none from an environment, a distant light or one without shadows.
 pub fn begin_join_ratios(starts: Res<Shared<LightPathTable>>, mut tiles: Query<LightSampleView>) {
     for LightSampleViewItem { surfaces, shading, pdfs, rays, mut ratios } in &mut tiles {
-        let (onward, reverse) = ratios.slices_mut(rays.rows());
+        let (rows, onward, reverse) = ratios.slices_mut(rays.rows());
+        rows.copy_from_slice(&rays.row);
         for ray in 0..rays.rows() {
             let (row, direction) = (rays.row[ray] as usize, rays.direction_of(ray));
             let by_light = pdfs.pdf[ray];
@@ -275,7 +278,8 @@ pub struct CameraConnectionView {
 /// the light paths of a sample.
 pub fn begin_camera_ratios(tracing: Res<Shared<LightTracingTable>>, mut tiles: Query<CameraConnectionView>) {
     for CameraConnectionViewItem { arriving, surfaces, shading, rays, mut ratios } in &mut tiles {
-        let (onward, reverse) = ratios.slices_mut(rays.rows());
+        let (rows, onward, reverse) = ratios.slices_mut(rays.rows());
+        rows.copy_from_slice(&rays.row);
         onward.fill(0.0);
         for ray in 0..rays.rows() {
             let row = rays.row[ray] as usize;
@@ -316,7 +320,7 @@ pub fn weight_joins<B: Bsdf>(
     for (JoinWeightViewItem { eye, paths, surfaces, shading, mis, ratios, mut rays }, columns, interface) in &mut tiles
     {
         let interface = Interface::new(interface, glass.as_deref());
-        for ray in 0..rays.rows() {
+        for ray in 0..ratios.rows() {
             let row = rays.row[ray] as usize;
             let material = surfaces.material[row] as usize;
             if materials.kind[material] != B::KIND {

@@ -1,0 +1,21 @@
+//! The figures of chapter 39.
+
+use pinhole_lab::figure::{Figure, compared};
+
+/// What the page shows, in its order.
+pub fn figures(chapter: &'static str) -> Vec<Figure> {
+    vec![
+        Figure {
+            name: "39_ways",
+            chapter,
+            about: "the room by paths from the camera, by light paths that are connected to it, and by both joined",
+            draw: compared::draw_ends,
+        },
+        Figure {
+            name: "39_each",
+            chapter,
+            about: "the light that each number of vertices from the lamp brings, weighted",
+            draw: compared::draw_ways,
+        },
+    ]
+}
