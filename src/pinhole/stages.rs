@@ -162,8 +162,7 @@ const LIST: &[Part] = &[Part(&[
 
     // Lights are sampled: a ray from each surface towards each of them, or towards the camera.
     (LightTracing, shade::join_point_stage),
-    (Bidirectional, follow::arrive_from_camera_stage),
-    (Bidirectional, follow::arrive_from_light_stage),
+    (Bidirectional, follow::arrive_with_ratios_stage),
 ], || light_samples(true)), Part(&[
     (AreaLights, shade::area_light_stage),
 ], || light_samples(false)), Part(&[

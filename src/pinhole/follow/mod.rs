@@ -86,10 +86,9 @@ pub use previous_surfaces::{
     start_previous_surfaces_stage,
 };
 pub use recursive_mis::{
-    JoinRatios, RecursiveMis, add_found_emission, arrive_from_camera, arrive_from_camera_stage, arrive_from_light,
-    arrive_from_light_stage, begin_camera_ratios, begin_join_ratios, camera_ratios_stage, found_emission_stage,
-    join_ratios_stage, join_weight_stage, leave_specular, leave_specular_stage, leave_with_ratios,
-    leave_with_ratios_stage, weight_joins,
+    JoinRatios, RecursiveMis, add_found_emission, arrive_with_ratios, arrive_with_ratios_stage, begin_camera_ratios,
+    begin_join_ratios, camera_ratios_stage, found_emission_stage, join_ratios_stage, join_weight_stage, leave_specular,
+    leave_specular_stage, leave_with_ratios, leave_with_ratios_stage, weight_joins,
 };
 pub use specular::{sample_specular, specular_from_lights_stage, specular_stage, split_rays, split_stage};
 #[doc(hidden)]

@@ -20,7 +20,7 @@ use crate::extract::{
     primitive_evidence,
 };
 use crate::follow::PreviousSurfaces;
-use crate::intersect::{EmissiveRows, HitPrimitives, Hits, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces};
+use crate::intersect::{EmissiveRows, HitPrimitives, Hits, NO_SHAPE, ShadingNormals, Surface, SurfaceSides, Surfaces};
 use crate::lights::Receiver;
 use crate::material::{Bsdf, ShadingContext, Transport};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
@@ -125,9 +125,9 @@ pub struct ArrivalView {
 
 impl ArrivalViewItem<'_, '_> {
     /// Carries the ratios of every path that hit something to its surface; `first` gives them at the first one, from the
-    /// row, the place and |cos θ|.
+    /// row, the surface and |cos θ|.
     #[inline(always)]
-    fn arrive(&mut self, first: impl Fn(usize, DVec3, f64) -> [f64; 2]) {
+    fn arrive(&mut self, first: impl Fn(usize, &Surface, f64) -> [f64; 2]) {
         let is_first = self.depth.0 == 0;
         // The rows of the first bounce ascend by path.
         let paths = self.paths.first.last().map_or(0, |&last| last as usize + 1);
@@ -138,7 +138,7 @@ impl ArrivalViewItem<'_, '_> {
             let surface = self.surfaces.get(row);
             let cosine = surface.normal.as_dvec3().dot(direction).abs();
             if is_first {
-                [arrival[path], earlier[path]] = first(row, surface.position.as_dvec3(), cosine).map(squared);
+                [arrival[path], earlier[path]] = first(row, &surface, cosine).map(squared);
             } else {
                 // From a unit of solid angle there to a unit of area here.
                 let distance = self.hits.t[row];
@@ -150,70 +150,69 @@ impl ArrivalViewItem<'_, '_> {
 }
 
 // ANCHOR: arrive_from_camera
-/// Carries the ratios of paths from the camera to the surfaces that they hit.
+/// The ratios of a path from the camera at its first surface, by the ray that came there through a point of the lens.
 ///
-/// The first one may be found by connecting light paths to the camera as well: so many of them a sample, against as many
-/// camera rays a unit of area as the importance says.
-pub fn arrive_from_camera(
-    (join, tracing): (Res<Shared<CameraJoinTable>>, Res<Shared<LightTracingTable>>),
-    mut tiles: Query<(ArrivalView, Option<&LensPoints>)>,
-) {
-    for (mut view, lens) in &mut tiles {
-        view.arrive(|row, point, cosine| {
-            let lens = lens.map_or(DVec2::ZERO, |lens| lens.point(row));
-            let importance = join_camera(&join, lens, point).map_or(0.0, |joined| joined.importance);
-            let rays = importance * cosine;
-            [if rays > 0.0 { tracing.each_sample / rays } else { 0.0 }, 0.0]
-        });
-    }
+/// It may be found by connecting light paths to the camera as well: so many of them a sample, against as many camera rays
+/// a unit of area as the importance says.
+#[inline(always)]
+fn first_from_camera(join: &CameraJoinTable, paths: f64, lens: DVec2, point: DVec3, cosine: f64) -> [f64; 2] {
+    let rays = join_camera(join, lens, point).map_or(0.0, |joined| joined.importance) * cosine;
+    [if rays > 0.0 { paths / rays } else { 0.0 }, 0.0]
 }
 // ANCHOR_END: arrive_from_camera
 
-/// The stage that runs [`arrive_from_camera`].
-pub fn arrive_from_camera_stage() -> Stage {
-    Stage::new("Carry MIS ratios to surfaces", TileSystems::Join, arrive_from_camera)
-        .on_camera_paths()
-        .kind(StageKind::Alternative)
-        .reads_where::<LensPoints>(lens_evidence)
-        .when(bidirectional_evidence)
-}
-
 // ANCHOR: arrive_from_light
-/// Carries the ratios of paths from lights to the surfaces that they hit.
+/// The ratios of a path at the first surface that it reaches from a light.
 ///
 /// Lights are chosen by power, and a path leaves one as its light does.
 /// As many paths therefore arrive at a unit of area as its share of all power: E / Φ.
 /// Light samples find the same light with their own pdf, or surely where the light has no area.
-pub fn arrive_from_light(
-    (starts, areas): (Res<Shared<LightPathTable>>, Res<Shared<AreaLightTable>>),
-    mut tiles: Query<(ArrivalView, &StartedOn)>,
-) {
-    for (mut view, started) in &mut tiles {
-        let (rays, paths, surfaces) = (view.rays, view.paths, view.surfaces);
-        view.arrive(|row, point, cosine| {
-            let light = started.light[paths.first[row] as usize] as usize;
-            match starts.area_light(&areas, light) {
-                Some((own, radiance)) => {
-                    // From where a light sample would start, which is off the surface.
-                    let surface = surfaces.get(row);
-                    let from = offset_origin(surface.position, surface.normal, surface.bound);
-                    let receiver = Receiver { position: from.as_dvec3(), normal: surface.normal.as_dvec3() };
-                    let by_light = area_light_pdf(&areas, own, &receiver, rays.origin_of(row));
-                    let paths = radiance * cosine / starts.power;
-                    [by_light / paths, 1.0 / paths]
-                }
-                None => [starts.power / (starts.delta_irradiance(light, point) * cosine), 0.0],
-            }
-        });
-    }
+#[inline(always)]
+fn first_from_light(
+    (starts, areas): (&LightPathTable, &AreaLightTable),
+    (light, origin): (usize, DVec3),
+    surface: &Surface,
+    cosine: f64,
+) -> [f64; 2] {
+    let Some((own, radiance)) = starts.area_light(areas, light) else {
+        let arriving = starts.delta_irradiance(light, surface.position.as_dvec3()) * cosine;
+        return [starts.power / arriving, 0.0];
+    };
+    // From where a light sample would start, which is off the surface.
+    let from = offset_origin(surface.position, surface.normal, surface.bound);
+    let receiver = Receiver { position: from.as_dvec3(), normal: surface.normal.as_dvec3() };
+    let paths = radiance * cosine / starts.power;
+    [area_light_pdf(areas, own, &receiver, origin) / paths, 1.0 / paths]
 }
 // ANCHOR_END: arrive_from_light
 
-/// The stage that runs [`arrive_from_light`].
-pub fn arrive_from_light_stage() -> Stage {
-    Stage::new("Carry MIS ratios to surfaces, from lights", TileSystems::Join, arrive_from_light)
-        .on_light_paths()
+/// Carries the ratios of paths from either side to the surfaces that they hit.
+pub fn arrive_with_ratios(
+    (join, tracing): (Res<Shared<CameraJoinTable>>, Res<Shared<LightTracingTable>>),
+    (starts, areas): (Res<Shared<LightPathTable>>, Res<Shared<AreaLightTable>>),
+    mut tiles: Query<(ArrivalView, Option<&LensPoints>, Option<&StartedOn>)>,
+) {
+    for (mut view, lens, started) in &mut tiles {
+        let (rays, paths) = (view.rays, view.paths);
+        match started.filter(|started| started.rows() > 0) {
+            Some(started) => view.arrive(|row, surface, cosine| {
+                let light = started.light[paths.first[row] as usize] as usize;
+                first_from_light((&starts, &areas), (light, rays.origin_of(row)), surface, cosine)
+            }),
+            None => view.arrive(|row, surface, cosine| {
+                let lens = lens.map_or(DVec2::ZERO, |lens| lens.point(row));
+                first_from_camera(&join, tracing.each_sample, lens, surface.position.as_dvec3(), cosine)
+            }),
+        }
+    }
+}
+
+/// The stage that runs [`arrive_with_ratios`].
+pub fn arrive_with_ratios_stage() -> Stage {
+    Stage::new("Carry MIS ratios to surfaces", TileSystems::Join, arrive_with_ratios)
         .kind(StageKind::Alternative)
+        .reads_where::<LensPoints>(lens_evidence)
+        .reads_where::<StartedOn>(bidirectional_evidence)
         .when(bidirectional_evidence)
 }
 
@@ -320,7 +319,7 @@ pub fn weight_joins<B: Bsdf>(
     for (JoinWeightViewItem { eye, paths, surfaces, shading, mis, ratios, mut rays }, columns, interface) in &mut tiles
     {
         let interface = Interface::new(interface, glass.as_deref());
-        for ray in 0..ratios.rows() {
+        for ray in 0..ratios.rows().min(rays.rows()) {
             let row = rays.row[ray] as usize;
             let material = surfaces.material[row] as usize;
             if materials.kind[material] != B::KIND {
