@@ -37,6 +37,7 @@ const CASES: [Case; 12] = [
     },
     Case { name: "light tracing", chapter: "27_caustics", samples: 66, ..PLAIN },
     Case { name: "photons", chapter: "cover", samples: 66, ..PLAIN },
+    Case { name: "joined paths", chapter: "39_both_ends", samples: 66, ..PLAIN },
     Case { name: "wavelengths", chapter: "38_dispersion", samples: 66, ..PLAIN },
     Case { name: "adaptive", chapter: "21_soft_shadows", samples: 300, error: Some(0.05), ..PLAIN },
     Case {

@@ -265,11 +265,28 @@ fn a_diamond() -> World {
     world
 }
 
-/// The same light by paths that are joined.
+/// Every kind of material that is not specular around a lamp, by paths that are joined; and a ball of glass.
 fn by_joined_paths() -> World {
-    let mut world = by_photons();
-    let camera = named(&mut world, "camera");
-    world.entity_mut(camera).remove::<PhotonMapping>().insert(BidirectionalPathTracing::default());
+    let mut world = World::new();
+    let look = LookAt { eye: DVec3::new(0.0, 4.0, 3.0), target: DVec3::ZERO, ..LookAt::default() };
+    let camera = (PerspectiveCamera::default(), Resolution { width: 24, height: 24 }, Integrator::PATH);
+    world.spawn((Name::new("camera"), look, camera, BidirectionalPathTracing::default()));
+    let lamp = Emissive { radiance: Rgb::grey(20.0), ..Emissive::default() };
+    world.spawn((Sphere { radius: 0.3 }, lamp, Placement::at(0.0, 1.2, 0.0)));
+    world.spawn((Sphere { radius: 0.4 }, Glass::default(), Placement::at(0.0, 0.45, 0.9)));
+    for number in 0..6 {
+        let (x, z) = (2.0 * f64::from(number % 3) - 2.0, 2.0 * f64::from(number / 3) - 1.0);
+        let mut tile = world.spawn((Cuboid { size: DVec3::new(1.9, 0.2, 1.9) }, Placement::at(x, -0.1, z)));
+        match number {
+            0 => tile.insert(Phong::default()),
+            1 => tile.insert(BlinnPhong::default()),
+            2 => tile.insert(Principled::default()),
+            3 => tile.insert(RoughGlass { roughness: 0.5, ..RoughGlass::default() }),
+            4 => tile.insert(Metal { roughness: 0.4, ..Metal::default() }),
+            _ => tile.insert(Matte::default()),
+        };
+    }
+    world.spawn((Rectangle { width: 6.0, depth: 3.0 }, Placement::at(0.0, 2.5, -1.0), Matte::default()));
     world
 }
 
