@@ -157,8 +157,8 @@ fn strategies_agree(name: &str, make: &dyn Fn() -> World, strategies: &[LightStr
 #[test]
 fn light_strategies_agree_on_the_public_scenes() {
     for (name, samples) in [
-        ("cornell", 16),
-        ("cornell-glass", 16),
+        ("cornell", 8),
+        ("cornell-glass", 8),
         ("veach-mis", 24),
         ("spheres", 4),
         ("spheres-lens", 4),
@@ -177,7 +177,7 @@ fn light_strategies_agree_on_the_public_scenes() {
 
 #[test]
 fn light_strategies_agree_on_the_chapters_scenes() {
-    for (name, samples) in [("25_path_tracing", 16), ("26_choosing_samples", 24)] {
+    for (name, samples) in [("25_path_tracing", 8), ("26_choosing_samples", 24)] {
         strategies_agree(name, &|| chapter_at(name, 48, 32), ALL, samples, 8);
     }
     // The others by paths too, whatever integrator they name; caustics come from the lights where the scene has them so.
@@ -203,7 +203,7 @@ fn light_strategies_agree_on_the_chapters_scenes() {
             world
         };
         // Its light is small and bright, so that its few pixels are the noisiest.
-        let samples = if name == "21_soft_shadows" { 32 } else { 16 };
+        let samples = if name == "21_soft_shadows" { 32 } else { 8 };
         strategies_agree(name, &make, strategies, samples, 4);
     }
 }
