@@ -95,13 +95,13 @@ fn renders_by(
     samples: u32,
     seeds: std::ops::Range<u64>,
 ) -> Vec<Numbers> {
-    let samples = times_samples() * samples;
+    let (samples, offer) = (times_samples() * samples, offer());
     let image = |seed| {
         let mut world = make();
         let camera = named(&mut world, "camera");
         let sampling = Sampling { samples, seed, sampler: Sampler::Independent, ..Sampling::default() };
         world.entity_mut(camera).insert((sampling, integrator));
-        numbers(&render(&world, &offer(), &Execution::default(), &()).expect("renders").film)
+        numbers(&render(&world, &offer, &Execution::default(), &()).expect("renders").film)
     };
     seeds.map(image).collect()
 }
