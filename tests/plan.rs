@@ -206,7 +206,7 @@ fn plans_are_deterministic_and_forget_what_was_removed() {
         let mut scene = toggled(&on);
         let before = plan_of(&scene);
         // All of them where one thing is there beside what every scene has, and a third in turn where two are.
-        let tried = |at: usize| on.len() < 2 || (at + turn) % 3 == 0;
+        let tried = |at: usize| on.len() < 2 || (at + turn).is_multiple_of(3);
         for (_, (what, add, remove)) in changes.iter().enumerate().filter(|(at, _)| tried(*at)) {
             let entity = scene.spawn(Name::new("passing")).id();
             add(&mut scene.entity_mut(entity));

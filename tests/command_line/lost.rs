@@ -130,7 +130,7 @@ fn no_file_of_others_is_replaced_or_removed() {
         let reads =
             ["check", "review", "yours"].iter().any(|own| command.starts_with(own)) || command.contains("--resume");
         for file in files {
-            let meets = |at: usize| reads || at == 0 || (at + turn) % 4 == 0;
+            let meets = |at: usize| reads || at == 0 || (at + turn).is_multiple_of(4);
             for (_, (what, put)) in HOSTILE.into_iter().enumerate().filter(|(at, _)| meets(*at)) {
                 let folder = tempfile::tempdir().expect("a temporary folder");
                 let place = folder.path().join(file);
