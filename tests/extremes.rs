@@ -35,7 +35,7 @@ fn holds(group: Group, rays: u64) {
 
 #[test]
 fn rays_at_every_shape_hold() {
-    holds(Group::Shapes, 2048);
+    holds(Group::Shapes, 512);
 }
 
 #[test]
@@ -85,12 +85,12 @@ fn lights_hold() {
 
 #[test]
 fn lenses_hold() {
-    holds(Group::Lens, 2048);
+    holds(Group::Lens, 1024);
 }
 
 #[test]
 fn lights_with_an_area_hold() {
-    holds(Group::Emitter, 2048);
+    holds(Group::Emitter, 1024);
 }
 
 #[test]

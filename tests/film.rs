@@ -53,13 +53,13 @@ fn samples_that_are_no_light_are_counted_and_kept_out() {
 
 #[test]
 fn many_ones_have_the_mean_one() {
-    const SAMPLES: u32 = 1 << 26;
+    const SAMPLES: u32 = (1 << 24) + 16;
     let mut film = FilmTile::new(Tile { x: 0, y: 0, width: 1, height: 1 });
     for _ in 0..SAMPLES {
         film.add(0, [1.0; 3]);
     }
     assert_eq!((film.sum[0][0], film.count[0], film.mean(0)), (f64::from(SAMPLES), SAMPLES, [1.0; 3]));
-    eprintln!("sums: 2^26 × 1.0 has the mean 1.0; in f32 the sum would stop at 2^24");
+    eprintln!("sums: (2^24 + 16) × 1.0 has the mean 1.0; in f32 the sum would stop at 2^24");
 }
 
 #[test]
@@ -140,7 +140,7 @@ fn more_light_than_a_picture_holds_is_its_largest_number() {
 /// known spread, some of which count negatively, as a filter with negative lobes has them.
 #[test]
 fn stated_variances_are_those_of_many_films() {
-    const FILMS: u32 = 40_000;
+    const FILMS: u32 = 10_000;
     let mut tried = 0;
     for (samples, negative) in [(16, 0.0), (64, 0.0), (16, 0.05), (64, 0.1), (256, 0.1)] {
         let (mut sum, mut squares, mut stated, mut of_sample) = (0.0, 0.0, 0.0, 0.0);
@@ -173,7 +173,7 @@ fn stated_variances_are_those_of_many_films() {
             "{samples} samples, {negative} of them negative: stated {stated:.3} and, by a sample's, {of_sample:.3} of \
              the true variance"
         );
-        // A variance of so many means is known to 0.7 %.
+        // A variance of so many means is known to 1.4 %.
         assert!((stated - 1.0).abs() < 0.04, "{samples} samples, {negative} negative: stated {stated} of the truth");
         assert!((of_sample - 1.0).abs() < 0.04, "{samples} samples, {negative} negative: {of_sample} of the truth");
         tried += FILMS;

@@ -97,13 +97,13 @@ fn renders_by(
     samples: u32,
     seeds: std::ops::Range<u64>,
 ) -> Vec<Numbers> {
-    let samples = times_samples() * samples;
+    let (samples, offer) = (times_samples() * samples, offer());
     let image = |seed| {
         let mut world = make();
         let camera = named(&mut world, "camera");
         let sampling = Sampling { samples, seed, sampler: Sampler::Independent, ..Sampling::default() };
         world.entity_mut(camera).insert((sampling, integrator));
-        numbers(&render(&world, &offer(), &Execution::default(), &()).expect("renders").film)
+        numbers(&render(&world, &offer, &Execution::default(), &()).expect("renders").film)
     };
     seeds.map(image).collect()
 }
@@ -159,8 +159,8 @@ fn strategies_agree(name: &str, make: &dyn Fn() -> World, strategies: &[LightStr
 #[test]
 fn light_strategies_agree_on_the_public_scenes() {
     for (name, samples) in [
-        ("cornell", 16),
-        ("cornell-glass", 16),
+        ("cornell", 8),
+        ("cornell-glass", 8),
         ("veach-mis", 24),
         ("spheres", 4),
         ("spheres-lens", 4),
@@ -179,7 +179,7 @@ fn light_strategies_agree_on_the_public_scenes() {
 
 #[test]
 fn light_strategies_agree_on_the_chapters_scenes() {
-    for (name, samples) in [("25_path_tracing", 16), ("26_choosing_samples", 24)] {
+    for (name, samples) in [("25_path_tracing", 8), ("26_choosing_samples", 24)] {
         strategies_agree(name, &|| chapter_at(name, 48, 32), ALL, samples, 8);
     }
     // The others by paths too, whatever integrator they name; caustics come from the lights where the scene has them so.
@@ -205,7 +205,7 @@ fn light_strategies_agree_on_the_chapters_scenes() {
             world
         };
         // Its light is small and bright, so that its few pixels are the noisiest.
-        let samples = if name == "21_soft_shadows" { 32 } else { 16 };
+        let samples = if name == "21_soft_shadows" { 32 } else { 8 };
         strategies_agree(name, &make, strategies, samples, 4);
     }
 }

@@ -202,10 +202,12 @@ fn plans_are_deterministic_and_forget_what_was_removed() {
         ("a camera", add::<OrthographicCamera>, take::<OrthographicCamera>),
     ];
     let mut changed = 0;
-    for on in singles_and_pairs().into_iter().filter(|on| !pictureless(on)) {
+    for (turn, on) in singles_and_pairs().into_iter().filter(|on| !pictureless(on)).enumerate() {
         let mut scene = toggled(&on);
         let before = plan_of(&scene);
-        for (what, add, remove) in &changes {
+        // All of them where one thing is there beside what every scene has, and a third in turn where two are.
+        let tried = |at: usize| on.len() < 2 || (at + turn).is_multiple_of(3);
+        for (_, (what, add, remove)) in changes.iter().enumerate().filter(|(at, _)| tried(*at)) {
             let entity = scene.spawn(Name::new("passing")).id();
             add(&mut scene.entity_mut(entity));
             changed += u32::from(plan_of(&scene).to_string() != before.to_string());

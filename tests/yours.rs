@@ -11,11 +11,18 @@ const QUICK: u32 = 13;
 
 #[test]
 fn every_state_shows_what_pinhole_shows() {
-    let untouched: Vec<Edit> = steps().iter().map(|step| (step.number, "fn main", "fn main")).collect();
-    for ((chapter, ..), program, found) in found(&untouched) {
+    for chapter in steps().into_iter().map(|step| step.number) {
+        let program = program_after(chapter).expect("applies");
         let lines = program.lines().count();
-        let Comparison::Same { resolved } = found.comparison else { panic!("{chapter}: {:?}", found.comparison) };
-        assert_eq!(found.program, Program::Books);
+        // Enough samples for what is asked below; the pictures of these three have the most noise.
+        let samples = if [21, 23, 28].contains(&chapter) { 32 } else { 16 };
+        let few = program.replace("SAMPLES: usize = 64;", &format!("SAMPLES: usize = {samples};"));
+        let expected = Expected::with_samples(chapter, samples).expect("renders");
+        let picture = picture_of_program(&few).expect("a picture");
+        let mut comparison = expected.compare(&picture).expect("of its size");
+        let into = expected.look_into(&program, &picture, &mut comparison, &mut || ()).expect("applies");
+        let Comparison::Same { resolved } = comparison else { panic!("{chapter}: {comparison:?}") };
+        assert_eq!(into, Program::Books);
         assert!(resolved < 0.2, "{chapter}: {resolved}");
         eprintln!("{chapter}: {lines} lines, the same; {:.1} % would be told", 100.0 * resolved);
     }
@@ -24,9 +31,10 @@ fn every_state_shows_what_pinhole_shows() {
 /// Depth of field and the weights of two strategies change the picture of their own step only.
 #[test]
 fn two_steps_may_be_left_out() {
-    for chapter in [25, 33] {
+    // The step of chapter 26 comes after chapter 25.
+    for (chapter, steps) in [(25, &[&[23][..]][..]), (33, &[&[23], &[26], &[23, 26]])] {
         let expected = Expected::after(chapter).expect("renders");
-        for left_out in [&[23][..], &[26], &[23, 26]] {
+        for left_out in steps {
             let program = program_of(|number| number <= chapter && !left_out.contains(&number)).expect("applies");
             let picture = picture_of_program(&program).expect("compiles, and writes a picture");
             let found = expected.compare(&picture).expect("of its size");

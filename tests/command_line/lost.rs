@@ -124,9 +124,14 @@ fn held(folder: &Path, into: &mut BTreeMap<PathBuf, String>) {
 fn no_file_of_others_is_replaced_or_removed() {
     let (mut tried, mut told) = (0, 0);
     let mut lost = Vec::new();
-    for (command, files) in PLACES {
+    for (turn, (command, files)) in PLACES.into_iter().enumerate() {
+        // What also reads its file meets all of them; the others, which one function writes for, meet a text and two more,
+        // in turn.
+        let reads =
+            ["check", "review", "yours"].iter().any(|own| command.starts_with(own)) || command.contains("--resume");
         for file in files {
-            for (what, put) in HOSTILE {
+            let meets = |at: usize| reads || at == 0 || (at + turn).is_multiple_of(4);
+            for (_, (what, put)) in HOSTILE.into_iter().enumerate().filter(|(at, _)| meets(*at)) {
                 let folder = tempfile::tempdir().expect("a temporary folder");
                 let place = folder.path().join(file);
                 fs::create_dir_all(place.parent().expect("a folder")).expect("made");

@@ -6,8 +6,8 @@ use std::ffi::OsString;
 use std::fs;
 use std::os::unix::ffi::OsStringExt;
 
-/// What a terminal obeys, or shows others differently because of.
-const HIDDEN: [&str; 8] = ["\u{1b}[31m", "\u{9b}31m", "\t", "\r", "\u{202e}", "\u{2028}", "\u{200b}", "\u{7f}"];
+/// What a terminal obeys, or shows others differently because of; those that a scene's names may not have, and the rest.
+const HIDDEN: [&str; 2] = ["\u{1b}[31m\u{9b}31m\t\r\u{7f}", "\u{202e}\u{2028}\u{200b}"];
 
 /// Commands with `SCENE` in place of the scene's file.
 const COMMANDS: [&str; 22] = [

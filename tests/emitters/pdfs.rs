@@ -5,7 +5,7 @@ use pinhole::shapes::PlacedSphere;
 use pinhole::shapes::emitter::triangle_solid_angle;
 use std::f64::consts::TAU;
 
-const RAYS: u32 = 100_000;
+const RAYS: u32 = 30_000;
 /// Bins a side, and parts of a bin a side.
 const BINS: usize = 12;
 const PARTS: usize = 24;

@@ -1,9 +1,10 @@
 //! Whether the picture that `render N --mine` writes shows a mistake.
 
 use super::answers::Answers;
-use pinhole::render::Execution;
+use pinhole::render::{Execution, Watch};
 use pinhole::{Chapter, Overrides};
 use pinhole_lab::exercise::{Exercise, Outcome, PicturePair, Seen};
+use std::sync::OnceLock;
 use std::time::Duration;
 
 /// What comes of a mistake in a picture.
@@ -15,19 +16,48 @@ pub enum Shown {
     Sentence(String),
 }
 
+/// How many of an exercise's scenes are rendered.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Scenes {
+    /// All, as a reader gets them.
+    All,
+    /// None after one that shows a difference.
+    UntilShown,
+}
+
+/// Pinhole's pictures of an exercise's scenes, of which the same is asked each time.
+#[derive(Default)]
+pub struct Pinholes([OnceLock<Vec<Vec<[f32; 3]>>>; 4]);
+
 impl Shown {
     /// What a reader gets who renders a chapter with this function.
     pub fn of(chapter: &Chapter, exercise: &Exercise, asked: &Overrides) -> Self {
+        Self::beside(&Pinholes::default(), chapter, exercise, asked, Scenes::All)
+    }
+
+    /// The same beside pictures that are kept.
+    fn beside(
+        Pinholes(kept): &Pinholes,
+        chapter: &Chapter,
+        exercise: &Exercise,
+        asked: &Overrides,
+        scenes: Scenes,
+    ) -> Self {
         let late = exercise.check(Duration::from_secs(3));
         if let Outcome::Late(..) = late.outcome {
             return Self::Sentence(late.sentence().unwrap_or_default());
         }
         let (mut pairs, mut seen) = (Vec::new(), Vec::new());
-        for (number, what) in exercise.scenes().enumerate() {
-            match PicturePair::render(exercise, (chapter, number), asked, (&Execution::default(), &())) {
+        assert!(exercise.scenes().count() <= kept.len(), "{}: there are more scenes", chapter.name);
+        for ((number, what), kept) in exercise.scenes().enumerate().zip(kept) {
+            let by = (&Execution::default(), &() as &dyn Watch);
+            match PicturePair::render_beside(kept, exercise, (chapter, number), asked, by) {
                 Ok(pair) => {
                     seen.push(pair.seen());
                     pairs.push((what, pair));
+                    if scenes == Scenes::UntilShown && seen.iter().any(Seen::is_shown) {
+                        break;
+                    }
                 }
                 Err(told) => return Self::Sentence(told.to_string()),
             }
@@ -45,6 +75,13 @@ impl Shown {
 }
 
 /// The mistakes of a chapter with their names, and what each one's picture shows.
-pub fn mistakes_of(chapter: &Chapter, answers: fn() -> Answers, asked: &Overrides) -> Vec<(&'static str, Shown)> {
-    answers().wrong.iter().map(|(wrong, name)| (*name, Shown::of(chapter, wrong, asked))).collect()
+pub fn mistakes_of(
+    chapter: &Chapter,
+    answers: fn() -> Answers,
+    asked: &Overrides,
+    scenes: Scenes,
+) -> Vec<(&'static str, Shown)> {
+    let pinholes = Pinholes::default();
+    let of = |wrong: &Exercise| Shown::beside(&pinholes, chapter, wrong, asked, scenes);
+    answers().wrong.iter().map(|(wrong, name)| (*name, of(wrong))).collect()
 }

@@ -102,13 +102,14 @@ fn flipped(direction: DVec3) -> DVec3 {
 /// The mean weight over a lattice in the three numbers that a sample takes, which is the albedo; every weight is what
 /// `eval` and `pdf` say.
 fn albedo(example: &Example, context: &ShadingContext, to_eye: DVec3) -> f64 {
-    const COUNT: u32 = 40_000;
+    // The further from the normal, the narrower lobes are, and the less alike weights.
+    let count = if to_eye.z > 0.5 { 10_000 } else { 40_000 };
     // The lattice of the plastic number's cubic kin (Roberts 2018).
     const G: f64 = 1.220_744_084_605_759_5;
     let mut sum = 0.0;
-    for index in 0..COUNT {
+    for index in 0..count {
         let at = |power: f64| (0.5 + f64::from(index) / power).fract();
-        let (numbers, choice) = (square_of_disk((f64::from(index) + 0.5) / f64::from(COUNT), at(G)), at(G * G));
+        let (numbers, choice) = (square_of_disk((f64::from(index) + 0.5) / f64::from(count), at(G)), at(G * G));
         let Some(sample) = example.bsdf.sample(context, to_eye, numbers, choice) else { continue };
         let (light, whole) = (sample.to_light, sample.weight[0]);
         let pdf = example.bsdf.pdf(context, light, to_eye);
@@ -119,7 +120,7 @@ fn albedo(example: &Example, context: &ShadingContext, to_eye: DVec3) -> f64 {
         assert!(example.transmits || light.z > 0.0, "{name} sends light through");
         sum += whole;
     }
-    sum / f64::from(COUNT)
+    sum / f64::from(count)
 }
 
 /// What enters a denser medium is scaled by 1/η², and that is no loss: importance is not.
@@ -249,6 +250,7 @@ fn cells(places: Vec<(f64, f64)>, others: &[(f64, f64)], max: usize, either_side
 
 /// The probability of a χ² at least as large as that of the sampled directions against the pdf.
 fn p_of(example: &Example, context: &ShadingContext, angle: f64, seed: u64) -> f64 {
+    // Fewer do not find a lobe that is 5 % too wide.
     const SAMPLES: u64 = 20_000;
     let eye = eye_at(angle);
     let places = |seed| {

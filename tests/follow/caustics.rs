@@ -224,7 +224,7 @@ pub fn agrees(name: &str, make: &dyn Fn() -> World, samples: u32) {
 
 #[test]
 fn light_from_area_lights_brings_what_the_camera_s_paths_bring() {
-    agrees("caustics", &|| caustics(true), 16);
+    agrees("caustics", &|| caustics(true), 8);
     let through_a_lens = || {
         let mut world = caustics(true);
         let camera = named(&mut world, "camera");
@@ -233,14 +233,14 @@ fn light_from_area_lights_brings_what_the_camera_s_paths_bring() {
         world.entity_mut(camera).insert((look, Lens { aperture, focus_distance: 1.8, blades: 5, ..Lens::default() }));
         world
     };
-    agrees("caustics through a lens", &through_a_lens, 16);
+    agrees("caustics through a lens", &through_a_lens, 8);
     let make = || {
         let mut world = public("cornell-glass", LightStrategy::Mis);
         let camera = named(&mut world, "camera");
         world.entity_mut(camera).insert(Resolution { width: 32, height: 32 });
         world
     };
-    agrees("cornell-glass", &make, 16);
+    agrees("cornell-glass", &make, 8);
 }
 
 /// Asserts that a scene of so many samples gives the bits of one whole render however its steps are divided, stopped and

@@ -18,17 +18,16 @@ struct AnyShape {
 }
 
 impl AnyShape {
-    fn contains(&self, point: DVec3) -> bool {
-        let p = (point - self.centre) / self.half;
-        let across = (p.x * p.x + p.z * p.z).sqrt();
+    /// Whether a point is in the shape, its centre at the origin and its half extents 1.
+    fn contains(&self) -> fn(DVec3) -> bool {
         match self.kind {
-            "ball" | "ellipsoid" => p.length() < 1.0,
-            "box" | "mirrored box" => p.abs().max_element() < 1.0,
-            "cylinder" => p.y.abs() < 1.0 && across < 1.0,
-            "cone" => p.y.abs() < 1.0 && across < 0.5 * (1.0 - p.y),
-            "torus" => (across - 0.7).powi(2) + p.y * p.y < 0.09,
-            "mesh" | "triangles" | "mirrored triangles" => p.abs().element_sum() < 1.0,
-            "sea" => point.y < self.centre.y,
+            "ball" | "ellipsoid" => |p| p.length_squared() < 1.0,
+            "box" | "mirrored box" => |p| p.abs().max_element() < 1.0,
+            "cylinder" => |p| p.y.abs() < 1.0 && p.x * p.x + p.z * p.z < 1.0,
+            "cone" => |p| p.y.abs() < 1.0 && (p.x * p.x + p.z * p.z).sqrt() < 0.5 * (1.0 - p.y),
+            "torus" => |p| ((p.x * p.x + p.z * p.z).sqrt() - 0.7).powi(2) + p.y * p.y < 0.09,
+            "mesh" | "triangles" | "mirrored triangles" => |p| p.abs().element_sum() < 1.0,
+            "sea" => |p| p.y < 0.0,
             other => panic!("{other}"),
         }
     }
@@ -81,27 +80,36 @@ fn ink(absorption: [f64; 3], priority: u32) -> Glass {
     Glass { ior: 1.0, absorption: Rgb { r: absorption[0], g: absorption[1], b: absorption[2] }, priority }
 }
 
-/// The absorption at a point: of the body of the highest priority, and among equals the first.
-fn absorption_at(bodies: &[AnyShape], point: DVec3) -> [f64; 3] {
-    let around = bodies.iter().enumerate().filter(|(_, body)| body.contains(point));
-    let there = around.min_by_key(|(number, body)| (std::cmp::Reverse(body.glass.priority), *number));
-    there.map_or([0.0; 3], |(_, body)| body.glass.absorption.to_array())
-}
-
-/// The transmittance from one point to another, and whether any surface lies between, by small steps.
+/// The transmittance from one point to another, and whether any surface lies between, by small steps; the absorption at a
+/// point is that of the body of the highest priority, and among equals the first.
 fn between(bodies: &[AnyShape], from: DVec3, to: DVec3) -> ([f64; 3], bool) {
-    const STEPS: u32 = 2000;
-    let step = (to - from).length() / f64::from(STEPS);
-    let (mut depth, mut crosses) = ([0.0; 3], false);
-    let inside = |point: DVec3| bodies.iter().map(|body| body.contains(point)).collect::<Vec<_>>();
-    let first = inside(from);
-    for number in 0..STEPS {
-        let point = from.lerp(to, (f64::from(number) + 0.5) / f64::from(STEPS));
-        let there = absorption_at(bodies, point);
-        (0..3).for_each(|part| depth[part] += there[part] * step);
-        crosses |= inside(point) != first;
+    const STEPS: u32 = 1000;
+    let mut ranked: Vec<&AnyShape> = bodies.iter().collect();
+    ranked.sort_by_key(|body| std::cmp::Reverse(body.glass.priority));
+    let contain: Vec<fn(DVec3) -> bool> = ranked.iter().map(|body| body.contains()).collect();
+    // How many steps are absorbed by each body.
+    let (mut steps, mut crosses) = (vec![0_u32; ranked.len()], false);
+    let first: Vec<bool> =
+        (0..ranked.len()).map(|at| contain[at]((from - ranked[at].centre) / ranked[at].half)).collect();
+    // In the shape's own units, one step and the last, which is at the other end.
+    let starts: Vec<[DVec3; 2]> =
+        ranked.iter().map(|body| [(from - body.centre) / body.half, (to - from) / body.half]).collect();
+    for number in 0..=STEPS {
+        let along = if number < STEPS { (f64::from(number) + 0.5) / f64::from(STEPS) } else { 1.0 };
+        let mut is_absorbed = number == STEPS;
+        for (at, &[start, way]) in starts.iter().enumerate() {
+            let is_inside = contain[at](start + way * along);
+            crosses |= is_inside != first[at];
+            steps[at] += u32::from(is_inside && !is_absorbed);
+            is_absorbed |= is_inside;
+        }
     }
-    (depth.map(|depth: f64| (-depth).exp()), crosses || inside(to) != first)
+    let step = (to - from).length() / f64::from(STEPS);
+    let depth = |part: usize| -> f64 {
+        let each = ranked.iter().zip(&steps);
+        each.map(|(body, &steps)| body.glass.absorption.to_array()[part] * step * f64::from(steps)).sum()
+    };
+    ([0, 1, 2].map(|part| (-depth(part)).exp()), crosses)
 }
 
 /// Arrangements of up to four bodies about a floor at the origin and a light at [`LIGHT`].
@@ -243,7 +251,7 @@ impl Delta {
     fn irradiance(self, floor: DVec3) -> (f64, DVec3) {
         let to_light = LIGHT - floor;
         match self {
-            Self::Sun => (-SUN.normalize().y, floor - 40.0 * SUN.normalize()),
+            Self::Sun => (-SUN.normalize().y, floor - 12.0 * SUN.normalize()),
             _ => (to_light.y / to_light.length().powi(3), LIGHT),
         }
     }
@@ -372,7 +380,7 @@ const EMITTERS: [(&str, fn(&mut World) -> Entity); 9] = [
 /// tracing with them, in ink and in glass that bends light.
 #[test]
 fn strategies_agree_inside_glass() {
-    let (mut tried, mut worst) = (0, 0.0_f64);
+    let (mut tried, mut worst, mut known_to) = (0, 0.0_f64, Vec::new());
     let mut failures = Vec::new();
     let arrangements = arrangements();
     for (number, (name, bodies)) in arrangements.iter().enumerate() {
@@ -414,13 +422,14 @@ fn strategies_agree_inside_glass() {
                 (LightStrategy::Mis, true, 32),
             ];
             // Light sampling alone has no part in what BSDF sampling finds behind glass.
-            let measured = methods.map(|(lights, traced, samples)| mean_of(&|| make(traced), path(lights), samples, 8));
+            let measured = methods.map(|(lights, traced, samples)| mean_of(&|| make(traced), path(lights), samples, 4));
             for (at, (mean, error)) in measured.iter().enumerate().skip(1) {
                 let (first, spread) = &measured[0];
                 for part in 0..3 {
                     let together = (error[part] * error[part] + spread[part] * spread[part]).sqrt();
                     let off = (mean[part] - first[part]).abs() / together.max(1e-12);
                     worst = worst.max(off);
+                    known_to.push(together / first[part].max(1e-12));
                     if off > 4.5 {
                         failures.push(format!(
                             "{name}, {kind}, bends {bends}: method {at} {mean:?} ± {error:?} for {first:?} ± {spread:?}"
@@ -432,7 +441,11 @@ fn strategies_agree_inside_glass() {
             }
         }
     }
-    eprintln!("inside glass: {tried} comparisons of strategies, worst {worst:.1} standard errors");
+    known_to.sort_by(f64::total_cmp);
+    let middle = 100.0 * known_to[known_to.len() / 2];
+    eprintln!(
+        "inside glass: {tried} comparisons of strategies, worst {worst:.1} standard errors, half of them below {middle:.1} %"
+    );
     assert!(failures.is_empty(), "{} of {tried}:\n{}", failures.len(), failures.join("\n"));
 }
 
@@ -636,7 +649,7 @@ fn a_light_beside_a_face_of_glass_is_on_one_side_of_it() {
             world.spawn((Plane { normal: DVec3::Y }, Placement::at(0.0, from - 3.0, 0.0), matte));
             world
         };
-        super::caustics::mean_of(&make, &offer(), 24, 0..8)
+        super::caustics::mean_of(&make, &offer(), 12, 0..8)
     };
     let mut worst = 0.0_f64;
     for (from, ior) in [(0.0, 1.5), (7.0, 1.5), (0.0, 1.0), (-3.0, 1.8)] {

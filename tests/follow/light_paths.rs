@@ -71,7 +71,7 @@ fn through_a_mirror(lights: &[Spawn], seeds: std::ops::Range<u64>) -> [f64; 2] {
     let count = (seeds.end - seeds.start) as f64;
     let values: Vec<f64> = seeds
         .map(|seed| {
-            let mut world = seen(DVec3::new(0.0, 1.5, 0.0), DVec3::new(0.0, 2.0, 0.0), [16, 16], 64, seed);
+            let mut world = seen(DVec3::new(0.0, 1.5, 0.0), DVec3::new(0.0, 2.0, 0.0), [16, 16], 32, seed);
             let camera = named(&mut world, "camera");
             let wide = PerspectiveCamera { fov: Degrees(110.0), ..PerspectiveCamera::default() };
             world.entity_mut(camera).insert((wide, LightTracing { paths: 4.0 }));

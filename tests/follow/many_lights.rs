@@ -91,11 +91,11 @@ fn many_lights_bring_what_few_at_a_time_add_up_to() {
             }
             world
         };
-        let whole = renders(&|| make(0..lights), LightStrategy::Mis, 48, 0..SETS);
+        let whole = renders(&|| make(0..lights), LightStrategy::Mis, 24, 0..SETS);
         let mut sums: Vec<Numbers> = Vec::new();
         for (number, first) in (0..lights).step_by(few).enumerate() {
             let seeds = SETS * (number as u64 + 1);
-            let part = renders(&|| make(first..first + few as u64), LightStrategy::Mis, 16, seeds..seeds + SETS);
+            let part = renders(&|| make(first..first + few as u64), LightStrategy::Mis, 8, seeds..seeds + SETS);
             if sums.is_empty() {
                 sums = part;
                 continue;

@@ -85,10 +85,10 @@ fn photons_bring_what_closed_forms_say() {
 #[test]
 fn photons_bring_what_other_methods_bring() {
     const SETS: u64 = 12;
-    let alone = renders(&|| caustics(true), LightStrategy::Mis, 96, 0..SETS);
+    let alone = renders(&|| caustics(true), LightStrategy::Mis, 48, 0..SETS);
     for (number, lights) in [LightStrategy::Bsdf, LightStrategy::Light, LightStrategy::Mis].into_iter().enumerate() {
         let first = SETS * (number as u64 + 1);
-        let photons = renders(&mapped(|| caustics(true), 0.02), lights, 32, first..first + SETS);
+        let photons = renders(&mapped(|| caustics(true), 0.02), lights, 16, first..first + SETS);
         assert_agree(&format!("photons and paths, {lights:?}"), &alone, &photons, 8);
     }
     // Through water that the camera looks into, where light tracing finds nothing.
@@ -116,8 +116,8 @@ fn photons_bring_what_other_methods_bring() {
         world.entity_mut(camera).insert(Resolution { width: 32, height: 32 });
         world
     };
-    let alone = renders(&make, LightStrategy::Mis, 96, 0..SETS);
-    let photons = renders(&mapped(make, 4.0), LightStrategy::Mis, 32, SETS..2 * SETS);
+    let alone = renders(&make, LightStrategy::Mis, 48, 0..SETS);
+    let photons = renders(&mapped(make, 4.0), LightStrategy::Mis, 16, SETS..2 * SETS);
     assert_agree("photons and paths, cornell-glass", &alone, &photons, 8);
 }
 
@@ -147,7 +147,7 @@ fn the_blur_is_that_of_the_radii_and_falls_as_they_do() {
     };
     let truth = at(1e-4);
     let mut biases = Vec::new();
-    for (samples, seeds) in [(1, 256), (8, 64), (64, 24)] {
+    for (samples, seeds) in [(1, 256), (8, 32), (64, 12)] {
         let predicted =
             (0..samples).map(|sample| over_disk(photon_radius(RADIUS, sample))).sum::<f64>() / f64::from(samples);
         let make = || {

@@ -7,7 +7,7 @@ use pinhole_lab::measure::draws::Draws;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-const SIZE_OF_PARTS: Resolution = Resolution { width: 45, height: 37 };
+const SIZE_OF_PARTS: Resolution = Resolution { width: 33, height: 21 };
 
 /// A scene of every integrator, and what is kept of a film beside its sums: name, chapter, samples, filter, error,
 /// layers.

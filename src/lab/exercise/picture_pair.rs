@@ -7,6 +7,7 @@ use pinhole::film::{Curve, Film, rgba_of};
 use pinhole::render::{Execution, Rendered, Watch, render};
 use pinhole::scene::Sampling;
 use pinhole::{Chapter, Overrides, Result, SamplingOverrides};
+use std::sync::OnceLock;
 
 /// The light of a picture, line by line from the top.
 pub type Pixels = Vec<[f32; 3]>;
@@ -32,6 +33,20 @@ impl PicturePair {
     ///
     /// Errors: why no picture shows the function; what the render has to say against it; what a render would be refused for.
     pub fn render(
+        exercise: &Exercise,
+        of_chapter: (&Chapter, usize),
+        asked: &Overrides,
+        by: (&Execution, &dyn Watch),
+    ) -> Result<Self> {
+        Self::render_beside(&OnceLock::new(), exercise, of_chapter, asked, by)
+    }
+
+    /// The same beside pinhole's pictures of the same scene, of which the same is asked: they are rendered where they are
+    /// not there yet, and kept for other functions.
+    ///
+    /// Errors: the same.
+    pub fn render_beside(
+        pinholes: &OnceLock<Vec<Pixels>>,
         exercise: &Exercise,
         (chapter, number): (&Chapter, usize),
         asked: &Overrides,
@@ -60,11 +75,20 @@ impl PicturePair {
         // The reader's comes first: it has something to say against the function, and pinhole's has not.
         let rendered = by(Whose::Readers, &parts[0])?;
         let (size, curve) = ([rendered.film.width, rendered.film.height], rendered.curve());
-        let first = [light_of(&by(Whose::Pinholes, &parts[0])?.film), light_of(&rendered.film)];
+        let pinholes = match pinholes.get() {
+            Some(kept) => kept,
+            None => {
+                let pictures = parts.iter().map(|part| Ok(light_of(&by(Whose::Pinholes, part)?.film)));
+                let pictures = pictures.collect::<Result<_>>()?;
+                pinholes.get_or_init(|| pictures)
+            }
+        };
+        let mut pinholes = pinholes.iter().cloned();
+        let first = [pinholes.next().unwrap_or_default(), light_of(&rendered.film)];
         let Some(second) = parts.get(1) else {
             return Ok(Self { size, curve, light: first, halves: None, rendered: Some(rendered) });
         };
-        let second = [light_of(&by(Whose::Pinholes, second)?.film), light_of(&by(Whose::Readers, second)?.film)];
+        let second = [pinholes.next().unwrap_or_default(), light_of(&by(Whose::Readers, second)?.film)];
         let light = [0, 1].map(|whose| mean(&first[whose], &second[whose]));
         Ok(Self { size, curve, light, halves: Some([first, second]), rendered: Some(rendered) })
     }

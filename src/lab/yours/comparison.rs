@@ -174,7 +174,14 @@ impl Expected {
     ///
     /// Errors: those of a render.
     pub fn after(chapter: u32) -> Result<Self, Error> {
-        let right = light_of(&film_after(chapter, u32::MAX)?);
+        Self::with_samples(chapter, u32::MAX)
+    }
+
+    /// The same with at most so many samples a pixel.
+    ///
+    /// Errors: the same.
+    pub fn with_samples(chapter: u32, samples: u32) -> Result<Self, Error> {
+        let right = light_of(&film_after(chapter, samples)?);
         let (rewritten_or_changed, known) = <(OnceLock<_>, OnceLock<_>)>::default();
         Ok(Self { chapter, curve: Curve::after(chapter), right, rewritten_or_changed, known })
     }
@@ -279,6 +286,20 @@ impl Expected {
         found: &mut Comparison,
         waits: &mut dyn FnMut(),
     ) -> Result<Program, Error> {
+        self.look_into_both(program, &|| picture_of_program(program), picture, found, waits)
+    }
+
+    /// The same of a program whose own picture may be there.
+    ///
+    /// Errors: the same.
+    pub fn look_into_both(
+        &self,
+        program: &str,
+        own: &dyn Fn() -> Result<Picture, String>,
+        picture: &Picture,
+        found: &mut Comparison,
+        waits: &mut dyn FnMut(),
+    ) -> Result<Program, Error> {
         let beside = Beside::new(program, self.chapter).map_err(Error::Usage)?;
         let is_same_picture = matches!(found, Comparison::Same { .. });
         if beside.is_the_books() {
@@ -288,7 +309,7 @@ impl Expected {
         if let Some(earlier) = beside.earlier(self.chapter) {
             return Ok(Program::Earlier(earlier));
         }
-        let own = match picture_of_program(program) {
+        let own = match own() {
             Ok(own) => own,
             Err(why) => return Ok(Program::Another(ending(&why))),
         };
