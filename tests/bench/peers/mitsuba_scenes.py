@@ -14,6 +14,8 @@ The sphere of roughness 0.1 has nothing else. What glTF's material has beside it
 microfacets and diffuse light below the dielectric, which Mitsuba has not or otherwise, is a BSDF in this file: the
 formulae of Kulla and Conty (2017), Fdez-Agüera (2019) and Kelemen and Szirmay-Kalos (2001), over albedos integrated here.
 fog_bodies, fog_room, fog_glass: homogeneous media, by volpath. Where two overlap, Mitsuba gets the sum of both.
+volpath samples distances by one channel of a path, so that rare paths count much where colours differ; volpathmis does not,
+but in 3.9.1 its Russian roulette is biased (a medium of albedo 1 in an even sky is 0.6 % too dark), so it gets none.
 dispersion: Mitsuba's index of refraction is one number. So a render is the sum of those of 64 wavelengths, each with the
 index that Schott's equation for SF11 gives it, weighted by Mitsuba's table of the CIE's colour-matching functions.
 caustic, pool: by path, or by ptracer for the first; the pool's water is its surface, between walls that are not of glass.
@@ -404,10 +406,13 @@ def colours():
 
 
 def with_dispersion(loaded, seed, strata=64):
-    """The mean over one wavelength of each stratum, by a pdf in proportion to what it adds to all channels."""
+    """The mean over one wavelength of each stratum, by a pdf in proportion to what it adds to all channels.
+
+    It is divided by that of their weights, so that the sky has no noise.
+    """
     params, random = mi.traverse(loaded), np.random.default_rng(seed)
     glasses = [key for key in params.keys() if key.endswith('eta')]
-    weights, total = colours(), 0
+    weights, total, white = colours(), 0, 0
     pdf = abs(weights).sum(0)
     pdf /= pdf.sum()
     numbers = (np.arange(strata) + random.random(strata)) / strata
@@ -417,8 +422,9 @@ def with_dispersion(loaded, seed, strata=64):
             params[key] = float(sf11(380.5 + interval))
         params.update()
         image = np.array(mi.render(loaded, spp=options.samples // strata, seed=seed * strata + k), dtype=np.float64)
-        total = total + image[..., :3] * weights[:, interval] / pdf[interval] / strata
-    return total
+        weight = weights[:, interval] / pdf[interval]
+        total, white = total + image[..., :3] * weight, white + weight
+    return total / white
 
 
 def render(loaded, seed):
@@ -430,6 +436,8 @@ def render(loaded, seed):
 whole = scene(options.scene)
 if options.integrator:
     whole['integrator']['type'] = options.integrator
+    if options.integrator == 'volpathmis':
+        whole['integrator']['rr_depth'] = whole['integrator']['max_depth']
 loaded = mi.load_dict(whole)
 # Its kernels are compiled here, and not where time is taken.
 mi.render(loaded, spp=options.samples, seed=options.seed - 1).numpy()
