@@ -1,23 +1,25 @@
 //! Whether pinhole and Mitsuba render the same picture of a scene, by the means of blocks of its pixels.
 //!
 //! Each program renders the scene several times with seeds of its own, so that every block mean has a standard error on
-//! both sides.
+//! both sides, and so has every pixel: what varies from render to render is the error of one of them, whatever the truth.
 
+use super::interval::interval;
 use super::{named, offer};
+use cpu_time::ProcessTime;
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
-use pinhole::scene::{Sampling, SceneFile};
+use pinhole::scene::{LightTracing, PhotonMapping, Sampler, Sampling, SceneFile};
 use pinhole_lab::report::distribution::{sidak, student_cdf};
-use pinhole_lab::report::run::numbers;
+use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
 /// The side of a block, in pixels; the scenes are whole blocks wide and high.
-const SIDE: u32 = 16;
+const SIDE: usize = 16;
 
-/// The relative error of Mitsuba's sums in single precision.
-const ROUNDING: f64 = 2e-6;
+/// The relative error of Mitsuba's sums in single precision, for each sample of a pixel.
+const ROUNDING: f64 = 1.5e-8;
 
 /// What is compared, and how.
 pub struct Agreement {
@@ -27,14 +29,32 @@ pub struct Agreement {
     pub python: String,
     /// Mitsuba's variant.
     pub variant: String,
-    /// Renders of each program.
+    /// Renders of each program in a round.
     pub runs: u64,
+    /// How often the programs take turns.
+    pub rounds: u64,
     /// Samples per pixel of each render.
     pub samples: u32,
+    /// The same of Mitsuba.
+    pub their_samples: u32,
+    /// Another sampler than the scene file's.
+    pub sampler: Option<Sampler>,
+    /// Mitsuba's sampler.
+    pub their_sampler: String,
+    /// Another integrator of Mitsuba's than its scene has.
+    pub their_integrator: Option<String>,
+    /// Light paths per camera path, where pinhole is to trace such.
+    pub light_tracing: Option<f64>,
+    /// The same for photon mapping.
+    pub photon_mapping: Option<f64>,
 }
 
-/// The block means of each render: red, green and blue of one block after another.
-type BlockMeans = Vec<Vec<f64>>;
+/// Images of one size, each a list of red, green and blue line by line, and the processor seconds that each took.
+#[derive(Default, Deserialize)]
+struct Renders {
+    images: Vec<Vec<f64>>,
+    seconds: Vec<f64>,
+}
 
 impl Agreement {
     /// Compares all scenes; true if none is apart.
@@ -45,23 +65,43 @@ impl Agreement {
 
     /// Compares one scene and prints what was found.
     fn compare(&self, scene: &str) -> bool {
-        let started = Instant::now();
-        let (own, across) = self.pinhole(scene);
-        let half = Instant::now();
-        let theirs = self.mitsuba(scene);
-        let seconds = [(half - started).as_secs_f64(), half.elapsed().as_secs_f64()];
+        let mut seconds = [0.0; 2];
+        let mut whole = [Renders::default(), Renders::default()];
+        let mut width = 0;
+        let mut efficiencies = Vec::new();
+        for round in 0..self.rounds {
+            let started = Instant::now();
+            let own;
+            (own, width) = self.pinhole(scene, round);
+            let half = Instant::now();
+            let theirs = self.mitsuba(scene, round);
+            seconds[0] += (half - started).as_secs_f64();
+            seconds[1] += half.elapsed().as_secs_f64();
+            let truth = mean_image([&own, &theirs]);
+            let costs =
+                [&own, &theirs].map(|side| rel_mse(side, &truth) * mean_and_error(side.seconds.iter().copied()).0);
+            efficiencies.push((costs, (costs[1] / costs[0]).ln()));
+            for (side, more) in whole.iter_mut().zip([own, theirs]) {
+                side.images.extend(more.images);
+                side.seconds.extend(more.seconds);
+            }
+        }
+        let [own, theirs] =
+            whole.map(|side| side.images.iter().map(|image| block_means(image, width)).collect::<Vec<_>>());
+        let across = width / SIDE;
         let tests = own[0].len();
         assert!(own.iter().chain(&theirs).all(|means| means.len() == tests), "{scene}: images of different sizes");
         // Each side's spread is known from its own renders only, so the ratio follows Student's t rather than a normal
         // distribution.
-        let freedom = 2.0 * (self.runs - 1) as f64;
+        let freedom = 2.0 * (self.runs * self.rounds - 1) as f64;
         let limit = 1.0 - sidak(0.99, tests);
         let (mut squares, mut apart, mut worst, mut known) = (0.0, 0, (0.0_f64, 0), Vec::new());
         for test in 0..tests {
             let [(mean, error), (their_mean, their_error)] =
                 [&own, &theirs].map(|renders| mean_and_error(renders.iter().map(|means| means[test])));
             // A block of nothing but sky has no noise, only rounding.
-            let both = error.hypot(their_error).hypot(ROUNDING * their_mean);
+            let rounding = ROUNDING * f64::from(self.their_samples) * their_mean;
+            let both = error.hypot(their_error).hypot(rounding);
             let z = (mean - their_mean) / both;
             squares += z * z;
             apart += usize::from(2.0 * student_cdf(-z.abs(), freedom) < limit);
@@ -77,13 +117,14 @@ impl Agreement {
         let ratio_error = (error / mean).hypot(their_error / their_mean);
         let block = worst.1 / 3;
         println!(
-            "{scene}: {} blocks of {SIDE} × {SIDE} pixels in 3 channels, {} renders of {} samples each side; \
+            "{scene}: {} blocks of {SIDE} × {SIDE} pixels in 3 channels, {} renders of {} and {} samples; \
              (pinhole − Mitsuba) / SE: rms {:.2} (expected {:.2}), worst {:+.1} in block ({}, {}), {apart} of {tests} \
              apart at 1 % (Šidák); SE of a block {:.3} % (median), {:.3} % (worst); ratio of the means {:.5} ± {:.5}; \
              {:.0} s and {:.0} s",
             tests / 3,
-            self.runs,
+            self.runs * self.rounds,
             self.samples,
+            self.their_samples,
             (squares / tests as f64).sqrt(),
             (freedom / (freedom - 2.0)).sqrt(),
             worst.0,
@@ -96,48 +137,74 @@ impl Agreement {
             seconds[0],
             seconds[1],
         );
+        if self.rounds > 1 {
+            let [own, theirs] = [0, 1].map(|side| efficiencies.iter().map(|(costs, _)| costs[side]).sum::<f64>());
+            let logs: Vec<f64> = efficiencies.iter().map(|(_, log)| *log).collect();
+            let (low, middle, high) = interval(&logs);
+            println!(
+                "{scene}: relMSE · processor seconds {:.5} (pinhole), {:.5} (Mitsuba, {}); efficiency ratio {middle:.2} \
+                 [{low:.2}, {high:.2}] of {} rounds",
+                own / self.rounds as f64,
+                theirs / self.rounds as f64,
+                self.their_sampler,
+                self.rounds
+            );
+        }
         apart == 0
     }
 
-    /// Pinhole's renders, and how many blocks the image is wide.
-    fn pinhole(&self, scene: &str) -> (BlockMeans, usize) {
+    /// Pinhole's renders of a round, and how many pixels they are wide.
+    fn pinhole(&self, scene: &str, round: u64) -> (Renders, usize) {
         let file = folder().join(format!("{scene}.ron"));
-        let mut across = 0;
-        let mut render = |seed| -> Vec<f64> {
+        let mut width = 0;
+        let mut renders = Renders::default();
+        for run in 0..self.runs {
             let mut world = SceneFile::open(&file).unwrap_or_else(|problem| panic!("{problem}")).world();
             let camera = named(&mut world, "camera");
             if let Some(mut sampling) = world.get_mut::<Sampling>(camera) {
-                *sampling = Sampling { samples: self.samples, seed, ..*sampling };
+                let sampler = self.sampler.unwrap_or(sampling.sampler);
+                let seed = 500 + round * self.runs + run;
+                *sampling = Sampling { samples: self.samples, seed, sampler, ..*sampling };
             }
+            if let Some(paths) = self.light_tracing {
+                world.entity_mut(camera).insert(LightTracing { paths });
+            }
+            if let Some(paths) = self.photon_mapping {
+                world.entity_mut(camera).insert(PhotonMapping { paths, ..PhotonMapping::default() });
+            }
+            let started = ProcessTime::now();
             let mut render =
                 RenderInProgress::begin(&Census::of(&world), &offer(), &Execution::default()).expect("begins");
             render.advance(render.steps(), &()).expect("renders");
-            let image = numbers(&render.finish().film);
-            let [width, height] = image.size;
-            across = (width / SIDE) as usize;
-            let corners = (0..height / SIDE).flat_map(|y| (0..width / SIDE).map(move |x| [x * SIDE, y * SIDE]));
-            let mean = |[x, y]: [u32; 2], channel: usize| {
-                let rows = (y..y + SIDE).flat_map(|y| (x..x + SIDE).map(move |x| (y * width + x) as usize));
-                rows.map(|at| image.pixels[at][channel]).sum::<f64>() / f64::from(SIDE * SIDE)
+            let film = render.finish().film;
+            renders.seconds.push(started.elapsed().as_secs_f64());
+            width = film.width as usize;
+            // Not what is shown of a pixel, which is nothing below 0: paths of one wavelength have negative parts.
+            let mean = |x, y| {
+                let (tile, row) = film.place(x, y);
+                let splat = film.splats.is_some();
+                if splat { film.mean(x, y).map(f64::from) } else { film.tiles[tile].shown_f64(row) }
             };
-            corners.flat_map(|corner| [0, 1, 2].map(|channel| mean(corner, channel))).collect()
-        };
-        let means = (0..self.runs).map(|run| render(500 + run)).collect();
-        (means, across)
+            let pixels = (0..film.height).flat_map(|y| (0..film.width).map(move |x| (x, y)));
+            renders.images.push(pixels.flat_map(|(x, y)| mean(x, y)).collect());
+        }
+        (renders, width)
     }
 
-    /// Mitsuba's renders.
-    fn mitsuba(&self, scene: &str) -> BlockMeans {
+    /// Mitsuba's renders of a round.
+    fn mitsuba(&self, scene: &str, round: u64) -> Renders {
         let output = Command::new(&self.python)
             .arg(folder().join("mitsuba_scenes.py"))
             .arg(scene)
-            .args(["--variant", &self.variant, "--side", &SIDE.to_string()])
-            .args(["--samples", &self.samples.to_string(), "--runs", &self.runs.to_string()])
+            .args(["--variant", &self.variant, "--sampler", &self.their_sampler])
+            .args(["--samples", &self.their_samples.to_string(), "--runs", &self.runs.to_string()])
+            .args(["--seed", &(7001 + round * self.runs).to_string()])
+            .args(self.their_integrator.iter().flat_map(|own| ["--integrator", own]))
             .stderr(Stdio::inherit())
             .output()
             .expect("Python starts");
         let text = String::from_utf8_lossy(&output.stdout);
-        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{scene}: Mitsuba's block means: {error}: {text}"))
+        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{scene}: Mitsuba's images: {error}: {text}"))
     }
 }
 
@@ -152,4 +219,32 @@ fn mean_and_error(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     let mean = values.clone().sum::<f64>() / count;
     let squares: f64 = values.map(|value| (value - mean) * (value - mean)).sum();
     (mean, (squares / (count - 1.0) / count).sqrt())
+}
+
+/// Red, green and blue of one block after another.
+fn block_means(image: &[f64], width: usize) -> Vec<f64> {
+    let height = image.len() / 3 / width;
+    let corners = (0..height / SIDE).flat_map(|y| (0..width / SIDE).map(move |x| [x * SIDE, y * SIDE]));
+    let mean = |[x, y]: [usize; 2], channel: usize| {
+        let rows = (y..y + SIDE).flat_map(|y| (x..x + SIDE).map(move |x| y * width + x));
+        rows.map(|at| image[3 * at + channel]).sum::<f64>() / (SIDE * SIDE) as f64
+    };
+    corners.flat_map(|corner| [0, 1, 2].map(|channel| mean(corner, channel))).collect()
+}
+
+/// The mean of all renders of both sides.
+fn mean_image(sides: [&Renders; 2]) -> Vec<f64> {
+    let images = || sides.iter().flat_map(|side| &side.images);
+    let count = images().count() as f64;
+    (0..sides[0].images[0].len()).map(|at| images().map(|image| image[at]).sum::<f64>() / count).collect()
+}
+
+/// The mean over pixels and channels of the variance of a render over r² + 0.01.
+fn rel_mse(side: &Renders, truth: &[f64]) -> f64 {
+    let count = side.images.len() as f64;
+    let relative = |(at, truth): (usize, &f64)| {
+        let (_, error) = mean_and_error(side.images.iter().map(|image| image[at]));
+        count * error * error / (truth * truth + 0.01)
+    };
+    truth.iter().enumerate().map(relative).sum::<f64>() / truth.len() as f64
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The scenes of this folder in Mitsuba 3, written down a second time: prints the block means of several renders as JSON.
+"""The scenes of this folder in Mitsuba 3, written down a second time: prints several renders as JSON.
 
   mitsuba_scenes.py SCENE --samples 256 --runs 16 --variant llvm_ad_rgb
 
@@ -13,19 +13,30 @@ the base colour at normal incidence), and by way of F0 that of a dielectric; so 
 The sphere of roughness 0.1 has nothing else. What glTF's material has beside it in pinhole, light scattered by several
 microfacets and diffuse light below the dielectric, which Mitsuba has not or otherwise, is a BSDF in this file: the
 formulae of Kulla and Conty (2017), Fdez-Agüera (2019) and Kelemen and Szirmay-Kalos (2001), over albedos integrated here.
+fog_bodies, fog_room, fog_glass: homogeneous media, by volpath. Where two overlap, Mitsuba gets the sum of both.
+volpath samples distances by one channel of a path, so that rare paths count much where colours differ; volpathmis does not,
+but in 3.9.1 its Russian roulette is biased (a medium of albedo 1 in an even sky is 0.6 % too dark), so it gets none.
+dispersion: Mitsuba's index of refraction is one number. So a render is the sum of those of 64 wavelengths, each with the
+index that Schott's equation for SF11 gives it, weighted by Mitsuba's table of the CIE's colour-matching functions.
+caustic, pool: by path, or by ptracer for the first; the pool's water is its surface, between walls that are not of glass.
 """
 import argparse
 import json
 import os
 import sys
+import time
 
 parser = argparse.ArgumentParser()
 parser.add_argument('scene', choices=['cylinder', 'cone', 'torus', 'rough_glass', 'principled', 'ply_file',
-                                      'obj_file'])
+                                      'obj_file', 'fog_bodies', 'fog_room', 'fog_glass', 'dispersion', 'caustic',
+                                      'pool'])
 parser.add_argument('--samples', type=int, default=256)
 parser.add_argument('--runs', type=int, default=16)
-parser.add_argument('--side', type=int, default=16)
 parser.add_argument('--variant', default='llvm_ad_rgb')
+parser.add_argument('--seed', type=int, default=7001, help='of the first render')
+parser.add_argument('--sampler', default='independent')
+parser.add_argument('--integrator', help='another than the scene has')
+parser.add_argument('--index', type=float, help='the index of the glass of dispersion, at all wavelengths')
 parser.add_argument('--image', help='also writes the mean of all renders to this file')
 options = parser.parse_args()
 os.environ.setdefault('DRJIT_LIBLLVM_PATH', '/usr/lib/x86_64-linux-gnu/libLLVM.so.19.1')
@@ -56,10 +67,36 @@ def emitting(shape, *radiance):
     return {**shape, 'bsdf': matte(0, 0, 0), 'emitter': {'type': 'area', 'radiance': rgb(radiance)}}
 
 
-def rectangle(position, angle, width, depth):
-    """pinhole's lies in the xz plane and its front is +y; it is turned about x."""
-    turned = placed(position, (1, 0, 0), angle - 90) @ T().scale([width / 2, depth / 2, 1])
+def rectangle(position, angle, width, depth, axis=(1, 0, 0)):
+    """pinhole's lies in the xz plane and its front is +y."""
+    turned = placed(position, axis, angle) @ T().rotate([1, 0, 0], -90) @ T().scale([width / 2, depth / 2, 1])
     return {'type': 'rectangle', 'to_world': turned}
+
+
+def cuboid(to_world, width, height, depth):
+    return {'type': 'cube', 'to_world': to_world @ T().scale([width / 2, height / 2, depth / 2])}
+
+
+def sphere(position, radius):
+    return {'type': 'sphere', 'center': list(position), 'radius': radius}
+
+
+def glass(ior, outside=1.0):
+    return {'type': 'dielectric', 'int_ior': ior, 'ext_ior': outside}
+
+
+def medium(absorption, scattering, anisotropy=0.0):
+    """Mitsuba is told the extinction, as a colour and a factor, and what part of it is scattering."""
+    absorption, scattering = np.array(absorption), np.array(scattering)
+    extinction = absorption + scattering
+    scale = float(extinction.max())
+    return {'type': 'homogeneous', 'scale': scale, 'sigma_t': rgb(extinction / scale),
+            'albedo': rgb(scattering / extinction), 'phase': {'type': 'hg', 'g': float(anisotropy)}}
+
+
+def body(shape, *coefficients):
+    """A medium without a surface."""
+    return {**shape, 'bsdf': {'type': 'null'}, 'interior': medium(*coefficients)}
 
 
 def disk(to_world, height, radius):
@@ -249,7 +286,7 @@ def scene(name):
         'to_world': T().look_at([0, 2.4, 6], [0, 0.75, 0], [0, 1, 0]),
         'film': {'type': 'hdrfilm', 'width': 128, 'height': 96, 'rfilter': {'type': 'box'}, 'pixel_format': 'rgb',
                  'component_format': 'float32', 'sample_border': False},
-        'sampler': {'type': 'independent', 'sample_count': options.samples}}
+        'sampler': {'type': options.sampler, 'sample_count': options.samples}}
     whole = {
         'type': 'scene', 'camera': camera, 'integrator': {'type': 'path', 'max_depth': 8, 'rr_depth': 5},
         'sky': {'type': 'constant', 'radiance': rgb((0.3, 0.4, 0.6))},
@@ -285,6 +322,62 @@ def scene(name):
                 'type': 'sphere', 'center': [x, 0.65, 0], 'radius': 0.6,
                 'bsdf': {'type': 'roughdielectric', 'distribution': 'ggx', 'alpha': alpha, 'int_ior': 1.5,
                          'ext_ior': 1.0}}
+    elif name == 'fog_bodies':
+        whole['integrator'] = {'type': 'volpath', 'max_depth': 100, 'rr_depth': 5}
+        whole['point'] = {'type': 'point', 'position': [1.8, 2.2, 1.6], 'intensity': rgb((4, 5, 6))}
+        whole['ball'] = body(sphere((-1.5, 0.7, 0), 0.6), (0.8, 0.6, 0.4), (3.2, 2.4, 1.6), 0.7)
+        whole['cube'] = body(cuboid(placed((0, 0.55, -0.2), (0, 1, 0), 30), 1, 1, 1), (0.006, 0.006, 0.003),
+                             (5.994, 5.994, 2.997), -0.5)
+        whole['dark'] = body(sphere((1.5, 0.7, 0), 0.6), (1.6, 3.2, 4.8), (0.4, 0.8, 1.2))
+    elif name == 'fog_room':
+        fog, there = (np.array((0.16, 0.04, 0.0002)), np.array((0.04, 0.16, 0.1998))), {'type': 'ref', 'id': 'fog'}
+        whole = {'type': 'scene', 'fog': medium(*fog, 0.7), 'camera': {**camera, 'fov': 50, 'medium': there}}
+        whole['camera']['to_world'] = T().look_at([0, 2.0, 4.5], [0, 1.6, 0], [0, 1, 0])
+        whole['integrator'] = {'type': 'volpath', 'max_depth': 100, 'rr_depth': 5}
+        x, z = (1, 0, 0), (0, 0, 1)
+        for wall, (place, angle, width, depth, axis, colour) in enumerate([
+                ((0, 0, 1), 0, 6, 8, x, (0.5, 0.45, 0.4)), ((0, 4, 1), 0, 6, 8, x, (0.6, 0.6, 0.6)),
+                ((0, 2, -3), 90, 6, 4, x, (0.3, 0.5, 0.4)), ((0, 2, 5), 90, 6, 4, x, (0.4, 0.4, 0.4)),
+                ((-3, 2, 1), 90, 4, 8, z, (0.6, 0.2, 0.2)), ((3, 2, 1), 90, 4, 8, z, (0.2, 0.2, 0.6))]):
+            whole[f'wall{wall}'] = {**rectangle(place, angle, width, depth, axis), 'bsdf': matte(*colour)}
+        whole['lamp'] = emitting(rectangle((-1, 3.9, 0), 180, 1.5, 1.5), 12, 11, 10)
+        whole['point'] = {'type': 'point', 'position': [1.3, 2.6, -1], 'intensity': rgb((4, 5, 6)), 'medium': there}
+        whole['ball'] = {**sphere((-1.3, 0.6, -1), 0.6), 'bsdf': matte(0.7, 0.7, 0.3)}
+        whole['glass'] = {**sphere((0, 0.61, 0.3), 0.6), 'bsdf': glass(1.5), 'exterior': there}
+        # Of 9 times the fog's coefficients, in the fog.
+        both = body(sphere((1.4, 1.2, -0.6), 0.7), 10 * fog[0], 10 * fog[1], 0.7)
+        whole['cloud'] = {**both, 'exterior': there}
+    elif name == 'fog_glass':
+        whole['integrator'] = {'type': 'volpath', 'max_depth': 100, 'rr_depth': 5}
+        rough = {'type': 'roughdielectric', 'distribution': 'ggx', 'alpha': 0.3, 'int_ior': 1.5, 'ext_ior': 1.0}
+        whole['ball'] = {**body(sphere((-1.5, 0.65, 0), 0.6), (0.8, 0.6, 0.4), (3.2, 2.4, 1.6), 0.7), 'bsdf': glass(1.5)}
+        whole['rough'] = {**body(sphere((0, 0.65, 0), 0.6), (0.003, 0.003, 0.002), (2.997, 2.997, 1.998), -0.5),
+                          'bsdf': rough}
+        whole['dark'] = {**body(sphere((1.5, 0.65, 0), 0.6), (0.8, 1.6, 2.4), (0.2, 0.4, 0.6)), 'bsdf': glass(1.5)}
+    elif name == 'dispersion':
+        whole['strip'] = emitting(cylinder(placed((2.03, 3.02, -1.86)), 0.06, 6), 12, 11, 10)
+        flint = glass(options.index or 1.5)
+        whole['ball'] = {**sphere((1, 0.65, 0.8), 0.6), 'bsdf': flint}
+        path = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'prism.ply')
+        whole['prism'] = {'type': 'ply', 'filename': path, 'face_normals': True, 'to_world': placed((-1.2, 0.1, 0.5)),
+                          'bsdf': flint}
+    elif name == 'caustic':
+        whole['camera'] = {**camera, 'fov': 16, 'to_world': T().look_at([0.27, 0.6, 2.6], [0.27, 0, -0.18], [0, 1, 0])}
+        whole['lamp'] = emitting(sphere((-0.6, 3.4, 0.4), 0.15), 120, 110, 100)
+        whole['ball'] = {**sphere((0, 1.2, 0), 0.5), 'bsdf': glass(1.5)}
+        del whole['sky']
+    elif name == 'pool':
+        whole['camera'] = {**camera, 'fov': 38, 'to_world': T().look_at([0, 4.2, 6.4], [0, 0, 0.2], [0, 1, 0])}
+        whole['integrator']['max_depth'] = 12
+        whole['floor'] = {**rectangle((0, -1, 0), 0, 40, 40), 'bsdf': matte(0.55, 0.65, 0.7)}
+        for wall, (x, z, width, depth) in enumerate([
+                (0, -2.15, 5.2, 0.3), (0, 2.15, 5.2, 0.3), (-2.45, 0, 0.3, 4), (2.45, 0, 0.3, 4)]):
+            whole[f'wall{wall}'] = {**cuboid(placed((x, -0.4, z)), width, 1.2, depth), 'bsdf': matte(0.7, 0.68, 0.65)}
+        whole['water'] = {**rectangle((0, -0.1, 0), 0, 4.6, 4), 'bsdf': glass(1.33)}
+        whole['ball'] = {**sphere((0.9, -0.55, 0.1), 0.4), 'bsdf': glass(1.5, 1.33)}
+        whole['buoy'] = {**sphere((-0.9, -0.1, 0.4), 0.35), 'bsdf': matte(0.9, 0.3, 0.1)}
+        whole['lamp'] = emitting(sphere((-1.6, 4, -1), 0.25), 210, 195, 175)
+        del whole['sky']
     else:
         gold = (0.9, 0.6, 0.2)
         metal = {'type': 'principled', 'base_color': rgb(gold), 'metallic': 1.0, 'roughness': 0.1}
@@ -295,19 +388,64 @@ def scene(name):
     return whole
 
 
-def block_means(image):
-    height, width, channels = image.shape
-    side = options.side
-    blocks = image.reshape(height // side, side, width // side, side, channels)
-    return blocks.mean((1, 3)).ravel().tolist()
+def sf11(wavelength):
+    """The index of refraction by the equation of Schott's data sheet, at a wavelength in nm."""
+    square = (1e-3 * wavelength)**2
+    terms = ((1.73848403, 0.0136068604), (0.311168974, 0.0615960463), (1.17490871, 121.922711))
+    return np.sqrt(1 + sum(b * square / (square - c) for b, c in terms))
 
 
-loaded = mi.load_dict(scene(options.scene))
-means, total = [], 0
+def colours():
+    """What each nanometre from 380 to 780 adds to red, green and blue, such that all together are white."""
+    wavelengths = 380.5 + np.arange(400)
+    xyz = np.array(mi.cie1931_xyz(mi.Float(wavelengths))).reshape(3, -1)
+    to_rgb = np.array([[3.240479, -1.537150, -0.498535], [-0.969256, 1.875991, 0.041556],
+                       [0.055648, -0.204043, 1.057311]])
+    weights = to_rgb @ xyz
+    return weights / weights.sum(1, keepdims=True)
+
+
+def with_dispersion(loaded, seed, strata=64):
+    """The mean over one wavelength of each stratum, by a pdf in proportion to what it adds to all channels.
+
+    It is divided by that of their weights, so that the sky has no noise.
+    """
+    params, random = mi.traverse(loaded), np.random.default_rng(seed)
+    glasses = [key for key in params.keys() if key.endswith('eta')]
+    weights, total, white = colours(), 0, 0
+    pdf = abs(weights).sum(0)
+    pdf /= pdf.sum()
+    numbers = (np.arange(strata) + random.random(strata)) / strata
+    intervals = np.minimum(np.searchsorted(np.cumsum(pdf), numbers), 399)
+    for k, interval in enumerate(intervals):
+        for key in glasses:
+            params[key] = float(sf11(380.5 + interval))
+        params.update()
+        image = np.array(mi.render(loaded, spp=options.samples // strata, seed=seed * strata + k), dtype=np.float64)
+        weight = weights[:, interval] / pdf[interval]
+        total, white = total + image[..., :3] * weight, white + weight
+    return total / white
+
+
+def render(loaded, seed):
+    if options.scene == 'dispersion' and not options.index:
+        return with_dispersion(loaded, seed)
+    return np.array(mi.render(loaded, spp=options.samples, seed=seed), dtype=np.float64)[..., :3]
+
+
+whole = scene(options.scene)
+if options.integrator:
+    whole['integrator']['type'] = options.integrator
+    if options.integrator == 'volpathmis':
+        whole['integrator']['rr_depth'] = whole['integrator']['max_depth']
+loaded = mi.load_dict(whole)
+# Its kernels are compiled here, and not where time is taken.
+mi.render(loaded, spp=options.samples, seed=options.seed - 1).numpy()
+images, seconds = [], []
 for run in range(options.runs):
-    image = np.array(mi.render(loaded, spp=options.samples, seed=7001 + run), dtype=np.float64)[..., :3]
-    means.append(block_means(image))
-    total = total + image / options.runs
+    started = time.process_time()
+    images.append(render(loaded, options.seed + run))
+    seconds.append(time.process_time() - started)
 if options.image:
-    mi.Bitmap(total.astype(np.float32)).write(options.image)
-json.dump(means, sys.stdout)
+    mi.Bitmap(np.mean(images, 0).astype(np.float32)).write(options.image)
+json.dump({'images': [np.float32(image).ravel().tolist() for image in images], 'seconds': seconds}, sys.stdout)
