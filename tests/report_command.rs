@@ -113,6 +113,7 @@ fn asked(line: &str) -> Result<String, String> {
 fn what_cannot_be_compared_is_refused_in_a_sentence() {
     let cases = [
         ("report 18 --against sampler=magic", "there is no sampler \"magic\"; there are "),
+        ("report 18 --against method=magic", "there is no method \"magic\"; there are path_tracing, light_tracing, "),
         ("report 18 --against lights=magic", "there is no light strategy \"magic\"; there are bsdf, light, mis"),
         (
             "report 18 --against lights=light",
@@ -121,7 +122,7 @@ fn what_cannot_be_compared_is_refused_in_a_sentence() {
         ("report 18 --against filter=magic", "there is no filter \"magic\"; there are "),
         (
             "report 18 --against size=3",
-            "--against takes a chapter, a scene file, sampler=NAME, filter=NAME or lights=NAME, and size",
+            "--against takes a chapter, a scene file, sampler=NAME, filter=NAME, lights=NAME or method=NAME, and size",
         ),
         ("report 18 --against filter=box --against filter=box", "box is named twice"),
         ("report nothing", "there is no chapter \"nothing\""),

@@ -16,7 +16,7 @@ use pinhole::scene::{
     BidirectionalPathTracing, Filter, Integrator, LightStrategy, LightTracing, PhotonMapping, Resolution, Sampler,
     Sampling, scene_text,
 };
-use pinhole::{Chapter, Overrides};
+use pinhole::{Chapter, Overrides, stages};
 use pinhole_lab::report::kept::{keep, kept};
 use pinhole_lab::report::ladder::Ladder;
 use pinhole_lab::report::page::page;
@@ -275,7 +275,15 @@ pub(super) fn variants<'c>(
                     }
                     world
                 });
-                Variant { scene, ..of(subject, (*word).into(), &|_| (), 0)? }
+                // A chapter need not offer what another method takes.
+                let mut stages = subject.stages();
+                let of_methods =
+                    [stages::light_tracing(), stages::photon_mapping(), stages::bidirectional_path_tracing()];
+                for stage in of_methods.into_iter().flatten().filter(|own| !stages.contains(own)).collect::<Vec<_>>() {
+                    stages.push(stage);
+                }
+                stages::sort(&mut stages);
+                Variant { scene, stages, ..of(subject, (*word).into(), &|_| (), 0)? }
             }
             Rival::Subject(other) => of(other, other.stem(), &|_| (), own)?,
         };

@@ -325,6 +325,18 @@ fn what_cannot_be_joined_is_said_in_a_sentence() {
     }
 }
 
+/// What the vertices of a sample take is counted before anything is allocated.
+#[test]
+fn more_vertices_than_fit_are_refused() {
+    let mut world = joined(&|| caustics(true))();
+    let camera = named(&mut world, "camera");
+    let size = Resolution { width: 8192, height: 8192 };
+    world.entity_mut(camera).insert((BidirectionalPathTracing { paths: 1024.0 }, size));
+    let said = render(&world, &offer(), &Execution::default(), &()).err().expect("refused").to_string();
+    eprintln!("{said}");
+    assert!(said.contains("light vertices") && said.contains("fits") && said.lines().count() == 1, "{said}");
+}
+
 /// One path for a thousand pixels or a thousand for one, lamps of one point and lamps as large as the scene, paths of
 /// thousands of segments.
 #[test]
@@ -361,7 +373,7 @@ fn a_scene_without_it_has_nothing_of_it() {
     let plan_of = |scene: &World| pinhole::plan::plan(&Census::of(scene), &offer()).expect("a plan");
     let kept = |scene: &World| {
         let plan = plan_of(scene);
-        let stages = plan.rows.iter().filter(|row| row.kept && is_of_it(&row.stage)).count();
+        let stages = plan.rows.iter().filter(|row| row.kept && is_of_it(row.stage)).count();
         let columns = ["light vertices", "recursive MIS", "join ratios", "started on"];
         [stages, plan.columns.iter().filter(|column| columns.contains(&column.name)).count()]
     };

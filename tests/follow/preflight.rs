@@ -368,6 +368,8 @@ fn emission_that_no_stage_on_offer_adds_is_refused() {
     for chapter in chapters::all().into_iter().filter(follows) {
         let mut world = chapter.world(&Overrides::default());
         let camera = camera_entity(&world).expect("a camera");
+        // Paths that are joined need MIS, and say so.
+        world.entity_mut(camera).remove::<BidirectionalPathTracing>();
         let by = |lights| Integrator::Path { max_depth: 3, lights, roulette: 0 };
         for (lights, is_refused) in [(LightStrategy::Mis, false), (LightStrategy::Bsdf, true)] {
             world.entity_mut(camera).insert(by(lights));

@@ -21,7 +21,7 @@ struct Case {
 }
 
 const PLAIN: Case = Case { name: "", chapter: "", samples: 70, filter: None, error: None, layers: false };
-const CASES: [Case; 12] = [
+const CASES: [Case; 13] = [
     Case { name: "ray casting, one ray a pixel", chapter: "05_pinhole", samples: 0, ..PLAIN },
     Case { name: "ray casting, layers", chapter: "10_light_and_shadow", samples: 150, layers: true, ..PLAIN },
     Case { name: "Whitted", chapter: "20_glass", ..PLAIN },

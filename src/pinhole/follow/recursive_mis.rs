@@ -87,7 +87,7 @@ const MAX: f64 = 1e200;
 /// A squared ratio that is finite and not NaN.
 #[inline(always)]
 pub(super) fn bounded(square: f64) -> f64 {
-    square.max(0.0).min(MAX)
+    if square > 0.0 { square.min(MAX) } else { 0.0 }
 }
 
 /// The square of a ratio.

@@ -37,7 +37,7 @@ pub fn film_bytes_per_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, Scen
         film += (PHOTON_BYTES as f64 * scene.table::<LightTracingTable>()?.paths).ceil() as u64;
     }
     if plan.keeps::<LightVertices>() {
-        // Russian roulette leaves a path few vertices; it may have more in a white room, where they are white.
+        // Russian roulette leaves most paths few vertices; where all is white they may have more.
         let vertices = VERTICES * scene.table::<LightTracingTable>()?.paths;
         film += (LIGHT_VERTEX_BYTES as f64 * vertices).ceil() as u64;
     }
@@ -69,7 +69,11 @@ pub fn check_film_fits(scene: &Census<'_>, plan: &Plan) -> Result<(), SceneError
     check_memory(pixels * a_pixel).map_err(|too_little| {
         let who = crate::extract::camera_entity(scene)
             .map_or("camera".into(), |own| format!("camera {}", called(scene, own)));
-        let what = if plan.keeps::<Photons>() { "such a film with its photons" } else { "such a film" };
+        let what = match (plan.keeps::<Photons>(), plan.keeps::<LightVertices>()) {
+            (true, _) => "such a film with its photons",
+            (_, true) => "such a film with its light vertices",
+            _ => "such a film",
+        };
         let accepted = format!("{what} {too_little}; {}", fitting([width, height], a_pixel, too_little));
         SceneError::new(who, "resolution", format!("{width} × {height}"), accepted)
     })

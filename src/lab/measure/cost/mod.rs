@@ -85,7 +85,7 @@ impl fmt::Display for Cost {
                 Some([low, median, high]) => (format!("{median:.2}"), format!("{low:.2} to {high:.2}")),
                 None => ("-".into(), "-".into()),
             };
-            writeln!(f, "{stage:<31}{rows:>8}{median:>9}{range:>18}   {error}")?;
+            writeln!(f, "{stage:<30} {rows:>8}{median:>9}{range:>18}   {error}")?;
         }
         Ok(())
     }
