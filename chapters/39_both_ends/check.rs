@@ -50,10 +50,10 @@ fn mistakes() -> Mistakes<Input, f64> {
         .say("that is the balance heuristic squared; square each pdf, and then add")
         .when(|&[a, b, c]| 1.0 / (1.0 + a * (1.0 + b * (1.0 + c))).powi(2))
         .say(
-            "each ratio is to the way before it, not to the first: p₂/p₀ is the product of two of them, p₃/p₀ of three",
+            "the ratios are not multiplied; each is to the way before it, so that p₂/p₀ is the product of two of them",
         )
         .when(|&[a, b, c]| 1.0 / (1.0 + a * a + b * b + c * c))
-        .say("each ratio is to the way before it, so they are multiplied; and each pdf is squared")
+        .say("the ratios are neither multiplied nor squared; p₂/p₀ is the product of two of them, and each pdf is squared")
         .when(|&[a, b, c]| 1.0 / (1.0 + a + b + c))
         .say("the first way itself is missing from the sum: its square over itself is 1")
         .when(|&[a, b, c]| 1.0 / ways(a, b, c))
