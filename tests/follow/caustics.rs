@@ -243,6 +243,14 @@ fn light_from_area_lights_brings_what_the_camera_s_paths_bring() {
     agrees("cornell-glass", &make, 8);
 }
 
+/// Asserts that a scene is refused in one sentence that holds these words, and gives the sentence.
+pub(super) fn assert_refused(world: &World, words: &str) -> String {
+    let said = render(world, &offer(), &Execution::default(), &()).err().expect("refused").to_string();
+    eprintln!("{said}");
+    assert!(said.contains(words) && !said.ends_with('.') && said.lines().count() == 1, "{said}");
+    said
+}
+
 /// Asserts that a scene of so many samples gives the bits of one whole render however its steps are divided, stopped and
 /// continued from a checkpoint, by how many threads, in tiles of what size; returns the number of ways.
 pub(super) fn assert_same_bits_however_divided(scene: &World, samples: u32, folder: &std::path::Path) -> u32 {
@@ -387,9 +395,7 @@ fn what_light_tracing_cannot_do_is_said_in_a_sentence() {
         let mut world = traced(|| caustics(true))();
         let camera = named(&mut world, "camera");
         change(&mut world, camera);
-        let said = render(&world, &offer(), &Execution::default(), &()).err().expect("refused").to_string();
-        eprintln!("{said}");
-        assert!(said.contains(word) && !said.ends_with('.') && said.lines().count() == 1, "{said}");
+        assert_refused(&world, word);
     }
 }
 

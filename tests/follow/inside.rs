@@ -305,7 +305,7 @@ fn light_is_absorbed_by_all_that_it_passes_through() {
                 [(Seen::Parallel, 0.4), (Seen::Perspective, 0.4), (Seen::Lens, 1.7), (Seen::Fisheye, 1.2)]
             {
                 let (expected, by_paths, by_both) = closed_form(&bodies, light, seen, height);
-                let make = |traced: bool| {
+                let make = |more: fn(&mut EntityWorldMut<'_>)| {
                     let mut world = stage(&bodies, seen, height, number % 2 == 0);
                     light.spawn(&mut world);
                     let camera = named(&mut world, "camera");
@@ -377,7 +377,7 @@ const EMITTERS: [(&str, fn(&mut World) -> Entity); 9] = [
 ];
 
 /// Every light with an area in every arrangement: light sampling, BSDF sampling and both agree with each other, and light
-/// tracing with them, in ink and in glass that bends light.
+/// tracing and joined paths with them, in ink and in glass that bends light.
 #[test]
 fn strategies_agree_inside_glass() {
     let (mut tried, mut worst, mut known_to) = (0, 0.0_f64, Vec::new());
@@ -397,7 +397,7 @@ fn strategies_agree_inside_glass() {
                     AnyShape { glass: Glass { ior, ..body.glass }, ..*body }
                 })
                 .collect();
-            let make = |traced: bool| {
+            let make = |more: fn(&mut EntityWorldMut<'_>)| {
                 let mut world = stage(&bodies, Seen::Perspective, 0.4, number % 2 == 0);
                 let emissive = Emissive { radiance: Rgb { r: 6.0, g: 9.0, b: 12.0 }, ..Emissive::default() };
                 let scale = match kind {
@@ -409,20 +409,22 @@ fn strategies_agree_inside_glass() {
                 let lamp = spawn(&mut world);
                 world.entity_mut(lamp).insert((placement, emissive));
                 let camera = named(&mut world, "camera");
-                if traced {
-                    world.entity_mut(camera).insert(LightTracing { paths: 4.0 });
-                }
+                more(&mut world.entity_mut(camera));
                 world
             };
             let path = |lights| Integrator::Path { max_depth: 48, lights, roulette: 0 };
-            let methods = [
-                (LightStrategy::Bsdf, false, 128),
-                (LightStrategy::Light, false, 32),
-                (LightStrategy::Mis, false, 32),
-                (LightStrategy::Mis, true, 32),
+            type Ask = fn(&mut EntityWorldMut<'_>);
+            let traced: Ask = |camera| _ = camera.insert(LightTracing { paths: 4.0 });
+            let joined: Ask = |camera| _ = camera.insert(BidirectionalPathTracing::default());
+            let methods: [(LightStrategy, Ask, u32); 5] = [
+                (LightStrategy::Bsdf, |_| (), 128),
+                (LightStrategy::Light, |_| (), 32),
+                (LightStrategy::Mis, |_| (), 32),
+                (LightStrategy::Mis, traced, 32),
+                (LightStrategy::Mis, joined, 32),
             ];
             // Light sampling alone has no part in what BSDF sampling finds behind glass.
-            let measured = methods.map(|(lights, traced, samples)| mean_of(&|| make(traced), path(lights), samples, 4));
+            let measured = methods.map(|(lights, more, samples)| mean_of(&|| make(more), path(lights), samples, 4));
             for (at, (mean, error)) in measured.iter().enumerate().skip(1) {
                 let (first, spread) = &measured[0];
                 for part in 0..3 {

@@ -219,8 +219,10 @@ pub struct LightVertexMap {
     vertices: Vec<LightVertex>,
     /// Where those of each path begin, and the end.
     first: Vec<u32>,
-    /// The width of the image and the number of its pixels, between which the paths are divided.
-    image: [u64; 2],
+    /// The width of the image, between whose pixels the paths are divided.
+    width: u32,
+    /// How many paths there are for each.
+    paths_a_pixel: f64,
 }
 
 impl Table for LightVertexMap {
@@ -256,7 +258,8 @@ impl LightVertexMap {
                 *place += 1;
             }
         }
-        Self { vertices, first, image: [u64::from(width), u64::from(width) * u64::from(height)] }
+        let pixels = f64::from(width) * f64::from(height);
+        Self { vertices, first, width, paths_a_pixel: paths as f64 / pixels }
     }
 
     // ANCHOR: path_of_pixel
@@ -266,13 +269,9 @@ impl LightVertexMap {
     /// where there are enough.
     #[inline(always)]
     pub fn of_pixel(&self, [x, y]: [u32; 2]) -> &[LightVertex] {
-        let paths = self.first.len().saturating_sub(1) as u64;
-        if paths == 0 {
-            return &[];
-        }
-        let pixel = u64::from(y) * self.image[0] + u64::from(x);
-        let path = (u128::from(pixel) * u128::from(paths) / u128::from(self.image[1])) as usize;
-        let path = path.min(paths as usize - 1);
+        let Some(last) = self.first.len().checked_sub(2) else { return &[] };
+        let pixel = u64::from(y) * u64::from(self.width) + u64::from(x);
+        let path = ((pixel as f64 * self.paths_a_pixel) as usize).min(last);
         &self.vertices[self.first[path] as usize..self.first[path + 1] as usize]
     }
     // ANCHOR_END: path_of_pixel
@@ -296,7 +295,6 @@ pub struct JoinView {
 
 /// A shadow ray to a light vertex.
 struct Join {
-    origin: Vec3,
     direction: Vec3,
     distance: f64,
     irradiance: [f64; 3],
@@ -346,7 +344,6 @@ fn join_vertex<B: Bsdf>(
     let back = squared(reverse_pdf(bsdf, &context, onward, to_source));
     let known = bounded(vertex.arrival + vertex.earlier * back);
     Some(Join {
-        origin: origin.as_vec3(),
         direction: direction.as_vec3(),
         distance: square.sqrt(),
         irradiance: [0, 1, 2].map(|part| vertex.power[part] * scattered[part] * geometry),
@@ -358,6 +355,8 @@ fn join_vertex<B: Bsdf>(
 
 // ANCHOR: join_vertices
 /// Appends a ray from every surface to each vertex with this BSDF of its pixel's light path.
+///
+/// Every ray is written, and the next one overwrites it unless it carries light.
 pub fn join_vertices<B: Bsdf>(
     (materials, bsdf): (Res<Shared<MaterialTable>>, Res<Shared<B>>),
     (map, integrator): (Res<Shared<LightVertexMap>>, Res<Shared<IntegratorTable>>),
@@ -366,45 +365,43 @@ pub fn join_vertices<B: Bsdf>(
     for view in &mut tiles {
         let JoinViewItem { tile, depth, samples, paths, surfaces, shading, list, far, mut rays, mut ratios } = view;
         let behind: &[u32] = far.map_or(&[], |far| &far.row);
+        let vertices_of = |row: u32| map.of_pixel(pixel_of_row(tile, samples, Some(paths), row as usize));
+        let all = list.row.iter().chain(behind).map(|&row| vertices_of(row).len()).sum::<usize>();
+        let mut at = rays.rows();
+        let (path, mut origins, mut directions, t_max, mut irradiance) = rays.slices_mut(at + all);
+        let (row_of_ratios, onward, reverse) = ratios.slices_mut(at + all);
         for (rows, side) in [(&list.row[..], 1.0), (behind, -1.0)] {
-            for &row in rows {
-                let (of, row) = (row, row as usize);
-                let vertices = map.of_pixel(pixel_of_row(tile, samples, Some(paths), row));
-                if vertices.is_empty() {
-                    continue;
-                }
+            for &of in rows {
+                let row = of as usize;
                 let surface = surfaces.get(row);
                 let normal = surface.normal * side as f32;
                 let shaded = shading.map_or(surface.normal.as_dvec3(), |shading| shading.get(row)) * side;
-                let origin = offset_origin(surface.position, normal, surface.bound).as_dvec3();
-                for vertex in vertices {
-                    let (kind, bsdf_row) =
-                        (materials.kind[vertex.material as usize], materials.row[vertex.material as usize]);
+                let origin = offset_origin(surface.position, normal, surface.bound);
+                let ends = [origin.as_dvec3(), normal.as_dvec3(), shaded];
+                for vertex in vertices_of(of) {
+                    let material = vertex.material as usize;
                     let segments = depth.0.saturating_add(2).saturating_add(vertex.segments);
-                    if kind != B::KIND || segments > integrator.max_depth {
+                    if materials.kind[material] != B::KIND || segments > integrator.max_depth {
                         continue;
                     }
-                    let ends = [origin, normal.as_dvec3(), shaded];
-                    let Some(join) = join_vertex(&**bsdf, vertex, bsdf_row as usize, ends) else { continue };
-                    append(&mut rays, of, &join);
-                    ratios.append(of, join.onward, join.reverse);
+                    let Some(join) = join_vertex(&**bsdf, vertex, materials.row[material] as usize, ends) else {
+                        continue;
+                    };
+                    (path[at], row_of_ratios[at]) = (of, of);
+                    origins.put(at, origin);
+                    directions.put(at, join.direction);
+                    t_max[at] = shadow_t_max(join.distance);
+                    irradiance.put(at, join.irradiance.map(|part| part.min(f64::from(f32::MAX)) as f32));
+                    (onward[at], reverse[at]) = (join.onward, join.reverse);
+                    at += 1;
                 }
             }
         }
+        rays.slices_mut(at);
+        ratios.slices_mut(at);
     }
 }
 // ANCHOR_END: join_vertices
-
-#[inline(always)]
-fn append(rays: &mut ShadowRays, row: u32, join: &Join) {
-    let at = rays.rows();
-    let (rows, mut origin, mut direction, t_max, mut irradiance) = rays.slices_mut(at + 1);
-    rows[at] = row;
-    origin.put(at, join.origin);
-    direction.put(at, join.direction);
-    t_max[at] = shadow_t_max(join.distance);
-    irradiance.put(at, join.irradiance.map(|part| part.min(f64::from(f32::MAX)) as f32));
-}
 
 /// The stage that joins surfaces to light vertices with a BSDF.
 pub fn join_stage<B: Bsdf>() -> Stage {

@@ -95,14 +95,19 @@ pub fn add_mis_emission(
 
 /// The stage that runs [`add_mis_emission`], the alternative to adding emission in full.
 pub fn mis_emission_stage() -> Stage {
-    Stage::new("Add emission, weighted by MIS", TileSystems::Shade, add_mis_emission)
+    at_emitters(Stage::new("Add emission, weighted by MIS", TileSystems::Shade, add_mis_emission))
+        .reads_where::<CausticPaths>(caustics_evidence)
+        .when(mis_emission_evidence)
+}
+
+/// A stage that weights the emission which camera paths find, with what it may have to know of the lamp.
+pub(super) fn at_emitters(stage: Stage) -> Stage {
+    stage
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .reads_where::<SurfaceSides>(one_sided_evidence)
-        .reads_where::<CausticPaths>(caustics_evidence)
         .reads_where::<HitPrimitives>(primitive_evidence)
         .reads_where::<PreviousSurfaces>(previous_surface_evidence)
-        .when(mis_emission_evidence)
 }
 
 /// Evidence that some emitting surfaces are sampled as lights, so that their emission must not be counted twice.

@@ -10,14 +10,14 @@
 //! Writes: [`RecursiveMis`], [`JoinRatios`], and the weights of [`ShadowRays`].
 //! Space: 1/pdf in the units of area and solid angle; what is joined has none.
 
+use super::Scattered;
 use super::bsdf::{at_interfaces, shading_context, transport};
+use super::emission::at_emitters;
 use super::interface::{Interface, InterfaceView};
 use super::light_paths::StartedOn;
-use super::{Scattered, previous_surfaces::previous_surface_evidence};
 use crate::extract::{
     AreaLightTable, CameraJoinTable, EmissiveTable, GlassTable, LightPathTable, LightTracingTable, MaterialTable,
-    bidirectional_evidence, bsdf_evidence, emissive_evidence, lens_evidence, luminance, one_sided_evidence,
-    primitive_evidence,
+    bidirectional_evidence, bsdf_evidence, emissive_evidence, lens_evidence, luminance,
 };
 use crate::follow::PreviousSurfaces;
 use crate::intersect::{EmissiveRows, HitPrimitives, Hits, NO_SHAPE, ShadingNormals, Surface, SurfaceSides, Surfaces};
@@ -44,7 +44,7 @@ column! {
 }
 
 impl RecursiveMis {
-    /// Grey, brighter where other ways are more likely.
+    /// Grey, brighter where other ways have a higher pdf.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         let sum = (self.arrival[row] + self.earlier[row]).sqrt();
         [(sum / (1.0 + sum)) as f32; 3]
@@ -70,14 +70,6 @@ impl JoinRatios {
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         let [onward, reverse] = [self.onward[row], self.reverse[row]].map(|own| (own / (1.0 + own)) as f32);
         [onward, reverse, 0.0]
-    }
-
-    /// Appends the ratios of a ray.
-    #[inline(always)]
-    pub(super) fn append(&mut self, row: u32, onward: f64, reverse: f64) {
-        let at = self.rows();
-        let (rows, onwards, reverses) = self.slices_mut(at + 1);
-        (rows[at], onwards[at], reverses[at]) = (row, onward, reverse);
     }
 }
 
@@ -194,14 +186,15 @@ pub fn arrive_with_ratios(
 ) {
     for (mut view, lens, started) in &mut tiles {
         let (rays, paths) = (view.rays, view.paths);
+        // Paths from the camera have started on no light.
         match started.filter(|started| started.rows() > 0) {
-            Some(started) => view.arrive(|row, surface, cosine| {
-                let light = started.light[paths.first[row] as usize] as usize;
-                first_from_light((&starts, &areas), (light, rays.origin_of(row)), surface, cosine)
-            }),
             None => view.arrive(|row, surface, cosine| {
                 let lens = lens.map_or(DVec2::ZERO, |lens| lens.point(row));
                 first_from_camera(&join, tracing.each_sample, lens, surface.position.as_dvec3(), cosine)
+            }),
+            Some(started) => view.arrive(|row, surface, cosine| {
+                let light = started.light[paths.first[row] as usize] as usize;
+                first_from_light((&starts, &areas), (light, rays.origin_of(row)), surface, cosine)
             }),
         }
     }
@@ -481,11 +474,6 @@ pub fn add_found_emission(
 
 /// The stage that runs [`add_found_emission`].
 pub fn found_emission_stage() -> Stage {
-    Stage::new("Add emission, weighted against light paths", TileSystems::Shade, add_found_emission)
-        .on_camera_paths()
-        .kind(StageKind::Alternative)
-        .reads_where::<SurfaceSides>(one_sided_evidence)
-        .reads_where::<HitPrimitives>(primitive_evidence)
-        .reads_where::<PreviousSurfaces>(previous_surface_evidence)
+    at_emitters(Stage::new("Add emission, weighted against light paths", TileSystems::Shade, add_found_emission))
         .when(|scene| bidirectional_evidence(scene).and(|| emissive_evidence(scene)))
 }
