@@ -309,9 +309,7 @@ fn light_is_absorbed_by_all_that_it_passes_through() {
                     let mut world = stage(&bodies, seen, height, number % 2 == 0);
                     light.spawn(&mut world);
                     let camera = named(&mut world, "camera");
-                    if traced {
-                        world.entity_mut(camera).insert(LightTracing { paths: 8.0 });
-                    }
+                    more(&mut world.entity_mut(camera));
                     world
                 };
                 if !by_paths && !by_both {
@@ -328,24 +326,30 @@ fn light_is_absorbed_by_all_that_it_passes_through() {
                     // One after another; with more samples asked for, each everywhere.
                     methods = vec![methods[tried % methods.len()]];
                 }
-                let mut methods: Vec<_> = methods.into_iter().map(|integrator| (integrator, false)).collect();
+                type Ask = fn(&mut EntityWorldMut<'_>);
+                let mut methods: Vec<(_, &str, Ask, _)> =
+                    methods.into_iter().map(|integrator| (integrator, "paths", (|_| ()) as Ask, (4, 4))).collect();
                 // What paths from the camera do not find is for those from the lights.
                 if can_trace
                     && !by_paths
                     && (times_samples() > 1 || (number + light as usize + height as usize).is_multiple_of(3))
                 {
-                    methods.push((straight(LightStrategy::Mis), true));
+                    let traced: Ask = |camera| _ = camera.insert(LightTracing { paths: 8.0 });
+                    methods.push((straight(LightStrategy::Mis), "light tracing", traced, (64, 6)));
+                    if light != Delta::Sun {
+                        let joined: Ask = |camera| _ = camera.insert(BidirectionalPathTracing { paths: 8.0 });
+                        methods.push((straight(LightStrategy::Mis), "joined paths", joined, (64, 6)));
+                    }
                 }
-                for (integrator, traced) in methods {
-                    let (samples, seeds) = if traced { (64, 6) } else { (4, 4) };
-                    let (mean, error) = mean_of(&|| make(traced), integrator, samples, seeds);
+                for (integrator, by, more, (samples, seeds)) in methods {
+                    let (mean, error) = mean_of(&|| make(more), integrator, samples, seeds);
                     for part in 0..3 {
                         // The closed form is a sum of squares of the floor, good to a thousandth.
                         let allowed = 4.5 * error[part] + 2e-3 * expected[part];
                         let off = (mean[part] - expected[part]) / (error[part] + 5e-4 * expected[part]);
                         worst = worst.max(off.abs());
                         if !((mean[part] - expected[part]).abs() <= allowed) {
-                            failures.push(format!("{name}, {light:?}, {seen:?}, {integrator:?}, traced {traced}: {mean:?} ± {error:?} for {expected:?}"));
+                            failures.push(format!("{name}, {light:?}, {seen:?}, {integrator:?}, {by}: {mean:?} ± {error:?} for {expected:?}"));
                             break;
                         }
                     }
