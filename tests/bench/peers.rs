@@ -18,6 +18,9 @@
 //! `caustic` and `pool` are by path tracing, or with `--light-tracing 1` or `--photon-mapping 1`, and Mitsuba's `path`, or
 //! with `--their-integrator ptracer` the first; `--their-samples 4096` gives Mitsuba so many.
 //!
+//! `--stages` prints the nanoseconds a row of each stage of those scenes, on one thread, the median of as many renders as
+//! there are rounds; `--samples` says of how many samples.
+//!
 //! relMSE is the mean of (x − r)² / (r² + 0.01); the reference's own is subtracted from both sides.
 
 #![allow(clippy::disallowed_methods, reason = "what is measured here may come from the platform's functions")]
@@ -31,10 +34,11 @@ mod interval;
 mod scenes;
 
 use agree::Agreement;
-use interval::interval;
+use bevy_ecs::prelude::World;
+use interval::{interval, median};
 use pinhole::plan::Census;
-use pinhole::render::{Execution, RenderInProgress};
-use pinhole::scene::{Filter, LightStrategy, LightTracing, Sampler, Sampling};
+use pinhole::render::{Execution, RenderInProgress, Rendered, render};
+use pinhole::scene::{Filter, LightStrategy, LightTracing, Sampler, Sampling, Statistics};
 use pinhole_lab::measure::image_error::{Numbers, image_error};
 use pinhole_lab::measure::image_file::read_numbers;
 use pinhole_lab::report::distribution::student_cdf;
@@ -108,8 +112,8 @@ impl Options {
     }
 }
 
-/// One render: seconds, and the image.
-fn render_pinhole(scene: &str, options: &Options, samples: u32, seed: u64, sampler: Sampler) -> (f64, Numbers) {
+/// A scene with so many samples a pixel.
+fn scene_world(scene: &str, options: &Options, samples: u32, seed: u64, sampler: Sampler) -> World {
     let mut world = public(scene, LightStrategy::Mis);
     let camera = named(&mut world, "camera");
     // The references have each sample in its own pixel only.
@@ -118,11 +122,40 @@ fn render_pinhole(scene: &str, options: &Options, samples: u32, seed: u64, sampl
     if let Some(paths) = options.light_tracing {
         world.entity_mut(camera).insert(LightTracing { paths });
     }
+    world
+}
+
+/// One render: seconds, and the image.
+fn render_pinhole(scene: &str, options: &Options, samples: u32, seed: u64, sampler: Sampler) -> (f64, Numbers) {
+    let world = scene_world(scene, options, samples, seed, sampler);
     let started = Instant::now();
     let mut render = RenderInProgress::begin(&Census::of(&world), &offer(), &Execution::default()).expect("begins");
     render.advance(render.steps(), &()).expect("renders");
     let seconds = started.elapsed().as_secs_f64();
     (seconds, numbers(&render.finish().film))
+}
+
+/// Each stage's share of a scene's time and its nanoseconds a row.
+fn stages(scene: &str, options: &Options) {
+    let mut world = scene_world(scene, options, options.samples[0], 1, options.sampler);
+    let camera = named(&mut world, "camera");
+    world.entity_mut(camera).insert(Statistics);
+    let execution = Execution { threads: Some(1), ..Execution::default() };
+    let run = |_| render(&world, &offer(), &execution, &()).expect("renders");
+    let runs: Vec<Rendered> = (0..options.rounds).map(run).collect();
+    let laps = |slot: usize| {
+        let mut times: Vec<f64> = runs.iter().map(|run| run.laps[slot].time.as_secs_f64()).collect();
+        (median(&mut times), runs[0].laps[slot].rows)
+    };
+    let slots = 0..runs[0].plan.stages.len();
+    let whole: f64 = slots.clone().map(|slot| laps(slot).0).sum();
+    println!("{scene}: {whole:.3} s on one thread");
+    for slot in slots {
+        let (seconds, rows) = laps(slot);
+        let of_row = seconds * 1e9 / rows.max(1) as f64;
+        let name = runs[0].plan.stages[slot].name;
+        println!("  {name:<40} {:>5.1} % {rows:>10} rows {of_row:>8.2} ns a row", 100.0 * seconds / whole);
+    }
 }
 
 /// What the peers call a scene, and the mesh that they take for it.
@@ -189,6 +222,10 @@ fn main() {
         return;
     };
     for scene in &options.scenes {
+        if std::env::args().any(|word| word == "--stages") {
+            stages(scene, &options);
+            continue;
+        }
         let file = options.references.join(format!("{}.exr", of_peers(scene).0));
         let reference = read_numbers(&file).expect("a reference");
         converged(scene, &reference, &options);
