@@ -8,7 +8,7 @@ use super::svg::{Drawing, Svg};
 use glam::{DVec2, DVec3};
 use pinhole::Result;
 use pinhole::extract::{SamplingTable, SphereTable, camera_entity};
-use pinhole::material::{Bsdf, MetalTable, Parameters, ShadingContext, mirror_direction};
+use pinhole::material::{Bsdf, MaterialKind, MaterialTable, MetalTable, ShadingContext, mirror_direction};
 use pinhole::plan::{Census, Table};
 use pinhole::sample::{Draw, PixelKey, Purpose, SampleIndex, Sobol, unit};
 use pinhole::shapes::emitter::{sphere_pdf, sphere_point};
@@ -36,7 +36,7 @@ const MIN: f64 = 0.1;
 /// A point of metal that shows a spherical light.
 struct Case {
     metals: MetalTable,
-    row: usize,
+    context: ShadingContext,
     to_eye: DVec3,
     light: DVec3,
     radius: f64,
@@ -48,18 +48,22 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     camera_entity(&scene)?;
     let census = &Census::of(&scene);
     let pixel = PixelKey::new(SamplingTable::extract(census)?.seed, [240, 135]);
-    let metals = MetalTable::extract(census)?;
-    let mut rows: Vec<usize> = (0..metals.alpha.len()).collect();
-    rows.sort_by(|&a, &b| metals.alpha[b].total_cmp(&metals.alpha[a]));
+    let (metals, materials) = (MetalTable::extract(census)?, MaterialTable::extract(census)?);
+    let mut of_metals: Vec<ShadingContext> = (0..materials.kind.len())
+        .filter(|&material| materials.kind[material] == MaterialKind::Metal)
+        .map(|material| ShadingContext::opaque(materials.row[material] as usize, materials.parameters[material]))
+        .collect();
+    let alpha = |of: &ShadingContext| of.parameters.roughness;
+    of_metals.sort_by(|a, b| alpha(b).total_cmp(&alpha(a)));
     let mut radii: Vec<f64> = SphereTable::extract(census)?.row.iter().map(|sphere| sphere.radius).collect();
     radii.sort_by(f64::total_cmp);
-    let (&[wide, .., narrow], &[_, small, .., large]) = (&rows[..], &radii[..]) else {
+    let (&[wide, .., narrow], &[_, small, .., large]) = (&of_metals[..], &radii[..]) else {
         return Err(figure.unsuited("two metals and three spherical lights"));
     };
     let angle = EYE.to_radians();
     let to_eye = DVec3::new(-libm::sin(angle), 0.0, libm::cos(angle));
     let light = mirror_direction(-to_eye, DVec3::Z) * DISTANCE;
-    let case = |row, radius| Case { metals: metals.clone(), row, to_eye, light, radius };
+    let case = |context, radius| Case { metals: metals.clone(), context, to_eye, light, radius };
     let cases = [
         (["narrow lobe", "large light"], case(narrow, large)),
         (["narrow lobe", "small light"], case(narrow, small)),
@@ -93,20 +97,16 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
             svg.label(Label::near(DVec2::new(middle, y + MAP + 26.0), &told, DVec2::Y, 7.0).large());
         }
     }
-    let alphas = format!("α = {} and {}", metals.alpha[narrow], metals.alpha[wide]);
+    let alphas = format!("α = {} and {}", alpha(&narrow), alpha(&wide));
     let note = format!("metal of {alphas}, radius {large} and {small}");
     let foot = format!("scene {}, {note} · cargo run --release -- figure {}", chapter.name, figure.name);
     Ok(svg.finish(figure.about, &foot))
 }
 
 impl Case {
-    fn context(&self) -> ShadingContext {
-        ShadingContext::opaque(self.row, Parameters::default())
-    }
-
     /// The BSDF times the cosine.
     fn reflected(&self, to_light: DVec3) -> f64 {
-        self.metals.eval(&self.context(), to_light, self.to_eye)[0] * to_light.z.max(0.0)
+        self.metals.eval(&self.context, to_light, self.to_eye)[0] * to_light.z.max(0.0)
     }
 
     /// Whether a direction finds the light.
@@ -117,7 +117,7 @@ impl Case {
     /// The pdfs of a direction by both strategies: of the light's points, and of the BSDF.
     fn pdfs(&self, direction: DVec3) -> [f64; 2] {
         let by_light = if self.finds(direction) { sphere_pdf(self.light, self.radius) } else { 0.0 };
-        [by_light, self.metals.pdf(&self.context(), direction, self.to_eye)]
+        [by_light, self.metals.pdf(&self.context, direction, self.to_eye)]
     }
 
     /// A direction of one strategy, and what it brings of a light of radiance 1.
@@ -131,7 +131,7 @@ impl Case {
             return (direction, self.reflected(direction) / point.pdf);
         }
         let choice = unit(Sobol::of(sample, Purpose::MaterialChoice).one(pixel));
-        match self.metals.sample(&self.context(), self.to_eye, numbers, choice) {
+        match self.metals.sample(&self.context, self.to_eye, numbers, choice) {
             Some(sample) => (sample.to_light, if self.finds(sample.to_light) { sample.weight[0] } else { 0.0 }),
             None => (-DVec3::Z, 0.0),
         }

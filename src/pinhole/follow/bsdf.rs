@@ -5,8 +5,9 @@ use super::interface::{Interface, InterfaceView};
 use super::media::{deeper_media_evidence, media_evidence};
 use super::photons::gather_photons_stage;
 use super::recursive_mis::{join_weight_stage, leave_with_ratios_stage};
+use super::scatter_block::{AT_ONCE, SampledBlock, SampledColumns, ScatteredBlock};
 use super::specular::{specular_from_lights_stage, specular_stage, split_stage};
-use super::{DeeperMedia, Media, Scattered, ScatteredRay, power_heuristic};
+use super::{DeeperMedia, Media, Scattered, power_heuristic};
 use crate::extract::{
     GlassTable, MaterialTable, NO_ROW, SamplingTable, ShapeTable, area_light_evidence, bidirectional_evidence,
     bsdf_evidence, environment_light_evidence, glass_contact_evidence, joined_evidence, mis_evidence, needed_if,
@@ -51,6 +52,7 @@ pub fn sample_bsdf<B: Bsdf, const FROM_LIGHT: bool>(
     (mut list, mut points, mut choices): (Local<Vec<u32>>, Local<Vec<[f64; 2]>>, Local<Vec<f64>>),
     mut tiles: Query<(BsdfView, DrawsView, ParameterColumns, InterfaceView, &MaterialRows)>,
 ) {
+    let (mut block, mut made) = (SampledBlock::NONE, ScatteredBlock::NONE);
     for (BsdfViewItem { rays, paths, surfaces, shading, mut scattered }, draws, columns, interface, rows) in &mut tiles
     {
         let interface = Interface::new(interface, glass.as_deref());
@@ -59,17 +61,26 @@ pub fn sample_bsdf<B: Bsdf, const FROM_LIGHT: bool>(
         list.extend(rows.row.iter().copied().filter(has_bsdf));
         let draws = draws.draws(&sampling, Some(paths));
         draws_of_two(&draws, Purpose::Direction, &list, &mut points);
+        choices.clear();
         if bsdf.chooses() {
             draws_of_one(&draws, Purpose::MaterialChoice, &list, &mut choices);
         }
-        scattered.append(&list, |number, row| {
-            ScatteredRay::leaving::<B>(row, (rays, paths), (surfaces, shading), |surface, to_eye| {
-                let material = surface.material as usize;
+        let seen = SampledColumns { rays, paths, surfaces, shading };
+        let mut choices = choices.chunks(AT_ONCE);
+        for (rows, points) in list.chunks(AT_ONCE).zip(points.chunks(AT_ONCE)) {
+            block.gather(&seen, rows);
+            block.set_numbers(points, choices.next().unwrap_or_default());
+            for (lane, &row) in rows.iter().enumerate() {
+                let (row, material) = (row as usize, surfaces.material[row as usize] as usize);
                 let of_row = (columns.get(&materials, row, material), row, material);
-                let context = shading_context::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
-                bsdf.sample(&context, to_eye, points[number], choices.get(number).copied().unwrap_or_default())
-            })
-        });
+                block.set_context::<B>(
+                    lane,
+                    &shading_context::<B>(&materials, &interface, of_row, Transport::default()),
+                );
+            }
+            made.sample(&**bsdf, &block, rows.len(), transport(FROM_LIGHT));
+            made.append(rows, &mut scattered);
+        }
     }
 }
 // ANCHOR_END: sample_bsdf

@@ -31,6 +31,7 @@ mod paths;
 mod photons;
 mod previous_surfaces;
 mod recursive_mis;
+mod scatter_block;
 mod specular;
 mod starts_on_glass;
 mod unsampled;

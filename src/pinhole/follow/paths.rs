@@ -7,15 +7,13 @@ use crate::extract::{
     IntegratorTable, SamplingTable, bidirectional_evidence, filtered_evidence, followed_evidence, motion_evidence,
     needed_if, photon_evidence, wavelength_evidence,
 };
-use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces};
-use crate::material::{Bsdf, BsdfSample};
+use crate::intersect::MaterialRows;
 use crate::plan::{Bounce, Column, Shared, Stage, StageKind, TileSystems, VectorRows, VectorRowsMut, column};
 use crate::rays::{
     Depth, DrawsView, PathLight, Paths, RayTimes, WavelengthWeights, Wavelengths, WorldRays, draws_of_one, ray_vectors,
 };
 use crate::sample::Purpose;
 use crate::shade::{Footprints, Radiance};
-use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
@@ -71,37 +69,6 @@ pub struct ScatteredRay {
     pub throughput: [f64; 3],
     /// The pdf of its direction under BSDF sampling, in 1/sr; infinite after a specular bounce.
     pub pdf: f64,
-}
-
-impl ScatteredRay {
-    /// The ray that a BSDF scatters from a surface hit by `rays`; of throughput 0 where it gives none, or one to the wrong
-    /// side of the geometric surface.
-    ///
-    /// `sample` gets the direction to the eye in the frame of the shading normal.
-    #[inline(always)]
-    pub(super) fn leaving<B: Bsdf>(
-        row: usize,
-        (rays, paths): (&WorldRays, &Paths),
-        (surfaces, shading): (&Surfaces, Option<&ShadingNormals>),
-        sample: impl FnOnce(&Surface, DVec3) -> Option<BsdfSample>,
-    ) -> Self {
-        let surface = surfaces.get(row);
-        let own = surface.normal.as_dvec3();
-        let world_from_local = B::frame(shading.map_or(own, |normals| normals.get(row)));
-        let to_eye = world_from_local.transpose() * -rays.direction_of(row);
-        let Some(BsdfSample { to_light, pdf, weight }) = sample(&surface, to_eye) else { return Self::default() };
-        let through = B::TRANSMITS && to_light.z < 0.0;
-        let side = if through { -surface.normal } else { surface.normal };
-        let direction = world_from_local * to_light;
-        let leaves = direction.dot(side.as_dvec3()) > 0.0;
-        let throughput = if leaves { paths.throughput(row) } else { [0.0; 3] };
-        Self {
-            origin: offset_origin(surface.position, side, surface.bound),
-            direction,
-            throughput: [0, 1, 2].map(|part| throughput[part] * weight[part]),
-            pdf,
-        }
-    }
 }
 
 ray_vectors!(Scattered);

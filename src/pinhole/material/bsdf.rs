@@ -170,6 +170,8 @@ pub trait Bsdf: Table + Named {
     const TRANSMITS: bool = false;
     /// What textures may give it in place of its own; its normal they always may.
     const TAKES: &'static [Feeds] = &[];
+    /// Whether [`Self::sample_in_block`] is so nearly without branches that it is compiled for many rows at once.
+    const IN_BLOCKS: bool = false;
     /// Whether its lobes can be so narrow that the length of a normal rounded to f32 shows in them.
     const NARROW: bool = false;
 
@@ -215,6 +217,23 @@ pub trait Bsdf: Table + Named {
     /// none where the sampled direction leads to the wrong side of the surface.
     fn sample(&self, _site: &ShadingContext, _to_eye: DVec3, _numbers: [f64; 2], _choice: f64) -> Option<BsdfSample> {
         None
+    }
+
+    /// [`Self::sample`] for one of many rows, where [`in_blocks`](Self::in_blocks) says that it may be.
+    #[inline(always)]
+    fn sample_in_block(
+        &self,
+        context: &ShadingContext,
+        to_eye: DVec3,
+        numbers: [f64; 2],
+        choice: f64,
+    ) -> Option<BsdfSample> {
+        self.sample(context, to_eye, numbers, choice)
+    }
+
+    /// Whether all of its materials can be sampled by [`Self::sample_in_block`].
+    fn in_blocks(&self) -> bool {
+        Self::IN_BLOCKS
     }
 
     /// Whether sampling needs a third number, or a specular BSDF one.

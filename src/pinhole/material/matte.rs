@@ -38,6 +38,7 @@ impl Bsdf for MatteTable {
     const NOUN: &'static str = "matte surface";
     const CLASS: BsdfClass = BsdfClass::Diffuse;
     const TAKES: &'static [Feeds] = &[Feeds::Colour];
+    const IN_BLOCKS: bool = true;
 
     fn parameters(matte: &Matte, who: &str) -> Result<Parameters, SceneError> {
         Ok(Parameters::coloured(reflectance(who, "colour", matte.colour)?.to_array()))

@@ -15,13 +15,10 @@ use glam::DVec3;
 /// There its highlight falls to one half within 0.07° of its centre.
 pub const SMOOTHEST_METAL: f64 = 1e-3;
 
-/// Rough metals, in spawn order.
+/// Rough metals, in spawn order: what a surface's parameters do not say, which are the reflectance of its microfacets as
+/// colour and GGX's α, from 0.001 to 1, as roughness.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MetalTable {
-    /// The reflectance of each metal's microfacets: red, green, blue, from 0 to 1.
-    pub colour: Vec<[f64; 3]>,
-    /// GGX's α, from 0.001 to 1.
-    pub alpha: Vec<f64>,
     /// The multiple-scattering lobes; none where no metal asks for it, and that energy is lost.
     pub several: Option<MultipleScattering>,
 }
@@ -30,26 +27,22 @@ impl Table for MetalTable {
     const NAME: &'static str = "metals";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let (mut table, mut several) = (Self::default(), Vec::new());
+        let mut metals = Vec::new();
         for entity in entities_of_kind(scene, Self::KIND) {
             let metal = scene.get::<Metal>(entity).copied().unwrap_or_default();
             let (colour, alpha) = checked(&kind_and_name(scene, Self::WORD, entity), &metal)?;
-            table.colour.push(colour);
-            table.alpha.push(alpha);
-            several.push(metal.multiple_scattering);
+            metals.push((colour, metal.multiple_scattering.then_some(alpha)));
         }
-        if several.contains(&true) {
+        let several = metals.iter().any(|(_, alpha)| alpha.is_some()).then(|| {
             let mut lobes = MultipleScattering::default();
-            for (metal, several) in several.into_iter().enumerate() {
-                lobes.push(table.colour[metal], several.then_some(table.alpha[metal]));
-            }
-            table.several = Some(lobes);
-        }
-        Ok(table)
+            metals.into_iter().for_each(|(colour, alpha)| lobes.push(colour, alpha));
+            lobes
+        });
+        Ok(Self { several })
     }
 
     fn bytes(&self) -> usize {
-        self.alpha.len() * size_of::<[f64; 4]>() + self.several.as_ref().map_or(0, MultipleScattering::bytes)
+        self.several.as_ref().map_or(0, MultipleScattering::bytes)
     }
 }
 
@@ -75,6 +68,7 @@ impl Bsdf for MetalTable {
     const WORD: &'static str = "metal";
     const NOUN: &'static str = "rough metal";
     const CLASS: BsdfClass = BsdfClass::Glossy;
+    const IN_BLOCKS: bool = true;
 
     fn kind_of(metal: &Metal) -> MaterialKind {
         // NaN is rough, so that it is reported and not overlooked.
@@ -82,13 +76,13 @@ impl Bsdf for MetalTable {
     }
 
     fn parameters(metal: &Metal, who: &str) -> Result<Parameters, SceneError> {
-        checked(who, metal).map(|_| Parameters::default())
+        checked(who, metal).map(|(colour, alpha)| Parameters { roughness: alpha, ..Parameters::coloured(colour) })
     }
 
     #[inline(always)]
     fn eval(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        let once = ggx_brdf(to_light, to_eye, self.alpha[context.row]);
-        let once = self.colour[context.row].map(|colour| once * colour);
+        let once = ggx_brdf(to_light, to_eye, context.parameters.roughness);
+        let once = context.parameters.colour.map(|colour| once * colour);
         let Some(several) = &self.several else { return once };
         let again = several.brdf(context.row, to_light, to_eye);
         [0, 1, 2].map(|part| once[part] + again[part])
@@ -96,24 +90,40 @@ impl Bsdf for MetalTable {
 
     #[inline(always)]
     fn pdf(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> f64 {
-        let visible = visible_pdf(to_light, to_eye, self.alpha[context.row]);
+        let visible = visible_pdf(to_light, to_eye, context.parameters.roughness);
         self.several.as_ref().map_or(visible, |several| several.pdf(context.row, to_light, to_eye, visible))
     }
 
     /// By visible microfacet normals; `choice` selects the single- or the multiple-scattering lobe.
     #[inline(always)]
     fn sample(&self, context: &ShadingContext, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
-        let microfacet_sample = || ggx_sample(to_eye, self.alpha[context.row], disk_point(numbers));
-        let Some(several) = &self.several else {
-            let (sample, colour) = (microfacet_sample()?, self.colour[context.row]);
-            let weight = colour.map(|colour| colour * sample.weight);
-            return Some(BsdfSample { to_light: sample.to_light, pdf: sample.pdf, weight });
+        let Some(several) = &self.several else { return self.sample_in_block(context, to_eye, numbers, choice) };
+        let to_light = if several.is_lost(context.row, to_eye, choice) {
+            cosine_direction(numbers)
+        } else {
+            ggx_sample(to_eye, context.parameters.roughness, disk_point(numbers))?.to_light
         };
-        let is_lost = several.is_lost(context.row, to_eye, choice);
-        let to_light = if is_lost { cosine_direction(numbers) } else { microfacet_sample()?.to_light };
         let pdf = self.pdf(context, to_light, to_eye);
         let weight = self.eval(context, to_light, to_eye).map(|brdf| brdf * to_light.z / pdf);
         (pdf > 0.0).then_some(BsdfSample { to_light, pdf, weight })
+    }
+
+    #[inline(always)]
+    fn sample_in_block(
+        &self,
+        context: &ShadingContext,
+        to_eye: DVec3,
+        numbers: [f64; 2],
+        _choice: f64,
+    ) -> Option<BsdfSample> {
+        let Parameters { colour, roughness: alpha, .. } = context.parameters;
+        let sample = ggx_sample(to_eye, alpha, disk_point(numbers))?;
+        let weight = colour.map(|colour| colour * sample.weight);
+        Some(BsdfSample { to_light: sample.to_light, pdf: sample.pdf, weight })
+    }
+
+    fn in_blocks(&self) -> bool {
+        self.several.is_none()
     }
 
     fn chooses(&self) -> bool {
@@ -134,16 +144,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_metal_takes_the_bytes_of_its_colour_and_its_alpha() {
-        let mut table = MetalTable { colour: vec![[0.5; 3]; 10], alpha: vec![0.1; 10], several: None };
-        let own = size_of_val(&table.colour[..]) + size_of_val(&table.alpha[..]);
-        assert_eq!(table.bytes(), own);
+    fn every_metal_takes_the_bytes_of_its_lobe() {
+        let mut table = MetalTable::default();
+        assert_eq!(table.bytes(), 0);
         let mut several = MultipleScattering::default();
         several.push([0.5; 3], Some(0.1));
         let one = several.bytes();
         several.push([0.5; 3], Some(0.1));
         assert!(one >= 2 * size_of::<f64>() && several.bytes() >= 2 * one, "{one}, then {}", several.bytes());
         table.several = Some(several.clone());
-        assert_eq!(table.bytes(), own + several.bytes());
+        assert_eq!(table.bytes(), several.bytes());
     }
 }

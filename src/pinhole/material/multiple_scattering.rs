@@ -167,7 +167,9 @@ mod tests {
 
     const ALPHAS: [f64; 7] = [0.01, 0.03, 0.05, 0.1, 0.3, 0.6, 1.0];
 
-    const FIRST: ShadingContext = ShadingContext::opaque(0, Parameters::coloured([0.0; 3]));
+    fn of(alpha: f64, colour: f64) -> ShadingContext {
+        ShadingContext::opaque(0, Parameters { roughness: alpha, ..Parameters::coloured([colour; 3]) })
+    }
 
     fn lobes(alpha: f64, colour: f64) -> MultipleScattering {
         let mut several = MultipleScattering::default();
@@ -176,7 +178,7 @@ mod tests {
     }
 
     fn metal(alpha: f64, colour: f64) -> MetalTable {
-        MetalTable { colour: vec![[colour; 3]], alpha: vec![alpha], several: Some(lobes(alpha, colour)) }
+        MetalTable { several: Some(lobes(alpha, colour)) }
     }
 
     /// The fraction lost, by quadrature over the hemisphere, which is independent of visible normals.
@@ -206,12 +208,12 @@ mod tests {
         for alpha in ALPHAS {
             let rough = metal(alpha, 1.0);
             for angle in [0.0, 0.3, 0.7, 1.1, 1.4, 1.5, 89.0 * PI / 180.0] {
-                let all = rule.albedo(angle, 0.5 * alpha, |light, eye| rough.eval(&FIRST, light, eye)[0]);
+                let all = rule.albedo(angle, 0.5 * alpha, |light, eye| rough.eval(&of(alpha, 1.0), light, eye)[0]);
                 (min, max) = (min.min(all), max.max(all));
                 assert!((1.0 - 3e-3..1.0 + 1e-3).contains(&all), "α {alpha}, {angle}: {all}");
             }
             let half = metal(alpha, 0.5);
-            let all = rule.albedo(0.7, 0.5 * alpha, |light, eye| half.eval(&FIRST, light, eye)[0]);
+            let all = rule.albedo(0.7, 0.5 * alpha, |light, eye| half.eval(&of(alpha, 0.5), light, eye)[0]);
             let once = 0.5 * rule.albedo(0.7, 0.5 * alpha, |light, eye| ggx_brdf(light, eye, alpha));
             assert!(all > once && all < 0.5, "α {alpha}: {once} once, {all} in all");
         }
@@ -272,7 +274,7 @@ mod tests {
                     rule.sum(2.0 * PI * line(turn), 2.0 * PI * line(turn + 1), |turn| {
                         let across = (1.0 - z * z).sqrt();
                         let light = DVec3::new(across * libm::cos(turn), across * libm::sin(turn), z);
-                        rough.pdf(&FIRST, light, eye)
+                        rough.pdf(&of(alpha, 0.9), light, eye)
                     })
                 });
                 bins.expect(cosine * LINES + turn, fraction * SAMPLES as f64);
@@ -281,7 +283,8 @@ mod tests {
             for index in 0..SAMPLES {
                 let mut draws = Draws::new(1942 + which as u64, index);
                 let (numbers, choice) = ([draws.unit(), draws.unit()], draws.unit());
-                let Some(BsdfSample { to_light: light, .. }) = rough.sample(&FIRST, eye, numbers, choice) else {
+                let Some(BsdfSample { to_light: light, .. }) = rough.sample(&of(alpha, 0.9), eye, numbers, choice)
+                else {
                     bins.count(LINES * LINES);
                     continue;
                 };
@@ -309,7 +312,7 @@ mod tests {
                 for choice in ends {
                     tried += 1;
                     let Some(BsdfSample { to_light: light, pdf, weight: weights }) =
-                        rough.sample(&FIRST, eye, [u, v], choice)
+                        rough.sample(&of(alpha, 1.0), eye, [u, v], choice)
                     else {
                         continue;
                     };

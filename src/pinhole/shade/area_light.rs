@@ -1,17 +1,19 @@
 use super::ShadowRays;
 use super::light::{ShadowRay, cosine_of, shadow_t_max};
 use super::radiance::{LightSamplingView, LightSamplingViewItem};
-use super::receivers::{LightDraws, LightRay, LightRows, MakesRays, RayLists, append_rays, append_sampled};
+use super::receivers::{
+    AT_ONCE, LightDraws, LightRay, LightRows, MakesRays, RayLists, Starts, append_rays, append_sampled,
+};
 use crate::extract::{AreaLightTable, SamplingTable, area_light_evidence, light_sampling_evidence, material_evidence};
 use crate::intersect::Surface;
 use crate::lights::Receiver;
-use crate::plan::{Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Shared, Stage, StageKind, TileSystems, VectorRows};
 use crate::rays::{DrawsView, Paths, draws_of_two, fractions_of_one};
 use crate::sample::{Draw, PixelKey, Purpose, unit, with_sampler};
-use crate::shapes::emitter::Emitting;
+use crate::shapes::emitter::{ANY_WAY, Emitting, WAYS, WayVisitor};
 use crate::shapes::{EmitterVisitor, offset_origin, pdf_towards, visit_emitter};
 use bevy_ecs::prelude::*;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use multiversion::multiversion;
 
 // ANCHOR: irradiance_from_area
@@ -45,7 +47,7 @@ pub fn area_light_pdf(lights: &AreaLightTable, light: usize, receiver: &Receiver
 /// The shadow ray follows its direction as rounded to f32, so its end is computed anew by intersecting the light along
 /// it: otherwise a light hit at grazing incidence would block its own ray.
 #[inline(always)]
-fn sample_light<E: Emitting>(
+fn sample_light<E: Emitting, const WAY: usize>(
     light: &E,
     (radiance, one_sided, probability): ([f64; 3], bool, f64),
     surface: &Surface,
@@ -54,7 +56,7 @@ fn sample_light<E: Emitting>(
 ) -> LightRay {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let from = origin.as_dvec3();
-    let point = light.point(from, u);
+    let point = light.point_in::<WAY>(from, u);
     let pdf = probability * point.pdf;
     let shines = (pdf > 0.0) & (!one_sided | light.faces(from));
 
@@ -76,6 +78,7 @@ pub fn sample_area_lights(
     lights: Res<Shared<AreaLightTable>>,
     sampling: Res<Shared<SamplingTable>>,
     (mut fractions, mut lists, mut points): (Local<[Vec<u32>; 2]>, Local<[Vec<u32>; 2]>, Local<[Vec<[f64; 2]>; 2]>),
+    mut by_way: Local<ByWay>,
     mut tiles: Query<(LightSamplingView, DrawsView, Option<&Paths>)>,
 ) {
     if lights.is_empty() {
@@ -112,7 +115,8 @@ pub fn sample_area_lights(
                 let light = (radiance, one_sided, probability);
                 let receivers = receivers.part(&lists[0], &lists[1]);
                 let to = (&mut *rays, pdfs.as_deref_mut());
-                visit_emitter(emitter, OneLight { light, receivers, draws: [&points[0], &points[1]], to });
+                let (draws, by_way) = ([&points[0][..], &points[1][..]], &mut *by_way);
+                visit_emitter(emitter, OneLight { light, receivers, draws, to, by_way });
             });
         }
     }
@@ -125,12 +129,76 @@ struct OneLight<'a> {
     receivers: LightRows<'a>,
     draws: LightDraws<'a>,
     to: RayLists<'a>,
+    /// Room for the rows by the ways in which the light is sampled for them, on the near side and behind.
+    by_way: &'a mut ByWay,
 }
+
+/// Rows that have chosen a light, and their points of the unit square.
+#[derive(Default)]
+pub struct ChosenRows {
+    row: Vec<u32>,
+    point: Vec<[f64; 2]>,
+}
+
+/// Those of each way, on the near side and behind.
+type ByWay = [[ChosenRows; 2]; WAYS];
 
 impl EmitterVisitor for OneLight<'_> {
     fn visit<E: Emitting>(self, emitter: &E) {
-        let Self { light, receivers, draws, to } = self;
-        let light = (*emitter, light);
+        // Copies, so that what is the same for all rows is computed once.
+        let (emitter, (_, one_sided, _)) = (*emitter, self.light);
+        if E::HAS_WAYS | one_sided {
+            for (side, (rows, draws)) in self.receivers.rows().into_iter().zip(self.draws).enumerate() {
+                let mut counts = [0; WAYS];
+                for chosen in self.by_way.iter_mut() {
+                    chosen[side].row.resize(rows.len(), 0);
+                    chosen[side].point.resize(rows.len(), [0.0; 2]);
+                }
+                let mut found = [0; AT_ONCE];
+                for (rows, draws) in rows.chunks(AT_ONCE).zip(draws.chunks(AT_ONCE)) {
+                    let starts = self.receivers.starts(rows, side == 1);
+                    ways_at(&emitter, one_sided, &starts, &mut found);
+                    for ((&row, &u), &found) in rows.iter().zip(draws).zip(&found) {
+                        let (way, shines) = ((found >> 1) as usize % WAYS, found & 1);
+                        let (chosen, count) = (&mut self.by_way[way][side], &mut counts[way]);
+                        // Every row is written, and the next one of its way overwrites it where no light shines on it.
+                        (chosen.row[*count], chosen.point[*count]) = (row, u);
+                        *count += shines as usize;
+                    }
+                }
+                for (chosen, count) in self.by_way.iter_mut().zip(counts) {
+                    chosen[side].row.truncate(count);
+                    chosen[side].point.truncate(count);
+                }
+            }
+        }
+        emitter.in_ways(&mut InWays(self));
+    }
+}
+
+/// Twice the way in which an emitter is sampled from each of these points, and 1 more where it shines on it.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn ways_at<E: Emitting>(emitter: &E, one_sided: bool, starts: &Starts, found: &mut [u32; AT_ONCE]) {
+    for lane in 0..AT_ONCE {
+        let from = Vec3::from(starts.at(lane)).as_dvec3();
+        let shines = !one_sided | emitter.faces(from);
+        found[lane] = 2 * emitter.way(from) as u32 + u32::from(shines);
+    }
+}
+
+/// What is sampled of a light in each of its ways.
+struct InWays<'a>(OneLight<'a>);
+
+impl WayVisitor for InWays<'_> {
+    fn visit<E: Emitting, const WAY: usize>(&mut self, emitter: &E) {
+        let OneLight { light, receivers, draws, to: (rays, pdfs), by_way } = &mut self.0;
+        let (light, to) = (InWay::<E, WAY> { emitter: *emitter, light: *light }, (&mut **rays, pdfs.as_deref_mut()));
+        let [near, far] = &by_way[WAY];
+        let (receivers, draws) = if E::HAS_WAYS | light.light.1 {
+            (receivers.part(&near.row, &far.row), [&near.point[..], &far.point[..]])
+        } else {
+            (receivers.part(receivers.rows()[0], receivers.rows()[1]), *draws)
+        };
         if E::IN_BLOCKS {
             sample_in_blocks(&light, &receivers, draws, to)
         } else {
@@ -140,8 +208,8 @@ impl EmitterVisitor for OneLight<'_> {
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn sample_in_blocks<E: Emitting>(
-    light: &(E, ([f64; 3], bool, f64)),
+fn sample_in_blocks<E: Emitting, const WAY: usize>(
+    light: &InWay<E, WAY>,
     receivers: &LightRows<'_>,
     draws: LightDraws<'_>,
     to: RayLists<'_>,
@@ -149,10 +217,17 @@ fn sample_in_blocks<E: Emitting>(
     append_rays(receivers, to, true, light, draws);
 }
 
-impl<E: Emitting> MakesRays for (E, ([f64; 3], bool, f64)) {
+/// An area light that is sampled in one of its ways.
+struct InWay<E, const WAY: usize> {
+    emitter: E,
+    /// Its radiance, whether it shines on one side only, and the probability of choosing it.
+    light: ([f64; 3], bool, f64),
+}
+
+impl<E: Emitting, const WAY: usize> MakesRays for InWay<E, WAY> {
     #[inline(always)]
     fn ray_from(&self, surface: &Surface, normal: DVec3, u: [f64; 2]) -> LightRay {
-        sample_light(&self.0, self.1, surface, normal, u)
+        sample_light::<E, WAY>(&self.emitter, self.light, surface, normal, u)
     }
 }
 
@@ -189,7 +264,7 @@ struct OneRay<'a> {
 impl EmitterVisitor for OneRay<'_> {
     #[inline(always)]
     fn visit<E: Emitting>(self, emitter: &E) {
-        *self.ray = sample_light(emitter, self.light, self.surface, self.normal, self.u);
+        *self.ray = sample_light::<E, ANY_WAY>(emitter, self.light, self.surface, self.normal, self.u);
     }
 }
 

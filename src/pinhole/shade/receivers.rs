@@ -4,6 +4,7 @@ use super::light::ShadowRay;
 use super::{LightPdfs, ShadowRays, TransmissiveRows};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces};
 use crate::plan::{Column, VectorRows, VectorRowsMut};
+use crate::shapes::offset_origin;
 use glam::{DVec3, Vec3};
 
 /// A shadow ray with the irradiance that it carries.
@@ -45,6 +46,18 @@ impl<'a> LightRows<'a> {
     /// The rows of the surfaces, and of those that are lit from behind as well.
     pub fn rows(&self) -> [&'a [u32]; 2] {
         [self.rows, self.far]
+    }
+
+    /// Where the shadow rays of some rows start; of those behind, on the other side.
+    #[inline(always)]
+    pub fn starts(&self, rows: &[u32], behind: bool) -> Starts {
+        let mut starts = [[0.0; AT_ONCE]; 3];
+        let sign = if behind { -1.0 } else { 1.0 };
+        for (lane, &row) in rows.iter().enumerate().take(AT_ONCE) {
+            let surface = self.surfaces.get(row as usize);
+            starts.put(lane, offset_origin(surface.position, sign * surface.normal, surface.bound));
+        }
+        starts
     }
 
     /// A row's surface and shading normal.
@@ -139,7 +152,10 @@ pub(super) fn is_apart(ray: &ShadowRay) -> bool {
 }
 
 /// How many shadow rays are made at once.
-const AT_ONCE: usize = 32;
+pub(super) const AT_ONCE: usize = 32;
+
+/// Where so many of them start, component by component.
+pub(super) type Starts = [[f32; AT_ONCE]; 3];
 
 /// The surfaces of some rows, component by component, so that one loop handles several.
 struct SurfaceBlock {

@@ -5,79 +5,133 @@
 
 use super::l1_norm;
 use super::ray_block::{LANES, RaySlices};
+use super::shape::Shape;
 use super::triangle::{TriangleRow, exact_triangle_t};
 use super::triangle_edges::{ROUNDING, certain_t, edge_values_by_any_axis, rows_by_axis};
 use glam::DVec3;
 use multiversion::multiversion;
+use multiversion::target::target_cfg_f;
 
-/// 2⁻²⁰: sixteen times f32's unit roundoff, of which the sums of six products below need eleven.
+/// 2⁻²⁰: sixteen times f32's unit roundoff, of which the sums below need thirteen.
 const OF_SUM: f64 = 1.0 / (1 << 20) as f64;
 /// Sizes that leave products of three lengths within what f32 represents.
 const USABLE: [f64; 2] = [1e-12, 1e12];
 /// Of |R|₁, which is from 1 to √3 for a direction.
 const LENGTHS: [f32; 2] = [0.5, 4.0];
-/// What products too small for f32 may add to a sum.
-const UNDERFLOW: f64 = 1e-18;
 /// 2⁻²⁸: f32's unit roundoff over that of the cross products in f64, with room to spare.
 const OF_CROSS: f64 = 1.0 / (1 << 28) as f64;
+/// The greatest relative error with which f32 decides anything.
+const MAX_ERROR: f64 = 1.0 / (1 << 10) as f64;
 /// The relative error of a t, and more than the 2⁻²⁴ within which f64 may take two triangles in another order.
 const OF_T: f32 = 1.0 / (1 << 20) as f32;
 
 /// A triangle as the test in f32 reads it, with coefficients of its error bounds.
 ///
-/// The side of a directed edge from A to B on which a ray O + tR passes has the sign of (O × R)·(B − A) + R·(A × B), the
-/// product of the Plücker coordinates of two lines; the sum of all three is R·N, with N = (B − A) × (C − A).
+/// A point of its plane has the barycentric coordinates u = U·P + u₀ and v = V·P + v₀ (as in Havel and Herout 2010), of
+/// which the smallest of u, v and 1 − u − v is negative outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct TriangleInF32 {
-    edges: [[f32; 3]; 3],
-    /// A × B of each edge.
-    moments: [[f32; 3]; 3],
+    /// The normal of its plane, whose |N|₁ is 1.
     normal: [f32; 3],
     /// N·A.
     height: f32,
-    /// The error of a side, as a multiple of |O|₁|R|₁ and of |R|₁.
-    side_error: [f32; 2],
-    /// The error of N·(A − O), as a multiple of |O|₁ and alone.
-    height_error: [f32; 2],
+    /// U, V, u₀ and v₀.
+    gradients: [[f32; 3]; 2],
+    at_origin: [f32; 2],
+    /// The largest |P|₁ of its corners.
+    size: f32,
+    /// Three times the relative error s of products with N: 1 over what is left of a divisor that is off by a third is at
+    /// most 1.5 times what it seems.
+    slope_error: f32,
+    /// The errors of the three coordinates: 2 s G, where G is the largest part of a gradient, as a multiple of |O|₁ + |P|₁ +
+    /// |t||R|₁; and 2 G, as one of |R|₁ and the error of t. The third coordinate has those of the other two.
+    coordinate_error: [f32; 2],
 }
 
 impl TriangleInF32 {
     fn new([a, b, c]: [DVec3; 3]) -> Self {
-        let edges = [b - a, c - b, a - c];
-        let moments = [a.cross(b), b.cross(c), c.cross(a)];
-        let normal = edges[0].cross(c - a);
+        let (along, across) = (b - a, c - a);
+        let cross = along.cross(across);
         let size = l1_norm(a).max(l1_norm(b)).max(l1_norm(c));
-        let longest = edges.map(l1_norm).into_iter().fold(0.0, f64::max);
-        let moment = moments.map(l1_norm).into_iter().fold(0.0, f64::max);
-        let is_usable = longest > USABLE[0] && longest < USABLE[1] && size < USABLE[1];
-        let of_side = if is_usable { OF_SUM * longest } else { f64::INFINITY };
-        let of_height = OF_SUM * (l1_norm(normal) + OF_CROSS * longest * longest);
+        let longest = [along, across, c - b].map(l1_norm).into_iter().fold(0.0, f64::max);
+        let normal = cross / l1_norm(cross);
+        // U·(B − A) and V·(C − A) are 1, U·(C − A) and V·(B − A) are 0.
+        let scale = 1.0 / cross.length_squared();
+        let gradients = [across.cross(cross) * scale, cross.cross(along) * scale];
+        let steepest = gradients.map(|of| of.abs().max_element()).into_iter().fold(0.0, f64::max);
+        let error = OF_SUM * (1.0 + OF_CROSS * longest * longest / l1_norm(cross));
+        let is_usable = longest > USABLE[0] && size < USABLE[1] && steepest < USABLE[1] && error < MAX_ERROR;
+        let of = |error: f64| if is_usable { error as f32 } else { f32::INFINITY };
         let in_f32 = |v: DVec3| v.as_vec3().to_array();
         Self {
-            edges: edges.map(in_f32),
-            moments: moments.map(in_f32),
             normal: in_f32(normal),
             height: normal.dot(a) as f32,
-            side_error: [of_side as f32, (OF_SUM * (moment + OF_CROSS * size * size + UNDERFLOW)) as f32],
-            height_error: [of_height as f32, (of_height * (size + UNDERFLOW)) as f32],
+            gradients: gradients.map(in_f32),
+            at_origin: gradients.map(|of| -of.dot(a) as f32),
+            size: size as f32,
+            slope_error: of(3.0 * error),
+            coordinate_error: [of(2.0 * error * steepest), of(2.0 * steepest)],
         }
+    }
+}
+
+/// The plane of a triangle in f64, for rays that start so close to it that f32 cannot say on which side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Plane {
+    /// The normal, whose |N|₁ is 1.
+    normal: DVec3,
+    /// N·A.
+    height: f64,
+    /// The error of N·(A − O) as a multiple of |O|₁ and alone, and of N·R as one of |R|₁.
+    error: f64,
+    size: f64,
+}
+
+impl Plane {
+    fn new([a, b, c]: [DVec3; 3]) -> Self {
+        /// 2⁻⁴⁸: 32 times f64's unit roundoff, of which the sums and a cross product over its length need eight.
+        const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
+        let cross = (b - a).cross(c - a);
+        let longest = [b - a, c - a, c - b].map(l1_norm).into_iter().fold(0.0, f64::max);
+        let normal = cross / l1_norm(cross);
+        let error = ROUNDING * (1.0 + longest * longest / l1_norm(cross));
+        Self { normal, height: normal.dot(a), error, size: l1_norm(a) }
+    }
+
+    /// Whether it is certain that a ray has the plane behind it: that its t is negative.
+    #[inline(always)]
+    fn is_behind(&self, [origin, direction]: [DVec3; 2]) -> bool {
+        let (height, slope) = (self.height - self.normal.dot(origin), self.normal.dot(direction));
+        let is_certain = (height.abs() > self.error * (self.size + l1_norm(origin)))
+            & (slope.abs() > self.error * l1_norm(direction));
+        is_certain & ((height < 0.0) != (slope < 0.0))
     }
 }
 
 /// No triangle.
 const NONE: u32 = u32::MAX;
 /// How many triangles f64 tests a ray against besides the one that it certainly hits: that which it starts on and, at a
-/// corner, its neighbours, and that of a lamp at its end.
-const SUSPECTS: usize = 3;
+/// corner, its neighbours, and those of a lamp at its end.
+const SUSPECTS: u32 = 6;
+/// The triangles whose suspicion is kept in one number.
+const IN_ONE: usize = u32::BITS as usize;
+/// How many such numbers there are.
+const NUMBERS: usize = TriangleRow::HIERARCHY_FROM.div_ceil(IN_ONE);
 
 /// The places of the triangles that a block of rays may hit first.
 struct Candidates {
     /// That which each ray certainly hits before all others that it certainly hits.
     found: [u32; LANES],
-    /// Those of which the bounds leave open whether they are hit before it, the latest first.
-    suspects: [[u32; LANES]; SUSPECTS],
-    /// How many such there are, of which no more than [`SUSPECTS`] are kept.
-    count: [u32; LANES],
+    /// Those of which the bounds leave open whether they are hit before it, a bit for each.
+    suspects: [[u32; LANES]; NUMBERS],
+}
+
+impl Candidates {
+    /// How many of so many numbers' triangles a ray is suspected of hitting first.
+    #[inline(always)]
+    fn count(&self, numbers: usize, lane: usize) -> u32 {
+        self.suspects[..numbers].iter().map(|suspects| suspects[lane].count_ones()).sum()
+    }
 }
 
 /// A block of rays in f32, component by component.
@@ -85,85 +139,70 @@ type Rays = [[[f32; LANES]; 3]; 2];
 
 /// The triangles that each ray may hit first, before a t that is given.
 ///
-/// A miss is certain where two sides differ in sign by more than their errors, or where all of the interval about t is
-/// behind the ray or beyond the nearest hit; a hit, where all sides agree in sign by more than their errors.
+/// A miss is certain where a coordinate is negative by more than its error, or where all of the interval about t is
+/// behind the ray or beyond the nearest hit; a hit, where all coordinates are positive by more than their error.
 /// Whatever is neither is suspected. A bound that is not a number answers no comparison, and so leaves a suspect.
 #[inline(always)]
-fn first_hits(triangles: &[TriangleInF32], [o, d]: &Rays, until: &[f32; LANES]) -> Candidates {
-    let mut c = [[0.0_f32; LANES]; 3];
-    let (mut size, mut length, mut product) = ([0.0_f32; LANES], [0.0_f32; LANES], [0.0_f32; LANES]);
+fn first_hits<const FUSED: bool>(triangles: &[TriangleInF32], [o, d]: &Rays, until: &[f32; LANES]) -> Candidates {
+    let (mut size, mut length) = ([0.0_f32; LANES], [0.0_f32; LANES]);
     let (mut low, mut high) = ([0.0_f32; LANES], [0.0_f32; LANES]);
     for lane in 0..LANES {
-        c[0][lane] = o[1][lane] * d[2][lane] - o[2][lane] * d[1][lane];
-        c[1][lane] = o[2][lane] * d[0][lane] - o[0][lane] * d[2][lane];
-        c[2][lane] = o[0][lane] * d[1][lane] - o[1][lane] * d[0][lane];
-        size[lane] = o[0][lane].abs() + o[1][lane].abs() + o[2][lane].abs();
-        length[lane] = d[0][lane].abs() + d[1][lane].abs() + d[2][lane].abs();
+        let (from, along) = (
+            o[0][lane].abs() + o[1][lane].abs() + o[2][lane].abs(),
+            d[0][lane].abs() + d[1][lane].abs() + d[2][lane].abs(),
+        );
         // Of other rays f32 says nothing: products with theirs may be 0 or infinite.
-        let is_usable = (size[lane] < USABLE[1] as f32) & (length[lane] > LENGTHS[0]) & (length[lane] < LENGTHS[1]);
-        product[lane] = if is_usable { size[lane] * length[lane] } else { f32::INFINITY };
+        let is_usable = (from < USABLE[1] as f32) & (along > LENGTHS[0]) & (along < LENGTHS[1]);
+        (size[lane], length[lane]) = (if is_usable { from } else { f32::INFINITY }, along);
         (low[lane], high[lane]) = (until[lane] * (1.0 - OF_T), until[lane] * (1.0 + OF_T));
     }
-    let (mut found, mut count) = ([NONE; LANES], [0_u32; LANES]);
-    let mut suspects = [[NONE; LANES]; SUSPECTS];
-    for (place, triangle) in (0_u32..).zip(triangles) {
-        let (mut min, mut max, mut sum) = ([0.0_f32; LANES], [0.0_f32; LANES], [0.0_f32; LANES]);
-        let (mut error, mut any) = ([0.0_f32; LANES], 0_u32);
-        for lane in 0..LANES {
-            let side = |edge: usize| {
-                let ([ex, ey, ez], [mx, my, mz]) = (triangle.edges[edge], triangle.moments[edge]);
-                let of_edge = c[0][lane] * ex + c[1][lane] * ey + c[2][lane] * ez;
-                of_edge + (d[0][lane] * mx + d[1][lane] * my + d[2][lane] * mz)
-            };
-            let (u, v, w) = (side(0), side(1), side(2));
-            (min[lane], max[lane]) = (smaller(smaller(u, v), w), larger(larger(u, v), w));
-            sum[lane] = u + v + w;
-            error[lane] = product[lane] * triangle.side_error[0] + length[lane] * triangle.side_error[1];
-            any |= u32::from(!((min[lane] < -error[lane]) & (max[lane] > error[lane])));
-        }
-        // Rays that lie close together miss most triangles together.
-        if any == 0 {
-            continue;
-        }
-        for lane in 0..LANES {
-            let (min, max, error) = (min[lane], max[lane], error[lane]);
-            let [nx, ny, nz] = triangle.normal;
-            let height = triangle.height - (nx * o[0][lane] + ny * o[1][lane] + nz * o[2][lane]);
-            let height_error = triangle.height_error[0] * size[lane] + triangle.height_error[1];
-            let inverse = 1.0 / sum[lane];
-            let t = height * inverse;
-            // 1 / (1 − x) is at most 1 + 2x where x, the relative error of the sum, is at most a half.
-            let is_steep = sum[lane].abs() > 6.0 * error;
-            let t_error = 2.0 * (height_error + t.abs() * (3.0 * error)) * inverse.abs() + t.abs() * OF_T;
-            let (t_low, t_high) = (t - t_error, t + t_error);
+    let (mut found, mut suspects) = ([NONE; LANES], [[0; LANES]; NUMBERS]);
+    for (number, triangles) in triangles.chunks(IN_ONE).enumerate() {
+        let suspects = &mut suspects[number];
+        for (bit, triangle) in triangles.iter().enumerate() {
+            let place = (number * IN_ONE + bit) as u32;
+            let ([nx, ny, nz], [[ux, uy, uz], [vx, vy, vz]]) = (triangle.normal, triangle.gradients);
+            for lane in 0..LANES {
+                let ([ox, oy, oz], [dx, dy, dz]) =
+                    ([o[0][lane], o[1][lane], o[2][lane]], [d[0][lane], d[1][lane], d[2][lane]]);
+                let slope = fma::<FUSED>(nz, dz, fma::<FUSED>(ny, dy, nx * dx));
+                let height = triangle.height - fma::<FUSED>(nz, oz, fma::<FUSED>(ny, oy, nx * ox));
+                let inverse = 1.0 / slope;
+                let t = height * inverse;
+                let (x, y, z) = (fma::<FUSED>(t, dx, ox), fma::<FUSED>(t, dy, oy), fma::<FUSED>(t, dz, oz));
+                let u = fma::<FUSED>(z, uz, fma::<FUSED>(y, uy, fma::<FUSED>(x, ux, triangle.at_origin[0])));
+                let v = fma::<FUSED>(z, vz, fma::<FUSED>(y, vy, fma::<FUSED>(x, vx, triangle.at_origin[1])));
+                let inside = smaller(smaller(u, v), 1.0 - u - v);
 
-            let misses = (min < -error) & (max > error);
-            let is_elsewhere = is_steep & ((t_high < 0.0) | (t_low > high[lane]));
-            let is_sure = is_steep & (t_low > 0.0) & ((min > error) | (max < -error));
-            let counts = !(misses | is_elsewhere);
-            let is_closer = counts & is_sure & (t_high < low[lane]);
-            let is_suspect = counts & !is_closer;
-            for later in (1..SUSPECTS).rev() {
-                suspects[later][lane] = if is_suspect { suspects[later - 1][lane] } else { suspects[later][lane] };
+                let reach = fma::<FUSED>(t.abs(), length[lane], size[lane] + triangle.size);
+                let t_error = fma::<FUSED>(reach * triangle.slope_error, inverse.abs(), t.abs() * OF_T);
+                let of_t = triangle.coordinate_error[1] * length[lane];
+                let error = fma::<FUSED>(reach, triangle.coordinate_error[0], of_t * t_error);
+                let (t_low, t_high) = (t - t_error, t + t_error);
+
+                let is_steep = slope.abs() > triangle.slope_error * length[lane];
+                let misses = is_steep & ((inside + error < 0.0) | (t_high < 0.0) | (t_low > high[lane]));
+                let is_sure = is_steep & (t_low > 0.0) & (inside > error);
+                let is_closer = !misses & is_sure & (t_high < low[lane]);
+                suspects[lane] |= if misses | is_closer { 0 } else { 1 << bit };
+                low[lane] = if is_closer { t_low } else { low[lane] };
+                high[lane] = if is_closer { t_high } else { high[lane] };
+                found[lane] = if is_closer { place } else { found[lane] };
             }
-            suspects[0][lane] = if is_suspect { place } else { suspects[0][lane] };
-            count[lane] += u32::from(is_suspect);
-            low[lane] = if is_closer { t_low } else { low[lane] };
-            high[lane] = if is_closer { t_high } else { high[lane] };
-            found[lane] = if is_closer { place } else { found[lane] };
         }
     }
-    Candidates { found, suspects, count }
+    Candidates { found, suspects }
+}
+
+/// a · b + c, rounded once where the processor does so: whatever the rounding, the bounds hold, and f64 decides.
+#[inline(always)]
+fn fma<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
+    if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
 #[inline(always)]
 fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
-}
-
-#[inline(always)]
-fn larger(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
 }
 
 /// Rays, and for each the place of the one triangle that it may hit.
@@ -197,7 +236,7 @@ impl Pairs {
 ///
 /// The first loop finds in f32 which triangles each ray may hit first; the second tests those in f64. A ray of which too
 /// many are suspected is tested against all.
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma", "x86_64+avx2+fma", "x86_64+avx2"))]
 pub(super) fn triangle_rows(
     triangles: &[TriangleRow],
     numbers: &[u32],
@@ -205,8 +244,14 @@ pub(super) fn triangle_rows(
     t: &mut [f64],
     shape: &mut [u32],
 ) {
+    if triangles.len() > NUMBERS * IN_ONE {
+        let all: Vec<u32> = (0..t.len() as u32).collect();
+        return rows_by_axis(triangles, numbers, rays, &all, t, shape);
+    }
     let in_f32: Vec<TriangleInF32> = triangles.iter().map(|triangle| TriangleInF32::new(triangle.corners)).collect();
+    let planes: Vec<Plane> = triangles.iter().map(|triangle| Plane::new(triangle.corners)).collect();
     let (mut pairs, mut against_all) = (Vec::with_capacity(2 * t.len()), Vec::new());
+    let numbers_used = triangles.len().div_ceil(IN_ONE).min(NUMBERS);
     for start in (0..t.len()).step_by(LANES) {
         let count = LANES.min(t.len() - start);
         let mut block: Rays = [[[0.0; LANES]; 3], [[1.0; LANES]; 3]];
@@ -218,15 +263,27 @@ pub(super) fn triangle_rows(
         for (until, t) in until.iter_mut().zip(&t[start..start + count]) {
             *until = *t as f32;
         }
-        let candidates = first_hits(&in_f32, &block, &until);
+        let candidates = first_hits::<{ target_cfg_f!(target_feature = "fma") }>(&in_f32, &block, &until);
         for (row, lane) in (start as u32..).zip(0..count) {
-            if candidates.count[lane] as usize > SUSPECTS {
+            if candidates.count(numbers_used, lane) > SUSPECTS {
                 against_all.push(row);
                 continue;
             }
-            let suspects = candidates.suspects.iter().map(|places| places[lane]);
-            let places = suspects.chain([candidates.found[lane]]).filter(|place| *place != NONE);
-            pairs.extend(places.map(|place| (row, place)));
+            // Most rays start on a triangle, which is then behind them.
+            let ray = rays.ray(row as usize);
+            for (before, suspects) in (0_u32..).step_by(IN_ONE).zip(&candidates.suspects[..numbers_used]) {
+                let mut left = suspects[lane];
+                while left != 0 {
+                    let place = before + left.trailing_zeros();
+                    if !planes[place as usize].is_behind(ray) {
+                        pairs.push((row, place));
+                    }
+                    left &= left - 1;
+                }
+            }
+            if candidates.found[lane] != NONE {
+                pairs.push((row, candidates.found[lane]));
+            }
         }
     }
     for of_block in pairs.chunks(LANES) {
@@ -336,8 +393,8 @@ mod tests {
                 for start in (0..origins.len() - LANES).step_by(LANES) {
                     let part = |own: usize, axis: usize| std::array::from_fn(|lane| columns[own][axis][start + lane]);
                     let block = [0, 1].map(|own| [0, 1, 2].map(|axis| part(own, axis)));
-                    let found = first_hits(&in_f32, &block, &[f32::INFINITY; LANES]);
-                    in_doubt += found.count.iter().filter(|count| **count as usize > SUSPECTS).count();
+                    let found = first_hits::<false>(&in_f32, &block, &[f32::INFINITY; LANES]);
+                    in_doubt += (0..LANES).filter(|lane| found.count(NUMBERS, *lane) > SUSPECTS).count();
                 }
             }
         }

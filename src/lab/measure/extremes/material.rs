@@ -239,10 +239,8 @@ fn check_several(range: Range<u64>) -> Tally {
         let mut several = MultipleScattering::default();
         several.push([1.0; 3], Some(alpha));
         for (score, several) in tally.scores.iter_mut().zip([Some(several), None]) {
-            let (rough, context) = (
-                MetalTable { colour: vec![[1.0; 3]], alpha: vec![alpha], several },
-                ShadingContext::opaque(0, Parameters::default()),
-            );
+            let parameters = Parameters { roughness: alpha, ..Parameters::coloured([1.0; 3]) };
+            let (rough, context) = (MetalTable { several }, ShadingContext::opaque(0, parameters));
             score.measure((rule.albedo(angle, 0.5 * alpha, |l, v| rough.eval(&context, l, v)[0]) - 1.0).abs());
         }
     }

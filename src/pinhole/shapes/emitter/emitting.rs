@@ -2,12 +2,19 @@ use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use std::fmt::Debug;
 
+/// How many ways of being sampled a light has at most.
+pub const WAYS: usize = 3;
+/// The last of them, which finds out what applies; the others are for surfaces of which it is known.
+pub const ANY_WAY: usize = WAYS - 1;
+
 /// A shape as a light that is sampled: what sampling its area asks of it.
 pub trait Emitting: Clone + Copy + Debug + PartialEq + Send + Sync + 'static {
     /// Whether it encloses a space, so that little of what leaves its inner side is ever seen.
     const IS_CLOSED: bool;
     /// Whether [`Self::point`] is so nearly without branches that it is sampled for many surfaces at once.
     const IN_BLOCKS: bool = false;
+    /// Whether [`Self::way`] is not the same everywhere.
+    const HAS_WAYS: bool = false;
 
     /// The area that emits, on one side, in square scene units.
     fn area(&self) -> f64;
@@ -23,6 +30,25 @@ pub trait Emitting: Clone + Copy + Debug + PartialEq + Send + Sync + 'static {
     /// The point of the light for a point of the unit square, as seen from `from`.
     fn point(&self, from: DVec3, u: [f64; 2]) -> LightPoint;
 
+    /// Which of its ways to sample a point applies as seen from `from`; a shape that has several visits them all in
+    /// [`Self::in_ways`].
+    #[inline(always)]
+    fn way(&self, _from: DVec3) -> usize {
+        ANY_WAY
+    }
+
+    /// [`Self::point`] where the way is known, so that no branch depends on `from`.
+    #[inline(always)]
+    fn point_in<const WAY: usize>(&self, from: DVec3, u: [f64; 2]) -> LightPoint {
+        self.point(from, u)
+    }
+
+    /// Calls the visitor with each of its ways.
+    #[inline(always)]
+    fn in_ways(&self, visitor: &mut impl WayVisitor) {
+        visitor.visit::<Self, ANY_WAY>(self);
+    }
+
     /// The pdf with which [`Self::point`] samples the direction to the point `at` of the light, in 1/sr.
     fn pdf(&self, from: DVec3, at: DVec3) -> f64;
 
@@ -33,6 +59,12 @@ pub trait Emitting: Clone + Copy + Debug + PartialEq + Send + Sync + 'static {
 
     /// A point of its area, for a point of the unit square; uniform, or nearly so.
     fn spot(&self, u: [f64; 2]) -> AreaSample;
+}
+
+/// What is done in each of the ways in which an emitter is sampled.
+pub trait WayVisitor {
+    /// In one of them, of which [`Emitting::way`] says where it applies.
+    fn visit<E: Emitting, const WAY: usize>(&mut self, emitter: &E);
 }
 
 /// A point sampled on a light, as seen from the lit point.

@@ -13,7 +13,7 @@ mod triangle;
 
 pub use cuboid::{CuboidSeen, EmittingCuboid, cuboid_distance, cuboid_pdf, cuboid_point};
 pub use disk::{EmittingDisk, disk_pdf, disk_point};
-pub use emitting::{AreaSample, Emitting, LightPoint, NeverSampled, pdf_from_area};
+pub use emitting::{ANY_WAY, AreaSample, Emitting, LightPoint, NeverSampled, WAYS, WayVisitor, pdf_from_area};
 pub use parallelogram::{
     Parallelogram, RectangleSeen, parallelogram_area_pdf, parallelogram_area_point, parallelogram_pdf,
     parallelogram_point,

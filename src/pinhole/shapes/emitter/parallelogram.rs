@@ -1,4 +1,4 @@
-use super::emitting::{AreaSample, Emitting, LightPoint, angle_of, pdf_from_area};
+use super::emitting::{ANY_WAY, AreaSample, Emitting, LightPoint, WayVisitor, angle_of, pdf_from_area};
 use super::triangle::{MIN_SOLID_ANGLE, TriangleSeen, triangle_solid_angle};
 use crate::sample::circle_point;
 use crate::shapes::l1_norm;
@@ -12,6 +12,11 @@ const FAR: f64 = 3.0;
 ///
 /// Its solid angle is the excess of four angles over 360°, and so is off by some 10⁻¹⁵ sr.
 const MIN_OF_FOUR_ANGLES: f64 = 1e-4;
+
+/// The ways to sample a parallelogram of which the position of the lit point says that they apply: over its area, by the four
+/// angles of a rectangle.
+const BY_AREA: usize = 0;
+const BY_ANGLES: usize = 1;
 
 /// Edges with a cosine of no more than this between them count as perpendicular.
 const SQUARE: f64 = 1e-9;
@@ -64,6 +69,7 @@ impl Parallelogram {
 impl Emitting for Parallelogram {
     const IS_CLOSED: bool = false;
     const IN_BLOCKS: bool = true;
+    const HAS_WAYS: bool = true;
 
     fn area(&self) -> f64 {
         self.area()
@@ -81,6 +87,28 @@ impl Emitting for Parallelogram {
     #[inline(always)]
     fn point(&self, from: DVec3, u: [f64; 2]) -> LightPoint {
         parallelogram_point(self, from, u)
+    }
+
+    #[inline(always)]
+    fn way(&self, from: DVec3) -> usize {
+        Seen::way(self, from)
+    }
+
+    #[inline(always)]
+    fn point_in<const WAY: usize>(&self, from: DVec3, u: [f64; 2]) -> LightPoint {
+        match WAY {
+            BY_AREA => parallelogram_area_point(self, from, u),
+            BY_ANGLES => RectangleSeen::new(self.centre, self.half_edges, from).point(u),
+            _ => parallelogram_point(self, from, u),
+        }
+    }
+
+    fn in_ways(&self, visitor: &mut impl WayVisitor) {
+        visitor.visit::<Self, BY_AREA>(self);
+        if self.is_rectangle {
+            visitor.visit::<Self, BY_ANGLES>(self);
+        }
+        visitor.visit::<Self, ANY_WAY>(self);
     }
 
     #[inline(always)]
@@ -156,6 +184,12 @@ impl RectangleSeen {
     }
     // ANCHOR_END: rectangle_seen
 
+    /// A point of the rectangle, uniform in solid angle.
+    #[inline(always)]
+    fn point(&self, u: [f64; 2]) -> LightPoint {
+        LightPoint { to: self.at(u), pdf: 1.0 / self.solid_angle }
+    }
+
     // ANCHOR: rectangle_at
     /// The offset to a point of the rectangle, uniform in solid angle (Ureña, Fajardo and King 2013).
     ///
@@ -170,7 +204,7 @@ impl RectangleSeen {
         // f² + lean² − 1, with 1 − lean² computed as one term.
         let rest = f * f - z * z / (y0 * y0 + z * z);
         let x = -f.signum() * z / rest.max(0.0).sqrt();
-        let x = if x.is_nan() { x0 + u[0] * (x1 - x0) } else { x.clamp(x0, x1) };
+        let x = if x.is_nan() { x0 + u[0] * (x1 - x0) } else { within(x, [x0, x1]) };
         self.along(x, [y0, y1], u[1])
     }
     // ANCHOR_END: rectangle_at
@@ -182,7 +216,7 @@ impl RectangleSeen {
         let sine = low + u * (high - low);
         let depth = (x * x + self.z * self.z).sqrt();
         let at = sine * depth / (1.0 - sine * sine).max(f64::MIN_POSITIVE).sqrt();
-        let at = at.clamp(y[0], y[1]);
+        let at = within(at, y);
         self.axes[0] * x + self.axes[1] * at + self.axes[2] * self.z
     }
 
@@ -222,6 +256,13 @@ impl RectangleSeen {
     }
 }
 
+/// A number, or the end of the interval that it is beyond; unlike `clamp`, without a check of the ends.
+#[inline(always)]
+fn within(x: f64, [low, high]: [f64; 2]) -> f64 {
+    let at_least = if x < low { low } else { x };
+    if at_least > high { high } else { at_least }
+}
+
 /// The sum of two rotations, each as its cosine and sine.
 #[inline(always)]
 fn add_turns(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
@@ -232,7 +273,7 @@ fn add_turns(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 #[inline(always)]
 pub fn parallelogram_point(shape: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint {
     match Seen::of(shape, from) {
-        Seen::Rectangle(seen) => LightPoint { to: seen.at(u), pdf: 1.0 / seen.solid_angle },
+        Seen::Rectangle(seen) => seen.point(u),
         Seen::Triangles(solid_angles) => {
             let whole = solid_angles[0] + solid_angles[1];
             let at = u[0] * whole;
@@ -290,11 +331,23 @@ enum Seen {
 }
 
 impl Seen {
+    /// Which way is certain to be that of [`Self::of`], without computing a solid angle.
+    ///
+    /// That of a rectangle is at least its area, seen at the angle of its plane, at the distance of its farthest corner.
+    #[inline(always)]
+    fn way(shape: &Parallelogram, from: DVec3) -> usize {
+        let half_diagonal_squared = half_diagonal_squared(shape);
+        let farthest = (FAR + 1.0) * half_diagonal_squared.sqrt();
+        let to = shape.centre - from;
+        let seen = shape.area() * shape.normal.dot(to).abs();
+        let is_large = seen >= 2.0 * MIN_OF_FOUR_ANGLES * farthest * farthest * farthest;
+        let near = if shape.is_rectangle & is_large { BY_ANGLES } else { ANY_WAY };
+        if to.length_squared() > FAR * FAR * half_diagonal_squared { BY_AREA } else { near }
+    }
+
     #[inline(always)]
     fn of(shape: &Parallelogram, from: DVec3) -> Self {
-        let [x, y] = shape.half_edges;
-        let half_diagonal_squared = x.length_squared() + y.length_squared() + 2.0 * x.dot(y).abs();
-        if (from - shape.centre).length_squared() > FAR * FAR * half_diagonal_squared {
+        if (from - shape.centre).length_squared() > FAR * FAR * half_diagonal_squared(shape) {
             return Self::Small;
         }
         if shape.is_rectangle {
@@ -309,10 +362,65 @@ impl Seen {
     }
 }
 
+/// The square of half the longer diagonal.
+#[inline(always)]
+fn half_diagonal_squared(shape: &Parallelogram) -> f64 {
+    let [x, y] = shape.half_edges;
+    x.length_squared() + y.length_squared() + 2.0 * x.dot(y).abs()
+}
+
 /// The two triangles of a parallelogram.
 #[inline(always)]
 fn halves(shape: &Parallelogram) -> [[DVec3; 3]; 2] {
     let (centre, [x, y]) = (shape.centre, shape.half_edges);
     let [a, b, c, d] = [centre - x - y, centre + x - y, centre + x + y, centre - x + y];
     [[a, b, c], [a, c, d]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::draws::Draws;
+
+    /// Keeps the point of the way that applies.
+    struct PointIn {
+        from: DVec3,
+        u: [f64; 2],
+        points: Vec<LightPoint>,
+    }
+
+    impl WayVisitor for PointIn {
+        fn visit<E: Emitting, const WAY: usize>(&mut self, emitter: &E) {
+            if emitter.way(self.from) == WAY {
+                self.points.push(emitter.point_in::<WAY>(self.from, self.u));
+            }
+        }
+    }
+
+    /// From anywhere, one way applies, and gives to the last bit what finding out gives.
+    #[test]
+    fn ways_give_the_points_that_finding_out_gives() {
+        let mut tried = [0; 3];
+        for number in 0..40_000 {
+            let mut draws = Draws::new(4101, number);
+            let across = draws.unit_vector();
+            let other = if number % 3 == 0 { draws.unit_vector() } else { draws.unit_vector_across(across) };
+            let [first, second] = [draws.power_of_ten(-3.0, 3.0), draws.power_of_ten(-3.0, 3.0)];
+            let shape = Parallelogram::new(draws.unit_vector(), [across * first, other * second], draws.unit_vector());
+            let away = shape.half_edges[0].length() * draws.power_of_ten(-4.0, 2.0);
+            let from = match number % 4 {
+                0 => shape.centre + shape.half_edges[0] * draws.between(-3.0, 3.0),
+                _ => shape.centre + draws.unit_vector() * away,
+            };
+            let u = [draws.unit(), draws.unit()];
+            let mut points = PointIn { from, u, points: Vec::new() };
+            shape.in_ways(&mut points);
+            let bits = |point: &LightPoint| [point.to.x, point.to.y, point.to.z, point.pdf].map(f64::to_bits);
+            let own: Vec<_> = points.points.iter().map(bits).collect();
+            assert_eq!(own, [bits(&shape.point(from, u))], "{number}: {shape:?} from {from}");
+            tried[shape.way(from)] += 1;
+        }
+        eprintln!("parallelograms: {tried:?} points by area, by angles and by finding out");
+        assert!(tried.iter().all(|tried| *tried > 1000), "{tried:?}");
+    }
 }

@@ -1,0 +1,196 @@
+//! Sampling a BSDF for many rows at once.
+//!
+//! The rows of a list lie apart in their columns: a block of them is gathered component by component, one loop samples
+//! all of its rows, and the rays that go on are appended.
+
+use super::Scattered;
+use crate::intersect::{ShadingNormals, Surfaces};
+use crate::material::{Bsdf, BsdfSample, Parameters, ShadingContext, Transport};
+use crate::plan::{ColumnArrays, VectorRows, VectorRowsMut};
+use crate::rays::{Paths, WorldRays};
+use crate::shapes::offset_origin;
+use glam::{DVec3, Vec3};
+use multiversion::multiversion;
+
+/// How many rows are sampled at once.
+pub(super) const AT_ONCE: usize = 32;
+
+/// The columns of the rows that a BSDF is sampled for.
+pub(super) struct SampledColumns<'a> {
+    /// The rays that arrive.
+    pub rays: &'a WorldRays,
+    /// The paths that they belong to.
+    pub paths: &'a Paths,
+    /// The surfaces that they hit.
+    pub surfaces: &'a Surfaces,
+    /// Their shading normals, where they have any.
+    pub shading: Option<&'a ShadingNormals>,
+}
+
+/// Some of these rows, component by component.
+pub(super) struct SampledBlock {
+    direction: [[f32; AT_ONCE]; 3],
+    throughput: [[f64; AT_ONCE]; 3],
+    position: [[f32; AT_ONCE]; 3],
+    geometric: [[f32; AT_ONCE]; 3],
+    bound: [f32; AT_ONCE],
+    normal: [[f64; AT_ONCE]; 3],
+    table_row: [u32; AT_ONCE],
+    colour: [[f64; AT_ONCE]; 3],
+    metallic: [f64; AT_ONCE],
+    roughness: [f64; AT_ONCE],
+    eta: [f64; AT_ONCE],
+    u: [[f64; AT_ONCE]; 2],
+    choice: [f64; AT_ONCE],
+}
+
+/// The rays that leave them; of throughput 0 where the BSDF gives none, or one to the wrong side of the geometric surface.
+pub(super) struct ScatteredBlock {
+    origin: [[f32; AT_ONCE]; 3],
+    direction: [[f32; AT_ONCE]; 3],
+    throughput: [[f64; AT_ONCE]; 3],
+    pdf: [f64; AT_ONCE],
+    counts: [u32; AT_ONCE],
+}
+
+impl SampledBlock {
+    pub const NONE: Self = Self {
+        direction: [[0.0; AT_ONCE]; 3],
+        throughput: [[0.0; AT_ONCE]; 3],
+        position: [[0.0; AT_ONCE]; 3],
+        geometric: [[0.0; AT_ONCE]; 3],
+        bound: [0.0; AT_ONCE],
+        normal: [[0.0; AT_ONCE]; 3],
+        table_row: [0; AT_ONCE],
+        colour: [[0.0; AT_ONCE]; 3],
+        metallic: [0.0; AT_ONCE],
+        roughness: [0.0; AT_ONCE],
+        eta: [1.0; AT_ONCE],
+        u: [[0.0; AT_ONCE]; 2],
+        choice: [0.0; AT_ONCE],
+    };
+
+    /// Gathers the rows.
+    #[inline(always)]
+    pub fn gather(&mut self, columns: &SampledColumns<'_>, rows: &[u32]) {
+        let (position, geometric, bound, _) = columns.surfaces.slices();
+        let arriving = columns.rays.direction.slices(bound.len());
+        for (lane, &row) in rows.iter().enumerate() {
+            let row = row as usize;
+            self.direction.put(lane, arriving.at(row));
+            self.position.put(lane, position.at(row));
+            self.geometric.put(lane, geometric.at(row));
+            self.bound[lane] = bound[row];
+            self.throughput.put(lane, columns.paths.throughput(row));
+            let own = || Vec3::from(geometric.at(row)).as_dvec3();
+            self.normal.put(lane, columns.shading.map_or_else(own, |normals| normals.get(row)));
+        }
+    }
+
+    /// Sets what is known of a row's material: its row of the BSDF's table, its parameters and its relative index of
+    /// refraction.
+    #[inline(always)]
+    pub fn set_context<B: Bsdf>(&mut self, lane: usize, context: &ShadingContext) {
+        self.table_row[lane] = context.row as u32;
+        self.colour.put(lane, context.parameters.colour);
+        (self.metallic[lane], self.roughness[lane]) = (context.parameters.metallic, context.parameters.roughness);
+        if B::TRANSMITS {
+            self.eta[lane] = context.eta;
+        }
+    }
+
+    /// Sets the random numbers of the rows.
+    #[inline(always)]
+    pub fn set_numbers(&mut self, points: &[[f64; 2]], choices: &[f64]) {
+        for (lane, &[u, v]) in points.iter().enumerate() {
+            (self.u[0][lane], self.u[1][lane]) = (u, v);
+        }
+        self.choice[..choices.len()].copy_from_slice(choices);
+    }
+}
+
+impl ScatteredBlock {
+    pub const NONE: Self = Self {
+        origin: [[0.0; AT_ONCE]; 3],
+        direction: [[0.0; AT_ONCE]; 3],
+        throughput: [[0.0; AT_ONCE]; 3],
+        pdf: [0.0; AT_ONCE],
+        counts: [0; AT_ONCE],
+    };
+
+    /// Samples the BSDF for the first rows of a block.
+    #[inline(always)]
+    pub fn sample<B: Bsdf>(&mut self, bsdf: &B, block: &SampledBlock, rows: usize, transport: Transport) {
+        if B::IN_BLOCKS && bsdf.in_blocks() {
+            // What follows the last row is left over from an earlier block: a loop of a fixed length has no end to care for.
+            sample_at_once(bsdf, block, self, transport);
+        } else {
+            sample_rows::<B, false>(bsdf, block, self, rows, transport);
+        }
+    }
+
+    /// Appends those that go on.
+    #[inline(always)]
+    pub fn append(&self, rows: &[u32], scattered: &mut Scattered) {
+        let length = scattered.row.len();
+        let (from, mut origin, mut direction, mut throughput, pdf) = scattered.slices_mut(length + rows.len());
+        let mut at = length;
+        for (lane, &row) in rows.iter().enumerate() {
+            // Every row is written, and the next one overwrites it unless it counts, so that no branch depends on it.
+            from[at] = row;
+            origin.put(at, self.origin.at(lane));
+            direction.put(at, self.direction.at(lane));
+            throughput.put(at, self.throughput.at(lane));
+            pdf[at] = self.pdf[lane];
+            at += self.counts[lane] as usize;
+        }
+        scattered.slices_mut(at);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn sample_at_once<B: Bsdf>(bsdf: &B, block: &SampledBlock, made: &mut ScatteredBlock, transport: Transport) {
+    sample_rows::<B, true>(bsdf, block, made, AT_ONCE, transport);
+}
+
+#[inline(always)]
+fn sample_rows<B: Bsdf, const IN_BLOCK: bool>(
+    bsdf: &B,
+    block: &SampledBlock,
+    made: &mut ScatteredBlock,
+    rows: usize,
+    transport: Transport,
+) {
+    const NONE: BsdfSample = BsdfSample { to_light: DVec3::Z, pdf: 0.0, weight: [0.0; 3] };
+    for lane in 0..rows.min(AT_ONCE) {
+        let world_from_local = B::frame(block.normal.at(lane).into());
+        let to_eye = world_from_local.transpose() * -Vec3::from(block.direction.at(lane)).as_dvec3();
+        let parameters = Parameters {
+            colour: block.colour.at(lane),
+            metallic: block.metallic[lane],
+            roughness: block.roughness[lane],
+        };
+        let (row, eta) = (block.table_row[lane] as usize, block.eta[lane]);
+        let context = ShadingContext { row, parameters, eta, reflectance: None, transport };
+        let (numbers, choice) = ([block.u[0][lane], block.u[1][lane]], block.choice[lane]);
+        let sample = if IN_BLOCK {
+            bsdf.sample_in_block(&context, to_eye, numbers, choice)
+        } else {
+            bsdf.sample(&context, to_eye, numbers, choice)
+        };
+        let BsdfSample { to_light, pdf, weight } = sample.unwrap_or(NONE);
+
+        let geometric = Vec3::from(block.geometric.at(lane));
+        let side = if B::TRANSMITS && to_light.z < 0.0 { -geometric } else { geometric };
+        let direction = world_from_local * to_light;
+        // A ray to the wrong side of the geometric surface goes nowhere.
+        let leaves = direction.dot(side.as_dvec3()) > 0.0;
+        let throughput = block.throughput.at(lane);
+        let [r, g, b] = [0, 1, 2].map(|part| if leaves { throughput[part] * weight[part] } else { 0.0 });
+        made.origin.put(lane, offset_origin(Vec3::from(block.position.at(lane)), side, block.bound[lane]));
+        made.direction.put(lane, direction.as_vec3());
+        made.throughput.put(lane, [r, g, b]);
+        made.pdf[lane] = pdf;
+        made.counts[lane] = u32::from((r != 0.0) | (g != 0.0) | (b != 0.0));
+    }
+}
