@@ -88,6 +88,50 @@ fn the_page_s_table_of_what_is_not_found_is_measured() {
     assert!(missing.is_empty(), "book/src/methods.md lacks\n{}", missing.join("\n"));
 }
 
+/// The page's efficiencies are those that are kept beside chapter 39.
+#[test]
+fn the_page_s_efficiencies_are_those_that_are_kept() {
+    let read = |file: &str| std::fs::read_to_string(root().join(file)).expect("kept");
+    let (page, kept) = (read("book/src/methods.md"), read("chapters/39_both_ends/curves.txt"));
+    assert!(kept.lines().any(|line| line.starts_with("machine: ")));
+    assert!(kept.lines().last().is_some_and(|line| line.starts_with("measured on ")));
+    let mut missing = Vec::new();
+    for (scene, begins, chosen) in [
+        ("keyhole", "39_both_ends", METHODS[3]),
+        ("pool", "tests/methods/pool.ron", METHODS[2]),
+        ("Cornell box", "tests/methods/cornell.ron", METHODS[0]),
+        ("Veach's plates", "tests/methods/veach.ron", METHODS[0]),
+    ] {
+        let lines = || kept.lines().skip_while(|line| !line.starts_with(&format!("{begins}: ")));
+        let line = |method: &str| lines().find(|line| line.starts_with(&format!("{method} "))).expect("a line");
+        let cells: Vec<String> = METHODS[1..].iter().map(|method| efficiency(line(method))).collect();
+        let why = lines().find(|line| line.contains(": it lacks no light")).expect("a choice");
+        assert!(why.starts_with(&format!("{chosen}: ")), "{why}");
+        let row = format!("| {scene} | {} | {} |", cells.join(" | "), chosen.replace('_', " "));
+        if !page.contains(&row) {
+            missing.push(row);
+        }
+    }
+    assert!(missing.is_empty(), "book/src/methods.md lacks\n{}", missing.join("\n"));
+}
+
+/// The efficiency in a line of a pilot's table, in two digits.
+fn efficiency(line: &str) -> String {
+    if line.contains(" by the same stages") {
+        return "–".into();
+    }
+    let (before, after) = line.split_once(" (").expect("an interval");
+    let ends = after.split(')').next().expect("its end").split(" to ");
+    let numbers = before.rsplit(' ').next().into_iter().chain(ends);
+    let two = |number: &str| match number.parse::<f64>().expect("a number") {
+        large if large >= 10.0 => format!("{large:.0}"),
+        one if one >= 1.0 => format!("{one:.1}"),
+        small => format!("{small:.2}"),
+    };
+    let [value, low, high] = numbers.map(two).collect::<Vec<_>>().try_into().expect("three numbers");
+    format!("{value} ({low} to {high})")
+}
+
 #[test]
 fn a_method_that_is_refused_says_why_and_one_without_work_says_whose_it_does() {
     let text = printed("methods tests/methods/fog.ron --size 8x6 --samples 1 --seeds 4").expect("measured");

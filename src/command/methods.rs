@@ -3,8 +3,9 @@
 use super::error::{Error, Result};
 use super::format::{Format, print_json};
 use super::interrupt::EndsByItself;
-use super::report::{Bar, METHODS, Rival, size, variants};
-use super::report_arguments::TryMethods;
+use super::own_file::write_file;
+use super::report::{Bar, METHODS, Rival, measure_one, size, variants};
+use super::report_arguments::{ReportErrors, TryMethods};
 use super::subject::Subject;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{camera_entity, integrator_of};
@@ -12,8 +13,64 @@ use pinhole::plan::Census;
 use pinhole::scene::{BidirectionalPathTracing, LightTracing, PhotonMapping};
 use pinhole::{Chapter, Overrides};
 use pinhole_lab::report::pilot::{Choice, Found, choose, pilot, table};
+use pinhole_lab::report::provenance::processor_and_caches;
+use pinhole_lab::report::table::short;
+use pinhole_lab::repository;
 use serde::Serialize;
+use std::fmt::Write as _;
 use std::io::Write;
+
+/// What is kept beside chapter 39, whose figure and next page show it.
+pub(super) const KEPT: &str = "chapters/39_both_ends/curves.txt";
+
+/// The scenes that stand there side by side, and the methods that have something to do in each; the first of them is the
+/// scene's own, and its reference the others' too.
+const SCENES: [(&str, &str, &[&str]); 4] = [
+    ("keyhole", "39_both_ends", &["bidirectional_path_tracing", "path_tracing"]),
+    (
+        "pool",
+        "tests/methods/pool.ron",
+        &["photon_mapping", "path_tracing", "light_tracing", "bidirectional_path_tracing"],
+    ),
+    ("Cornell box", "tests/methods/cornell.ron", &["path_tracing", "bidirectional_path_tracing"]),
+    ("Veach's plates", "tests/methods/veach.ron", &["path_tracing", "bidirectional_path_tracing"]),
+];
+
+/// Measures error against run time by each method on each scene, and what the pilot says, and keeps both.
+pub(super) fn measure_methods(chapters: &[Chapter]) -> Result {
+    let mut text = String::from("error against run time: relMSE, and milliseconds of processor time a picture\n");
+    let mut pilots = Vec::new();
+    let mut measured = String::new();
+    for (title, scene, methods) in SCENES {
+        let asked = ReportErrors {
+            subject: scene.into(),
+            against: methods[1..].iter().map(|method| format!("method={method}")).collect(),
+            quick: true,
+            ..ReportErrors::default()
+        };
+        let report = measure_one(chapters, &asked, Format::Json, &mut std::io::sink())?.report;
+        let _ = write!(text, "\n{title}, by {}\nsamples", asked.command_line());
+        for method in methods {
+            let _ = write!(text, "  {:>width$}  {method} ms", method, width = method.len());
+        }
+        for (level, samples) in report.ladder.samples.iter().enumerate() {
+            let _ = write!(text, "\n{samples:>7}");
+            for (variant, method) in report.variants.iter().zip(methods) {
+                let level = &variant.levels[level];
+                let numbers = [level.rel_mse, 1e3 * level.render.median.value].map(short);
+                let _ =
+                    write!(text, "  {:>w$}  {:>m$}", numbers[0], numbers[1], w = method.len(), m = method.len() + 3);
+            }
+        }
+        text.push('\n');
+        measured = report.provenance.measured();
+        let pilot = TryMethods { subject: scene.into(), samples: None, seeds: None, size: None, quick: false };
+        print_methods(chapters, &pilot, Format::Text, &mut pilots)?;
+        pilots.push(b'\n');
+    }
+    let _ = write!(text, "\n{}{}\n{measured}\n", String::from_utf8_lossy(&pilots), processor_and_caches());
+    Ok(write_file(true, &repository().join(KEPT), text.as_bytes())?)
+}
 
 /// What the pilot found, as JSON has it.
 #[derive(Serialize)]

@@ -70,7 +70,7 @@ pub fn report(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &
 #[derive(Serialize)]
 pub(super) struct Measured {
     #[serde(flatten)]
-    report: Report,
+    pub report: Report,
     pub files: Vec<String>,
 }
 

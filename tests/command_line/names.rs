@@ -33,7 +33,7 @@ const COMMANDS: [&str; 23] = [
     "render SCENE/none.ron",
     "render none-SCENE",
     "sweep SCENE",
-    "methods SCENE --size 8x5",
+    "methods SCENE --size 8x5 --quick",
 ];
 
 #[test]

@@ -210,7 +210,7 @@ fn words(lack: &Lack) -> String {
 
 /// The table, and what is to be known of it.
 pub fn table(methods: &[(&str, Found)], samples: u32) -> String {
-    let mut text = format!("{:<27} {:>8}  {:<15} {:<26} lacks\n", "method", "ms CPU", "variance", "efficiency");
+    let mut text = format!("{:<27} {:>8}  {:<15} {:<28} lacks\n", "method", "ms CPU", "variance", "efficiency");
     let mut unsure = Vec::new();
     for (name, found) in methods {
         text += &match found {
@@ -227,7 +227,7 @@ pub fn table(methods: &[(&str, Found)], samples: u32) -> String {
                     Some(Interval { low, high, .. }) if low == high => short(low),
                     _ => with_ends(efficiency),
                 };
-                format!("{name:<27} {time:>8}  {variance:<15} {efficiency:<26} {}\n", words(lacks))
+                format!("{name:<27} {time:>8}  {variance:<15} {efficiency:<28} {}\n", words(lacks))
             }
         };
     }
