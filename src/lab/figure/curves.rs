@@ -224,10 +224,12 @@ pub fn draw_methods(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     }
     let titles = ["keyhole", "pool", "Cornell box", "Veach's plates"];
     for (panel, title) in titles.into_iter().enumerate() {
-        let missing = || Error::Usage(format!("{place} has no curve of {title}; `measure {}` measures it", chapter.name));
+        let missing =
+            || Error::Usage(format!("{place} has no curve of {title}; `measure {}` measures it", chapter.name));
         let kept = Kept::of(&text, title).ok_or_else(missing)?;
         let points = |method: &str| {
-            let [errors, times] = [method.into(), format!("{method} ms")].map(|it: String| kept.column(|name| name == it));
+            let [errors, times] =
+                [method.into(), format!("{method} ms")].map(|it: String| kept.column(|name| name == it));
             let pairs = times.iter().zip(&errors).map(|((_, time), (_, error))| (*time, *error));
             pairs.filter(|(_, error)| *error > 0.0).collect::<Vec<_>>()
         };

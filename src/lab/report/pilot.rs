@@ -5,7 +5,7 @@
 
 use super::agreement::{Lack, lack};
 use super::ensemble::{Ensemble, Reference};
-use super::interval::{Estimate, Interval, LEVEL, mean_of, median};
+use super::interval::{Estimate, Interval, LEVEL, mean_of};
 use super::runner::{Progress, Variant};
 use super::summary::Statistic;
 use super::table::{short, with_ends, with_percent};
@@ -37,7 +37,8 @@ pub enum Found {
 pub struct Numbered {
     /// Processor time of one picture: the mean.
     pub seconds: f64,
-    /// Mean of s² / (r² + 0.01) over pixels: s² is the variance from seed to seed, r the median of all methods' means.
+    /// Mean of s² / (r² + 0.01) over pixels: s² is the variance from seed to seed, r the lower median of the means
+    /// of those methods that lack no light, which one method's fireflies do not move.
     pub variance: Statistic,
     /// 1 / (variance · time) over that of the first method.
     pub efficiency: Statistic,
@@ -102,16 +103,32 @@ fn refusal(error: Error) -> Result<Found> {
 
 /// The numbers of each of several methods' pictures, the first of which the others are compared with.
 fn numbered(trials: &[Trial]) -> std::result::Result<Vec<Numbered>, String> {
-    let references: Vec<Reference> = trials.iter().filter_map(|trial| Reference::of(&trial.images)).collect();
-    let Some(first) = references.first() else { return Ok(Vec::new()) };
+    let lacking = |own: usize| {
+        let others = trials.iter().enumerate().filter(|(other, _)| *other != own);
+        let lacks = others.map(|(_, other)| lack(&trials[own].images, &other.images, SIDE, trials.len() - 1));
+        let lacks = lacks.collect::<std::result::Result<Vec<Lack>, String>>()?;
+        let surely = |lack: &Lack| lack.fraction - lack.standard_error;
+        let most = |one: &Lack, other: &Lack| {
+            one.beyond_noise.cmp(&other.beyond_noise).then(surely(one).total_cmp(&surely(other)))
+        };
+        Ok(lacks.into_iter().max_by(most).unwrap_or_default())
+    };
+    let lacks = (0..trials.len()).map(lacking).collect::<std::result::Result<Vec<Lack>, String>>()?;
+    let mut means: Vec<Numbers> = Vec::new();
+    let of = |trial: &Trial| Reference::of(&trial.images).map(|reference| reference.mean);
+    means.extend(trials.iter().zip(&lacks).filter(|(_, lack)| !lack.beyond_noise).filter_map(|(trial, _)| of(trial)));
+    if means.is_empty() {
+        means.extend(trials.iter().filter_map(of));
+    }
     let pixel = |at: usize| {
         [0, 1, 2].map(|part| {
-            let means: Vec<f64> = references.iter().map(|reference| reference.mean.pixels[at][part]).collect();
-            let r = median(&means).unwrap_or(0.0);
+            let mut values: Vec<f64> = means.iter().map(|mean| mean.pixels[at][part]).collect();
+            values.sort_by(f64::total_cmp);
+            let r = values[(values.len() - 1) / 2];
             1.0 / libm::sqrt(r * r + RELATIVE_FLOOR)
         })
     };
-    let weights: Vec<[f64; 3]> = (0..first.mean.pixels.len()).map(pixel).collect();
+    let weights: Vec<[f64; 3]> = (0..means.first().map_or(0, |mean| mean.pixels.len())).map(pixel).collect();
     let variances: Vec<Option<Estimate>> = trials.iter().map(|trial| relative_variance(trial, &weights)).collect();
     let efficiency = |own: usize| {
         let [variance, time] = [variances[own]?, mean_of(&trials[own].seconds)?].map(|it| it.logarithm());
@@ -120,26 +137,19 @@ fn numbered(trials: &[Trial]) -> std::result::Result<Vec<Numbered>, String> {
     };
     let efficiencies: Vec<Option<Estimate>> = (0..trials.len()).map(efficiency).collect();
     let row = |own: usize| {
-        let others = trials.iter().enumerate().filter(|(other, _)| *other != own);
-        let lacks = others.map(|(_, other)| lack(&trials[own].images, &other.images, SIDE, trials.len() - 1));
-        let lacks = lacks.collect::<std::result::Result<Vec<Lack>, String>>()?;
-        let most = |lack: &Lack| (lack.beyond_noise, lack.fraction - lack.standard_error);
-        let lacks = lacks
-            .into_iter()
-            .max_by(|one, other| most(one).partial_cmp(&most(other)).unwrap_or(std::cmp::Ordering::Equal));
         let none = || "there is no noise to compare".to_owned();
         let ratio = match (own, efficiencies[own], efficiencies[0]) {
             (0, Some(_), _) => Some(Estimate { value: 0.0, variance: 0.0, freedom: 1.0 }),
             (_, own, first) => own.zip(first).map(|(own, first)| own.less(&first)),
         };
-        Ok(Numbered {
+        Numbered {
             seconds: mean_of(&trials[own].seconds).map_or(0.0, |mean| mean.value),
             variance: Statistic::of(variances[own].map(|it| it.interval(LEVEL)).ok_or_else(none)),
             efficiency: Statistic::of(ratio.map(|log| log.interval(LEVEL).of_logarithm()).ok_or_else(none)),
-            lacks: lacks.unwrap_or_default(),
-        })
+            lacks: lacks[own],
+        }
     };
-    (0..trials.len()).map(row).collect()
+    Ok((0..trials.len()).map(row).collect())
 }
 
 fn relative_variance(trial: &Trial, weights: &[[f64; 3]]) -> Option<Estimate> {
