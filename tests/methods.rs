@@ -101,8 +101,6 @@ fn the_page_s_table_of_what_is_not_found_is_measured() {
 fn the_page_s_efficiencies_are_those_that_are_kept() {
     let read = |file: &str| std::fs::read_to_string(root().join(file)).expect("kept");
     let (page, kept) = (read("book/src/methods.md"), read("chapters/39_both_ends/curves.txt"));
-    assert!(kept.lines().any(|line| line.starts_with("machine: ")));
-    assert!(kept.lines().last().is_some_and(|line| line.starts_with("measured on ")));
     let mut missing = Vec::new();
     for (scene, begins, chosen) in [
         ("keyhole", "39_both_ends", METHODS[3]),
