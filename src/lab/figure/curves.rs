@@ -217,7 +217,7 @@ pub fn draw_methods(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let place = format!("chapters/{}/curves.txt", chapter.name);
     let text = read_file(&crate::repository().join(&place), KEPT).unwrap_or_default();
     let text = String::from_utf8_lossy(&text);
-    let mut svg = Svg::new(figure.name, 540.0);
+    let mut svg = Svg::new(figure.name, 566.0);
     for ((_, name, pen), x) in METHODS.iter().zip([66.0, 226.0, 386.0, 556.0]) {
         svg.quiet_line(DVec2::new(x, 16.0), DVec2::new(x + 22.0, 16.0), *pen);
         svg.label(Label::near(DVec2::new(x + 26.0, 16.0), name, DVec2::X, 3.0).coloured(pen.colour).title(0.92));
