@@ -13,7 +13,8 @@ pub struct ReportErrors {
     /// A chapter: its stem, its number or its name (17_sampling, 17, sampling); a scene file, ending in .ron; or all
     #[arg(value_name = "CHAPTER")]
     pub subject: String,
-    /// Compare with this: sampler=NAME, filter=NAME, lights=NAME, a chapter or a scene file; may be given several times
+    /// Compare with this: sampler=NAME, filter=NAME, lights=NAME, method=NAME, a chapter or a scene
+    /// file; may be given several times
     #[arg(long, value_name = "WHAT")]
     pub against: Vec<String>,
     /// Four sample counts of 8 seeds instead of five of 16

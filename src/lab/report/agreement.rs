@@ -62,7 +62,7 @@ pub struct Lack {
     pub fraction: f64,
     /// Its standard error.
     pub standard_error: f64,
-    /// How many blocks are darker than the other's beyond noise.
+    /// How many blocks are darker than the other's beyond noise, each with those around it.
     pub darker: usize,
     /// How many blocks there are.
     pub blocks: usize,
@@ -73,23 +73,34 @@ pub struct Lack {
 /// What the first of two sets of independent renders lacks, by Welch's t over blocks of so many pixels a side and over the
 /// whole picture, where it is compared so often.
 ///
+/// A block is darker only if it is so together with the blocks around it: what a blur takes from one, it brings to the next.
+///
 /// Errors: as [`agreement`].
 pub fn lack(own: &[Numbers], other: &[Numbers], side: u32, comparisons: usize) -> Result<Lack, String> {
     let [one, two] = blocks_of(own, other, side)?;
     let limit = 1.0 - libm::pow(1.0 - FAMILY, 1.0 / (comparisons * (one.len() + 1)) as f64);
     let is_lack = |difference: Estimate| difference.value > 0.0 && at_least(difference) < limit;
-    let mut chosen: Vec<usize> = (0..one.len()).filter(|&at| is_lack(two[at].mean.less(&one[at].mean))).collect();
-    let mut darker: Vec<usize> = chosen.iter().map(|at| at / 3).collect();
-    darker.dedup();
-    let (darker, blocks) = (darker.len(), one.len() / 3);
-    if chosen.is_empty() {
-        chosen.extend(0..one.len());
-    }
     // By image, so that what a path brings to several blocks counts as one.
     let light = |of: &[Block], at: &[usize]| {
         let sum = |image: usize| at.iter().map(|&at| of[at].area * of[at].each[image]).sum::<f64>();
         mean_of(&(0..of[0].each.len()).map(sum).collect::<Vec<f64>>()).ok_or(FEW)
     };
+    let across = own.first().map_or(1, |image| image.size[0].div_ceil(side) as usize);
+    let (mut chosen, mut darker) = (Vec::new(), Vec::new());
+    for at in (0..one.len()).filter(|&at| is_lack(two[at].mean.less(&one[at].mean))) {
+        let place = |at: usize| [at / 3 % across, at / 3 / across];
+        let is_near = |other: &usize| (0..2).all(|axis| place(*other)[axis].abs_diff(place(at)[axis]) <= 1);
+        let near: Vec<usize> = (at % 3..one.len()).step_by(3).filter(is_near).collect();
+        if is_lack(light(&two, &near)?.less(&light(&one, &near)?)) {
+            chosen.push(at);
+            darker.push(at / 3);
+        }
+    }
+    darker.dedup();
+    let (darker, blocks) = (darker.len(), one.len() / 3);
+    if chosen.is_empty() {
+        chosen.extend(0..one.len());
+    }
     let difference = light(&two, &chosen)?.less(&light(&one, &chosen)?);
     let all = light(&two, &(0..two.len()).collect::<Vec<usize>>())?.value;
     let part = |value: f64| if all > 0.0 { value / all } else { 0.0 };
@@ -98,7 +109,7 @@ pub fn lack(own: &[Numbers], other: &[Numbers], side: u32, comparisons: usize) -
     Ok(Lack { fraction, standard_error, darker, blocks, beyond_noise })
 }
 
-/// How likely a difference of equal means is to be at least this.
+/// The probability that the difference of equal means comes out at least as large as this one.
 fn at_least(difference: Estimate) -> f64 {
     let Estimate { value, variance, freedom } = difference;
     if variance > 0.0 { student_cdf(-value / variance.sqrt(), freedom) } else { 0.0 }
@@ -209,6 +220,12 @@ mod tests {
         });
         // One in three hundred each.
         assert!(told.count() < 3);
+        // Light that has moved to the next block is not lacking.
+        let mut blurred = dark.clone();
+        for image in &mut blurred {
+            (0..64).for_each(|at| image.pixels[at / 8 * 32 + at % 8 + 8].iter_mut().for_each(|part| *part += 0.25));
+        }
+        assert!(!lack(&blurred, &noise(8, 1.0, 2), 8, 1).expect("one size").beyond_noise);
         // One spark, however bright, proves nothing.
         let mut spark = noise(8, 1.0, 5);
         spark[3].pixels[500] = [1e6; 3];
