@@ -199,7 +199,9 @@ pub fn choose(methods: &[(&str, Found)]) -> Choice {
     let why = if of_first.lacks.beyond_noise {
         format!("it lacks no light that another finds, and {first} lacks {}", words(&of_first.lacks))
     } else if best == first {
-        "it lacks no light that another finds, and no other is more efficient beyond noise".into()
+        let others =
+            if measured().any(|(_, it)| it.lacks.beyond_noise) { "no other that lacks none" } else { "no other" };
+        format!("it lacks no light that another finds, and {others} is more efficient beyond noise")
     } else {
         let times = with_ends(&of_best.efficiency);
         format!("it lacks no light that another finds, and its efficiency is {times} times that of {first}")
