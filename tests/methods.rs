@@ -23,7 +23,7 @@ fn printed(words: &str) -> Result<String, String> {
 /// A small pilot of a scene.
 fn pilot(scene: &str) -> Value {
     // Photons are gathered within a few pixels, so that their blocks need others around them.
-    let size = if scene.contains("caustic") || scene.contains("sun") { "48x32" } else { "32x20" };
+    let size = if scene.contains("caustic") || scene.contains("sun") { "48x32" } else { "24x15" };
     let words = format!("methods {scene} --size {size} --samples 16 --seeds 8 --format json");
     serde_json::from_str(&printed(&words).expect("measured")).expect("one JSON value")
 }
