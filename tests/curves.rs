@@ -1,4 +1,4 @@
-//! What is kept of the curves of chapters 31, 34 and 37 says when it was measured, and has the forms that the pages describe.
+//! What is kept of the curves of chapters 31, 34, 37 and 39 says when it was measured, and has the forms that the pages describe.
 
 use pinhole::scene::MeshGeometry;
 use pinhole::shapes::{MeshHierarchy, PlacedSphere, hierarchy_of};
@@ -46,7 +46,7 @@ fn the_hierarchies_of_the_curves_are_of_the_sizes_that_are_kept() {
 /// Each file says when and where its times were measured.
 #[test]
 fn curves_say_when_they_were_measured() {
-    for chapter in ["31_wide_tree", "34_both", "37_rows"] {
+    for chapter in ["31_wide_tree", "34_both", "37_rows", "39_both_ends"] {
         let kept = kept(chapter);
         assert!(kept.lines().any(|line| line.starts_with("machine: ")), "{chapter}");
         assert!(kept.lines().last().is_some_and(|line| line.starts_with("measured on ")), "{chapter}");

@@ -7,6 +7,7 @@ mod command_line;
 mod compare;
 mod first_day;
 mod long_renders;
+mod methods;
 mod report_command;
 mod scene_files;
 mod scenes;

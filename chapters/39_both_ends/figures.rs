@@ -1,6 +1,6 @@
 //! The figures of chapter 39.
 
-use pinhole_lab::figure::{Figure, compared};
+use pinhole_lab::figure::{Figure, compared, curves};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -16,6 +16,12 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             chapter,
             about: "the light that each number of vertices from the lamp brings, weighted",
             draw: compared::draw_ways,
+        },
+        Figure {
+            name: "39_methods",
+            chapter,
+            about: "the error of four methods against processor time, on four scenes",
+            draw: curves::draw_methods,
         },
     ]
 }

@@ -1,7 +1,7 @@
 use super::called::called;
 use super::format::Format;
 use super::options::{MAX_PARTS, RenderOptions, STYLES, SamplingOptions, SceneOptions, pixel, size, workers};
-use super::report_arguments::{MeasureAnew, ReportErrors};
+use super::report_arguments::{MeasureAnew, ReportErrors, TryMethods};
 use super::span::span;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -83,6 +83,8 @@ pub enum Command {
     Cost(CostOfChapter),
     /// Measure error against run time: many samples, many seeds, a reference, intervals
     Report(ReportErrors),
+    /// Try the methods that may find a scene's light, and say which one to render it by, and why
+    Methods(TryMethods),
     /// Measure anew what is kept beside the chapters: costs, reports, curves, where stages or film have changed
     Measure(MeasureAnew),
     /// Check the function that a chapter asks you to write; without a chapter, list them and how far you are

@@ -7,6 +7,7 @@ use super::cost::{film_of, measure_and_keep, stages_of};
 use super::error::{Error, Result};
 use super::find;
 use super::format::{Format, print_json, shown};
+use super::methods;
 use super::report::{has_report, measure_one, rivals, variants};
 use super::report_arguments::{MeasureAnew, ReportErrors};
 use super::streams::Streams;
@@ -138,6 +139,10 @@ fn measure_chapter(chapters: &[Chapter], chapter: &Chapter) -> Result<Vec<String
         let asked = again(chapter, &ReportErrors { write: true, ..ReportErrors::default() });
         let report = measure_one(chapters, &asked, Format::Json, &mut std::io::sink())?;
         files.extend(report.files.into_iter().filter(|file| file.starts_with("chapters")));
+    }
+    if methods::KEPT.starts_with(&format!("chapters/{}/", chapter.name)) {
+        methods::measure_methods(chapters)?;
+        files.push(methods::KEPT.into());
     }
     for (_, file, words) in BENCHES.iter().filter(|(name, ..)| *name == chapter.name) {
         let bench = process::Command::new("cargo")

@@ -31,6 +31,7 @@ mod list;
 mod live;
 mod long_render;
 mod measure;
+mod methods;
 mod mine;
 mod mutation;
 mod options;
@@ -181,6 +182,7 @@ fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], strea
         Some(Command::Check(asked)) => check::check(chapters, &exercises(), asked.chapter.as_deref(), format, out),
         Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, format, out),
         Some(Command::Measure(asked)) => measure::measure_anew(chapters, &asked, format, streams),
+        Some(Command::Methods(asked)) => methods::print_methods(chapters, &asked, format, out),
         Some(Command::Report(asked)) => report::report(chapters, &asked, format, out),
         Some(Command::Review(asked)) => review::review(chapters, &asked, format, out),
         Some(Command::Yours(asked)) => yours::yours(&asked, format, streams),

@@ -310,7 +310,7 @@ pub fn workers(text: &str) -> Result<u16, String> {
 }
 
 /// A number of samples as it is typed: `64`, `4k` for 4000, or `1e3`.
-fn samples(text: &str) -> Result<u32, String> {
+pub fn samples(text: &str) -> Result<u32, String> {
     let text = text.trim();
     let number = match text.strip_suffix(['k', 'K']) {
         Some(thousands) => thousands.parse::<f64>().map(|thousands| thousands * 1e3),

@@ -70,7 +70,7 @@ pub fn report(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &
 #[derive(Serialize)]
 pub(super) struct Measured {
     #[serde(flatten)]
-    report: Report,
+    pub report: Report,
     pub files: Vec<String>,
 }
 
@@ -187,7 +187,7 @@ pub(super) enum Rival<'c> {
 type Method = fn(&mut EntityWorldMut<'_>);
 
 /// The methods that follow light by paths, each in place of the others.
-const METHODS: [(&str, Method); 4] = [
+pub(super) const METHODS: [(&str, Method); 4] = [
     ("path_tracing", |_| ()),
     ("light_tracing", |camera| _ = camera.insert(LightTracing::default())),
     ("photon_mapping", |camera| _ = camera.insert(PhotonMapping::default())),
@@ -277,10 +277,10 @@ pub(super) fn variants<'c>(
                 });
                 // A chapter need not offer what another method takes.
                 let mut stages = subject.stages();
-                let of_methods =
-                    [stages::light_tracing(), stages::photon_mapping(), stages::bidirectional_path_tracing()];
-                for stage in of_methods.into_iter().flatten().filter(|own| !stages.contains(own)).collect::<Vec<_>>() {
-                    stages.push(stage);
+                for stage in stages::all() {
+                    if !stages.contains(&stage) {
+                        stages.push(stage);
+                    }
                 }
                 stages::sort(&mut stages);
                 Variant { scene, stages, ..of(subject, (*word).into(), &|_| (), 0)? }
@@ -327,7 +327,7 @@ fn first_name(subject: &Subject<'_>, rivals: &[Rival<'_>], sampling: &Sampling) 
 }
 
 /// The image's size: as asked, or the scene's own shape at a number of pixels that fits a report's time.
-fn size(subject: &Subject<'_>, asked: Option<Resolution>) -> Result<Resolution> {
+pub(super) fn size(subject: &Subject<'_>, asked: Option<Resolution>) -> Result<Resolution> {
     if let Some(size) = asked {
         return Ok(size);
     }
@@ -348,14 +348,18 @@ fn file_stem(subject: &Subject<'_>, against: &[String]) -> String {
 }
 
 /// A bar that counts samples.
-struct Bar {
-    bar: ProgressBar,
+pub(super) struct Bar {
+    pub(super) bar: ProgressBar,
 }
 
 impl Bar {
     fn new(ladder: &Ladder, variants: &[Variant<'_>]) -> Self {
         let references = variants.iter().enumerate().filter(|(own, variant)| variant.reference == *own).count() as u64;
-        let all = variants.len() as u64 * ladder.samples_of_runs() + references * ladder.reference_samples();
+        Self::of(variants.len() as u64 * ladder.samples_of_runs() + references * ladder.reference_samples())
+    }
+
+    /// A bar of so many samples.
+    pub(super) fn of(all: u64) -> Self {
         let bar = ProgressBar::new(all);
         if let Ok(style) = ProgressStyle::with_template("measuring {bar:40} {percent:>3} %  {eta} left") {
             bar.set_style(style);

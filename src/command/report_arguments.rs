@@ -1,6 +1,8 @@
-use super::options::{resolution, workers};
+use super::options::{resolution, samples, workers};
 use clap::Args;
 use pinhole::scene::Resolution;
+use pinhole_lab::report::ensemble::FEWEST;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// What says how to measure, or what else.
@@ -11,7 +13,8 @@ pub struct ReportErrors {
     /// A chapter: its stem, its number or its name (17_sampling, 17, sampling); a scene file, ending in .ron; or all
     #[arg(value_name = "CHAPTER")]
     pub subject: String,
-    /// Compare with this: sampler=NAME, filter=NAME, lights=NAME, a chapter or a scene file; may be given several times
+    /// Compare with this: sampler=NAME, filter=NAME, lights=NAME, method=NAME, a chapter or a scene
+    /// file; may be given several times
     #[arg(long, value_name = "WHAT")]
     pub against: Vec<String>,
     /// Four sample counts of 8 seeds instead of five of 16
@@ -63,4 +66,23 @@ pub struct MeasureAnew {
     /// Say what would be measured and why, and measure nothing
     #[arg(long)]
     pub dry_run: bool,
+}
+
+#[derive(Args)]
+pub struct TryMethods {
+    /// A chapter: its stem, its number or its name (39_both_ends, 39, both_ends); or a scene file, ending in .ron
+    #[arg(value_name = "CHAPTER")]
+    pub subject: OsString,
+    /// Rays through each pixel of a picture (default: 16, or 4 with --quick)
+    #[arg(short = 'n', long, value_name = "N", allow_hyphen_values = true, value_parser = samples)]
+    pub samples: Option<u32>,
+    /// Pictures by each method, each with a seed of its own (default: 16, or 8 with --quick)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(FEWEST as i64..=1024))]
+    pub seeds: Option<u32>,
+    /// How many pixels the image has (default: the scene's shape, about 5,000 pixels)
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = resolution)]
+    pub size: Option<Resolution>,
+    /// Fewer samples and seeds
+    #[arg(long)]
+    pub quick: bool,
 }

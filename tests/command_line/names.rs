@@ -10,7 +10,7 @@ use std::os::unix::ffi::OsStringExt;
 const HIDDEN: [&str; 2] = ["\u{1b}[31m\u{9b}31m\t\r\u{7f}", "\u{202e}\u{2028}\u{200b}"];
 
 /// Commands with `SCENE` in place of the scene's file.
-const COMMANDS: [&str; 22] = [
+const COMMANDS: [&str; 23] = [
     "render SCENE --size 8x5",
     "render SCENE --size 8x5 -v",
     "render SCENE --size 8x5 -n 2 --write-every 1ms",
@@ -33,6 +33,7 @@ const COMMANDS: [&str; 22] = [
     "render SCENE/none.ron",
     "render none-SCENE",
     "sweep SCENE",
+    "methods SCENE --size 8x5 --quick",
 ];
 
 #[test]

@@ -31,6 +31,7 @@ const LINES: &[(&[&str], Says)] = &[
     (&["report", "18", "--kept"], report),
     (&["report", "18", "--kept", "-o", "@/plot.svg"], wrote),
     (&["report", "3", "--naive", "--size", "4x3"], naive),
+    (&["methods", "tests/methods/fog.ron", "--size", "8x6", "--samples", "1", "--seeds", "4"], methods),
     (&["check"], |it| each(it, "exercises", |it| format!("{} {} ", word(it, "chapter"), word(it, "function")))),
     (&["check", "12"], check),
     (&["figure"], |it| each(it, "figures", |it| format!("{} {}", word(it, "name"), word(it, "about")))),
@@ -304,6 +305,14 @@ fn naive(value: &Value) -> Vec<String> {
     let first = &list(value, "measurements")[0];
     says.push(format!("{} {}", says[0], short(number(&first["gives"], "value"))));
     assert_eq!(says.len(), 6);
+    says
+}
+
+fn methods(value: &Value) -> Vec<String> {
+    let mut says = vec![format!("{}: {}", word(value, "chosen"), word(value, "why")), word(value, "ask").into()];
+    let refused = list(value, "methods").iter().filter(|row| row["refused"].is_string());
+    says.extend(refused.map(|row| format!("{} refused: {}", word(row, "method"), word(row, "refused"))));
+    assert_eq!(says.len(), 5, "{value}");
     says
 }
 

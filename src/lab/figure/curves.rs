@@ -206,6 +206,64 @@ fn draw(chapter: &Chapter, figure: &Figure, axes: Axes, shown: &[Shown]) -> Resu
     Ok(svg.finish(figure.about, &figure.kept_stamp(&note)))
 }
 
+/// Four scenes, and each method's error against time.
+pub fn draw_methods(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    const METHODS: [(&str, &str, Pen); 4] = [
+        ("path_tracing", "path tracing", Pen::new(GREY, 2.0)),
+        ("light_tracing", "light tracing", Pen::new(GREEN, 2.0)),
+        ("photon_mapping", "photon mapping", Pen::new(ORANGE, 2.0)),
+        ("bidirectional_path_tracing", "from both ends", Pen::new(BLUE, 2.0)),
+    ];
+    let place = format!("chapters/{}/curves.txt", chapter.name);
+    let text = read_file(&crate::repository().join(&place), KEPT).unwrap_or_default();
+    let text = String::from_utf8_lossy(&text);
+    let mut svg = Svg::new(figure.name, 566.0);
+    for ((_, name, pen), x) in METHODS.iter().zip([66.0, 226.0, 386.0, 556.0]) {
+        svg.quiet_line(DVec2::new(x, 16.0), DVec2::new(x + 22.0, 16.0), *pen);
+        svg.label(Label::near(DVec2::new(x + 26.0, 16.0), name, DVec2::X, 3.0).coloured(pen.colour).title(0.92));
+    }
+    let titles = ["keyhole", "pool", "Cornell box", "Veach's plates"];
+    for (panel, title) in titles.into_iter().enumerate() {
+        let missing =
+            || Error::Usage(format!("{place} has no curve of {title}; `measure {}` measures it", chapter.name));
+        let kept = Kept::of(&text, title).ok_or_else(missing)?;
+        let points = |method: &str| {
+            let [errors, times] =
+                [method.into(), format!("{method} ms")].map(|it: String| kept.column(|name| name == it));
+            let pairs = times.iter().zip(&errors).map(|((_, time), (_, error))| (*time, *error));
+            pairs.filter(|(_, error)| *error > 0.0).collect::<Vec<_>>()
+        };
+        let all = || METHODS.iter().flat_map(|(method, ..)| points(method));
+        let (xs, ys) = (decades(all().map(|(time, _)| time)), decades(all().map(|(_, error)| error)));
+        let low = DVec2::new(66.0 + 350.0 * (panel % 2) as f64, 268.0 + 240.0 * (panel / 2) as f64);
+        let size = DVec2::new(280.0, -190.0);
+        let at = |(time, error): (f64, f64)| {
+            let part = |value: f64, [low, high]: [f64; 2]| (libm::log10(value) - low) / (high - low);
+            low + size * DVec2::new(part(time, xs), part(error, ys))
+        };
+        let grid = Pen::new(INK, 0.8).faint(0.16);
+        for decade in xs[0] as i32..=xs[1] as i32 {
+            let [foot, head] = ys.map(|end| at((libm::exp10(f64::from(decade)), libm::exp10(end))));
+            svg.quiet_line(foot, head, grid);
+            svg.label(Label::near(foot, &time(1, decade + 6), DVec2::Y, 5.0).title(0.85));
+        }
+        for decade in ys[0] as i32..=ys[1] as i32 {
+            let error = libm::exp10(f64::from(decade));
+            let [foot, end] = xs.map(|end| at((libm::exp10(end), error)));
+            svg.quiet_line(foot, end, grid);
+            svg.label(Label::near(foot, &format!("{error}"), DVec2::NEG_X, 6.0).title(0.85));
+        }
+        let middle = low + DVec2::new(0.5 * size.x, size.y);
+        svg.label(Label::near(middle, title, DVec2::NEG_Y, 6.0).title(0.92));
+        for (method, _, pen) in METHODS {
+            let points = points(method);
+            points.windows(2).for_each(|pair| svg.quiet_line(at(pair[0]), at(pair[1]), pen));
+            points.iter().for_each(|&point| svg.dot(at(point), 2.4, pen.colour));
+        }
+    }
+    Ok(svg.finish(figure.about, &figure.kept_stamp(&machine(&text).unwrap_or_default())))
+}
+
 /// The whole decades around these numbers.
 fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let logs: Vec<f64> = values.filter(|value| *value > 0.0).map(libm::log10).collect();

@@ -1,8 +1,9 @@
 //! Whether two ways to render have one mean image: a test a block of pixels and colour, all of them together at one level.
 
 use super::distribution::student_cdf;
-use super::interval::joined;
+use super::interval::{Estimate, mean_of};
 use crate::measure::image_error::Numbers;
+use serde::{Deserialize, Serialize};
 
 /// The probability that any test says that two equal means differ.
 pub const FAMILY: f64 = 0.01;
@@ -34,26 +35,19 @@ impl Agreement {
 /// Blocks, not pixels, since a mean of many is nearer to a normal variable.
 /// Errors: images of two sizes, or fewer than two a set.
 pub fn agreement(one: &[Numbers], other: &[Numbers], side: u32) -> Result<Agreement, String> {
-    let mut sizes = one.iter().chain(other).map(|image| image.size);
-    let size = sizes.next();
-    if sizes.any(|other| Some(other) != size) {
-        return Err("the images have two sizes".into());
-    }
-    let [one, other] = [blocks(one, side)?, blocks(other, side)?];
+    let [one, other] = blocks_of(one, other, side)?;
     let limit = 1.0 - libm::pow(1.0 - FAMILY, 1.0 / one.len() as f64);
     let (mut apart, mut min, mut tests) = (0, 1.0_f64, 0);
     let (mut errors, mut light) = (0.0, 0.0);
     for (a, b) in one.iter().zip(&other) {
-        let (variance, freedom) = joined(&[(a.variance, a.freedom), (b.variance, b.freedom)]);
+        let difference = b.mean.less(&a.mean);
         tests += 1;
-        errors += variance.sqrt();
-        light += 0.5 * (a.mean + b.mean);
-        let difference = a.mean - b.mean;
-        if difference == 0.0 {
+        errors += difference.variance.sqrt();
+        light += 0.5 * (a.mean.value + b.mean.value);
+        if difference.value == 0.0 {
             continue;
         }
-        let t = difference.abs() / variance.sqrt();
-        let likely = if variance > 0.0 { 2.0 * student_cdf(-t, freedom) } else { 0.0 };
+        let likely = 2.0 * at_least(Estimate { value: difference.value.abs(), ..difference });
         min = min.min(likely);
         apart += usize::from(likely < limit);
     }
@@ -61,37 +55,104 @@ pub fn agreement(one: &[Numbers], other: &[Numbers], side: u32) -> Result<Agreem
     Ok(Agreement { tests, apart, min, limit, resolution })
 }
 
-/// A block's mean over all images, the variance of that mean, and its freedom.
+/// The light that one way to render lacks beside another.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Lack {
+    /// A fraction of the other's light: that of the blocks that are darker, or of the whole picture where none is.
+    pub fraction: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+    /// How many blocks are darker than the other's beyond noise, each with those around it.
+    pub darker: usize,
+    /// How many blocks there are.
+    pub blocks: usize,
+    /// Whether any block is darker beyond noise, or the picture as a whole.
+    pub beyond_noise: bool,
+}
+
+/// What the first of two sets of independent renders lacks, by Welch's t over blocks of so many pixels a side and over the
+/// whole picture, where it is compared so often.
+///
+/// A block is darker only if it is so together with the blocks around it: what a blur takes from one, it brings to the next.
+///
+/// Errors: as [`agreement`].
+pub fn lack(own: &[Numbers], other: &[Numbers], side: u32, comparisons: usize) -> Result<Lack, String> {
+    let [one, two] = blocks_of(own, other, side)?;
+    let limit = 1.0 - libm::pow(1.0 - FAMILY, 1.0 / (comparisons * (one.len() + 1)) as f64);
+    let is_lack = |difference: Estimate| difference.value > 0.0 && at_least(difference) < limit;
+    // By image, so that what a path brings to several blocks counts as one.
+    let light = |of: &[Block], at: &[usize]| {
+        let sum = |image: usize| at.iter().map(|&at| of[at].area * of[at].each[image]).sum::<f64>();
+        mean_of(&(0..of[0].each.len()).map(sum).collect::<Vec<f64>>()).ok_or(FEW)
+    };
+    let across = own.first().map_or(1, |image| image.size[0].div_ceil(side) as usize);
+    let (mut chosen, mut darker) = (Vec::new(), Vec::new());
+    for at in (0..one.len()).filter(|&at| is_lack(two[at].mean.less(&one[at].mean))) {
+        let place = |at: usize| [at / 3 % across, at / 3 / across];
+        let is_near = |other: &usize| (0..2).all(|axis| place(*other)[axis].abs_diff(place(at)[axis]) <= 1);
+        let near: Vec<usize> = (at % 3..one.len()).step_by(3).filter(is_near).collect();
+        if is_lack(light(&two, &near)?.less(&light(&one, &near)?)) {
+            chosen.push(at);
+            darker.push(at / 3);
+        }
+    }
+    darker.dedup();
+    let (darker, blocks) = (darker.len(), one.len() / 3);
+    if chosen.is_empty() {
+        chosen.extend(0..one.len());
+    }
+    let difference = light(&two, &chosen)?.less(&light(&one, &chosen)?);
+    let all = light(&two, &(0..two.len()).collect::<Vec<usize>>())?.value;
+    let part = |value: f64| if all > 0.0 { value / all } else { 0.0 };
+    let beyond_noise = darker > 0 || is_lack(difference);
+    let (fraction, standard_error) = (part(difference.value), part(difference.variance.sqrt()));
+    Ok(Lack { fraction, standard_error, darker, blocks, beyond_noise })
+}
+
+/// The probability that the difference of equal means comes out at least as large as this one.
+fn at_least(difference: Estimate) -> f64 {
+    let Estimate { value, variance, freedom } = difference;
+    if variance > 0.0 { student_cdf(-value / variance.sqrt(), freedom) } else { 0.0 }
+}
+
+/// A block's mean in each image, their mean, and how many pixels it has.
 struct Block {
-    mean: f64,
-    variance: f64,
-    freedom: f64,
+    each: Vec<f64>,
+    mean: Estimate,
+    area: f64,
+}
+
+const FEW: &str = "two images at least are needed to tell how they vary";
+
+/// The blocks of two sets of images of one size.
+fn blocks_of(one: &[Numbers], other: &[Numbers], side: u32) -> Result<[Vec<Block>; 2], String> {
+    let mut sizes = one.iter().chain(other).map(|image| image.size);
+    let size = sizes.next();
+    if sizes.any(|other| Some(other) != size) {
+        return Err("the images have two sizes".into());
+    }
+    Ok([blocks(one, side)?, blocks(other, side)?])
 }
 
 fn blocks(images: &[Numbers], side: u32) -> Result<Vec<Block>, String> {
-    let [first, _, ..] = images else { return Err("two images at least are needed to tell how they vary".into()) };
-    let [width, height] = first.size;
+    let [width, height] = images.first().ok_or(FEW)?.size;
     let corners =
         (0..height).step_by(side as usize).flat_map(|y| (0..width).step_by(side as usize).map(move |x| [x, y]));
-    let count = images.len() as f64;
     let mut found = Vec::new();
     for [x, y] in corners {
+        let (right, down) = (x.saturating_add(side).min(width), y.saturating_add(side).min(height));
+        let area = f64::from((right - x) * (down - y));
         for part in 0..3 {
-            let means: Vec<f64> = images.iter().map(|image| block_mean(image, [x, y], side, part)).collect();
-            let mean = means.iter().sum::<f64>() / count;
-            let squares = means.iter().map(|own| (own - mean) * (own - mean)).sum::<f64>();
-            found.push(Block { mean, variance: squares / (count - 1.0) / count, freedom: count - 1.0 });
+            let mean_in = |image: &Numbers| {
+                let rows = (y..down).flat_map(|y| (x..right).map(move |x| (y * width + x) as usize));
+                rows.map(|pixel| image.pixels[pixel][part]).sum::<f64>() / area
+            };
+            let each: Vec<f64> = images.iter().map(mean_in).collect();
+            let mean = mean_of(&each).ok_or(FEW)?;
+            found.push(Block { each, mean, area });
         }
     }
     Ok(found)
-}
-
-fn block_mean(image: &Numbers, [x, y]: [u32; 2], side: u32, part: usize) -> f64 {
-    let [width, height] = image.size;
-    let (right, down) = (x.saturating_add(side).min(width), y.saturating_add(side).min(height));
-    let rows = (y..down).flat_map(|y| (x..right).map(move |x| (y * width + x) as usize));
-    let sum: f64 = rows.map(|pixel| image.pixels[pixel][part]).sum();
-    sum / f64::from((right - x) * (down - y))
 }
 
 #[cfg(test)]
@@ -137,6 +198,38 @@ mod tests {
         assert!(found.apart == 0 && !found.agrees(), "{found:?}");
         let found = agreement(&noise(4, 1.0, 5), &noise(4, 1.0, 5), u32::MAX).expect("one size");
         assert!(found.agrees() && found.tests == 3 && found.resolution > 0.0, "{found:?}");
+    }
+
+    /// A quarter of the light of a block of sixteen is a sixty-fourth of all.
+    #[test]
+    fn what_is_lacking_is_said_as_a_fraction_and_noise_is_not() {
+        let mut dark = noise(8, 1.0, 1);
+        for image in &mut dark {
+            (0..64).for_each(|at| image.pixels[at / 8 * 32 + at % 8].iter_mut().for_each(|part| *part -= 0.25));
+        }
+        let found = lack(&dark, &noise(8, 1.0, 2), 8, 1).expect("one size");
+        assert!(found.beyond_noise && [found.darker, found.blocks] == [1, 16], "{found:?}");
+        assert!((found.fraction - 1.0 / 64.0).abs() < 4.0 * found.standard_error, "{found:?}");
+        // So little that no block shows it is seen in the whole.
+        let found = lack(&noise(8, 0.985, 3), &noise(8, 1.0, 4), 8, 1).expect("one size");
+        assert!(found.beyond_noise && found.darker == 0, "{found:?}");
+        assert!((found.fraction - 0.015).abs() < 4.0 * found.standard_error, "{found:?}");
+        let told = (0..60).filter(|&seed| {
+            let found = lack(&noise(8, 1.0, 2 * seed), &noise(8, 1.0, 2 * seed + 1), 8, 3).expect("one size");
+            found.beyond_noise
+        });
+        // One in three hundred each.
+        assert!(told.count() < 3);
+        // Light that has moved to the next block is not lacking.
+        let mut blurred = dark.clone();
+        for image in &mut blurred {
+            (0..64).for_each(|at| image.pixels[at / 8 * 32 + at % 8 + 8].iter_mut().for_each(|part| *part += 0.25));
+        }
+        assert!(!lack(&blurred, &noise(8, 1.0, 2), 8, 1).expect("one size").beyond_noise);
+        // One spark, however bright, proves nothing.
+        let mut spark = noise(8, 1.0, 5);
+        spark[3].pixels[500] = [1e6; 3];
+        assert!(!lack(&noise(8, 1.0, 6), &spark, 8, 1).expect("one size").beyond_noise);
     }
 
     #[test]

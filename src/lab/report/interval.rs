@@ -74,6 +74,12 @@ impl Estimate {
         self.logarithm().map(|log| log.interval(level).of_logarithm())
     }
 
+    /// This less another that is independent of it.
+    pub fn less(&self, other: &Self) -> Self {
+        let (variance, freedom) = joined(&[(self.variance, self.freedom), (other.variance, other.freedom)]);
+        Self { value: self.value - other.value, variance, freedom }
+    }
+
     /// Its logarithm, the variance to first order.
     pub fn logarithm(&self) -> Option<Self> {
         let positive = self.value > 0.0;

@@ -16,6 +16,7 @@ pub mod kept;
 pub mod ladder;
 pub mod page;
 pub mod pictures;
+pub mod pilot;
 pub mod pitfalls;
 pub mod plot;
 pub mod provenance;

@@ -9,7 +9,7 @@ use bevy_ecs::prelude::*;
 use cpu_time::ProcessTime;
 use pinhole::extract::{ImageFrame, camera_entity};
 use pinhole::plan::{Census, Stage, Table};
-use pinhole::render::{Execution, Lap, Rendered, Watch, render};
+use pinhole::render::{Execution, Lap, Rendered, Watch, prepare, render};
 use pinhole::scene::{Sampler, Sampling, Statistics, check_memory};
 use pinhole::{Error, Result};
 use std::sync::atomic::AtomicBool;
@@ -72,7 +72,18 @@ impl Variant<'_> {
         film_digest(&self.world(Sampling { samples: FILM_SAMPLES, ..self.sampling })?, &self.stages)
     }
 
-    fn run(&self, sampling: Sampling, execution: &Execution, watch: &dyn Progress) -> Result<Run> {
+    /// The stages that its scene needs.
+    ///
+    /// Errors: what a render would be refused for.
+    pub fn stages_kept(&self) -> Result<Vec<&'static str>> {
+        let (plan, _) = prepare(&Census::of(&self.world(self.sampling)?), &self.stages)?;
+        Ok(plan.stages.iter().map(|stage| stage.name).collect())
+    }
+
+    /// One picture, and what it took.
+    ///
+    /// Errors: what a render would be refused for, or a stop by the one who watches.
+    pub fn run(&self, sampling: Sampling, execution: &Execution, watch: &dyn Progress) -> Result<Run> {
         let world = self.world(sampling)?;
         let (rendered, times) = timed(&world, &self.stages, execution, watch)?;
         Ok(Run { image: numbers(&rendered.film), times, rejected: rendered.film.rejected().0 })
