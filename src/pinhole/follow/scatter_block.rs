@@ -194,3 +194,59 @@ fn sample_rows<B: Bsdf, const IN_BLOCK: bool>(
         made.counts[lane] = u32::from((r != 0.0) | (g != 0.0) | (b != 0.0));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::{MatteTable, MetalTable};
+    use crate::measure::draws::Draws;
+
+    fn block(seed: u64) -> SampledBlock {
+        let mut block = SampledBlock::NONE;
+        for lane in 0..AT_ONCE {
+            let mut draws = Draws::new(seed, lane as u64);
+            let normal = draws.unit_vector().as_vec3();
+            // Some rays arrive from below the shading normal, and some normals are far from the geometric one.
+            let shading = (normal.as_dvec3() + draws.unit_vector() * draws.power_of_ten(-3.0, 0.3)).normalize();
+            block.normal.put(lane, shading);
+            block.geometric.put(lane, normal);
+            block.direction.put(lane, draws.unit_vector().as_vec3());
+            block.position.put(lane, (draws.unit_vector() * 10.0).as_vec3());
+            block.bound[lane] = 1e-5;
+            block.throughput.put(lane, [draws.unit(), draws.unit(), draws.unit()]);
+            block.colour.put(lane, [draws.unit(), draws.unit(), 0.0]);
+            block.roughness[lane] = draws.power_of_ten(-3.0, 0.0);
+            (block.u[0][lane], block.u[1][lane], block.choice[lane]) = (draws.unit(), draws.unit(), draws.unit());
+        }
+        block
+    }
+
+    /// The rows at once have the bits of one row after another, by the BSDF's own way to sample.
+    fn agrees<B: Bsdf>(bsdf: &B, seeds: std::ops::Range<u64>) -> usize {
+        let mut gone_on = 0;
+        for seed in seeds {
+            let (block, [mut at_once, mut by_rows]) = (block(seed), [ScatteredBlock::NONE; 2]);
+            at_once.sample(bsdf, &block, AT_ONCE, Transport::Radiance);
+            sample_rows::<B, false>(bsdf, &block, &mut by_rows, AT_ONCE, Transport::Radiance);
+            assert_eq!(at_once.counts, by_rows.counts, "seed {seed}");
+            for lane in (0..AT_ONCE).filter(|lane| by_rows.counts[*lane] == 1) {
+                let bits = |made: &ScatteredBlock| {
+                    let [x, y, z] = made.direction.at(lane).map(f32::to_bits);
+                    let [r, g, b] = made.throughput.at(lane).map(f64::to_bits);
+                    (made.origin.at(lane).map(f32::to_bits), [x, y, z], [r, g, b, made.pdf[lane].to_bits()])
+                };
+                assert_eq!(bits(&at_once), bits(&by_rows), "seed {seed}, lane {lane}");
+                gone_on += 1;
+            }
+        }
+        gone_on
+    }
+
+    #[test]
+    fn rows_at_once_have_the_bits_of_row_after_row() {
+        const BLOCKS: u64 = 500;
+        let gone_on = [agrees(&MatteTable, 0..BLOCKS), agrees(&MetalTable::default(), BLOCKS..2 * BLOCKS)];
+        eprintln!("BSDFs at once: {} rows each, {gone_on:?} rays go on", BLOCKS * AT_ONCE as u64);
+        assert!(gone_on.iter().all(|gone_on| *gone_on > 3000), "{gone_on:?}");
+    }
+}
