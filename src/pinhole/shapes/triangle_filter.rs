@@ -194,7 +194,8 @@ fn first_hits<const FUSED: bool>(triangles: &[TriangleInF32], [o, d]: &Rays, unt
     Candidates { found, suspects }
 }
 
-/// a · b + c, rounded once where the processor does so: whatever the rounding, the bounds hold, and f64 decides.
+/// a · b + c, rounded once where the processor does so.
+#[allow(clippy::disallowed_methods, reason = "whether it rounds once or twice, the bounds hold, and f64 decides")]
 #[inline(always)]
 fn fma<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
@@ -233,11 +234,21 @@ impl Pairs {
 }
 
 /// Keeps the closest hits of all rays with a few triangles.
-///
-/// The first loop finds in f32 which triangles each ray may hit first; the second tests those in f64. A ray of which too
-/// many are suspected is tested against all.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma", "x86_64+avx2+fma", "x86_64+avx2"))]
 pub(super) fn triangle_rows(
+    triangles: &[TriangleRow],
+    numbers: &[u32],
+    rays: RaySlices<'_>,
+    t: &mut [f64],
+    shape: &mut [u32],
+) {
+    filtered_rows::<{ target_cfg_f!(target_feature = "fma") }>(triangles, numbers, rays, t, shape);
+}
+
+/// The first loop finds in f32 which triangles each ray may hit first; the second tests those in f64. A ray of which too
+/// many are suspected is tested against all.
+#[inline(always)]
+fn filtered_rows<const FUSED: bool>(
     triangles: &[TriangleRow],
     numbers: &[u32],
     rays: RaySlices<'_>,
@@ -263,7 +274,7 @@ pub(super) fn triangle_rows(
         for (until, t) in until.iter_mut().zip(&t[start..start + count]) {
             *until = *t as f32;
         }
-        let candidates = first_hits::<{ target_cfg_f!(target_feature = "fma") }>(&in_f32, &block, &until);
+        let candidates = first_hits::<FUSED>(&in_f32, &block, &until);
         for (row, lane) in (start as u32..).zip(0..count) {
             if candidates.count(numbers_used, lane) > SUSPECTS {
                 against_all.push(row);
@@ -380,14 +391,19 @@ mod tests {
                 for until in [f64::INFINITY, 0.7 * scale, 0.0] {
                     let (mut t, mut shape) = (vec![until; origins.len()], vec![u32::MAX; origins.len()]);
                     let (mut all_t, mut all_shape) = (t.clone(), shape.clone());
-                    triangle_rows(&triangles, &of_shape, rays, &mut t, &mut shape);
+                    let (mut twice_t, mut twice_shape) = (t.clone(), shape.clone());
+                    // As a processor rounds that multiplies and adds at once, and as one that does not.
+                    filtered_rows::<true>(&triangles, &of_shape, rays, &mut t, &mut shape);
+                    filtered_rows::<false>(&triangles, &of_shape, rays, &mut twice_t, &mut twice_shape);
                     let rows: Vec<u32> = (0..origins.len() as u32).collect();
                     rows_by_axis(&triangles, &of_shape, rays, &rows, &mut all_t, &mut all_shape);
                     for row in 0..t.len() {
                         let who = format!("scale {scale}, {away} away, {count} triangles, row {row}");
-                        assert_eq!((t[row].to_bits(), shape[row]), (all_t[row].to_bits(), all_shape[row]), "{who}");
+                        let of_all = (all_t[row].to_bits(), all_shape[row]);
+                        assert_eq!((t[row].to_bits(), shape[row]), of_all, "{who}");
+                        assert_eq!((twice_t[row].to_bits(), twice_shape[row]), of_all, "{who}, rounded twice");
                     }
-                    rows_tried += rows.len();
+                    rows_tried += 2 * rows.len();
                 }
                 let in_f32: Vec<TriangleInF32> = triangles.iter().map(|own| TriangleInF32::new(own.corners)).collect();
                 for start in (0..origins.len() - LANES).step_by(LANES) {
