@@ -58,7 +58,8 @@ pub fn agreement(one: &[Numbers], other: &[Numbers], side: u32) -> Result<Agreem
 /// The light that one way to render lacks beside another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Lack {
-    /// A fraction of the other's light: that of the blocks that are darker, or of the whole picture where none is.
+    /// A fraction of the other's light: that of the blocks that are darker and those around them, or of the whole picture where
+    /// none is.
     pub fraction: f64,
     /// Its standard error.
     pub standard_error: f64,
@@ -74,6 +75,8 @@ pub struct Lack {
 /// whole picture, where it is compared so often.
 ///
 /// A block is darker only if it is so together with the blocks around it: what a blur takes from one, it brings to the next.
+/// And its mean counts as no better known than, for its light, a block of the whole picture is: where a few bright paths
+/// bring the light, the blocks that got none are dark and scatter little.
 ///
 /// Errors: as [`agreement`].
 pub fn lack(own: &[Numbers], other: &[Numbers], side: u32, comparisons: usize) -> Result<Lack, String> {
@@ -87,16 +90,25 @@ pub fn lack(own: &[Numbers], other: &[Numbers], side: u32, comparisons: usize) -
     };
     let across = own.first().map_or(1, |image| image.size[0].div_ceil(side) as usize);
     let (mut chosen, mut darker) = (Vec::new(), Vec::new());
-    for at in (0..one.len()).filter(|&at| is_lack(two[at].mean.less(&one[at].mean))) {
+    let sum = |of: fn(&Block) -> f64| one.iter().map(of).sum::<f64>();
+    let scatter = sum(|block| block.mean.variance) / sum(|block| block.mean.value * block.mean.value);
+    let is_darker = |at: usize| {
+        let (mean, light) = (one[at].mean, two[at].mean.value);
+        // Where there is no light at all there is no scatter, which is NaN and no bound.
+        is_lack(two[at].mean.less(&Estimate { variance: mean.variance.max(scatter * light * light), ..mean }))
+    };
+    for at in (0..one.len()).filter(|&at| is_darker(at)) {
         let place = |at: usize| [at / 3 % across, at / 3 / across];
         let is_near = |other: &usize| (0..2).all(|axis| place(*other)[axis].abs_diff(place(at)[axis]) <= 1);
         let near: Vec<usize> = (at % 3..one.len()).step_by(3).filter(is_near).collect();
         if is_lack(light(&two, &near)?.less(&light(&one, &near)?)) {
-            chosen.push(at);
+            chosen.extend(near);
             darker.push(at / 3);
         }
     }
     darker.dedup();
+    chosen.sort_unstable();
+    chosen.dedup();
     let (darker, blocks) = (darker.len(), one.len() / 3);
     if chosen.is_empty() {
         chosen.extend(0..one.len());

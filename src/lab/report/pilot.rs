@@ -108,10 +108,10 @@ fn numbered(trials: &[Trial]) -> std::result::Result<Vec<Numbered>, String> {
         let lacks = others.map(|(_, other)| lack(&trials[own].images, &other.images, SIDE, trials.len() - 1));
         let lacks = lacks.collect::<std::result::Result<Vec<Lack>, String>>()?;
         let surely = |lack: &Lack| lack.fraction - lack.standard_error;
-        let most = |one: &Lack, other: &Lack| {
+        let by_lack = |one: &Lack, other: &Lack| {
             one.beyond_noise.cmp(&other.beyond_noise).then(surely(one).total_cmp(&surely(other)))
         };
-        Ok(lacks.into_iter().max_by(most).unwrap_or_default())
+        Ok(lacks.into_iter().max_by(by_lack).unwrap_or_default())
     };
     let lacks = (0..trials.len()).map(lacking).collect::<std::result::Result<Vec<Lack>, String>>()?;
     let mut means: Vec<Numbers> = Vec::new();
@@ -192,9 +192,9 @@ pub fn choose(methods: &[(&str, Found)]) -> Choice {
     let surely = |it: &Numbered| it.efficiency.value().map_or(0.0, |own| own.low);
     let whole = measured().filter(|(_, it)| !it.lacks.beyond_noise);
     let Some((best, of_best)) = whole.max_by(|one, other| surely(one.1).total_cmp(&surely(other.1))) else {
-        let least = measured().min_by(|one, other| one.1.lacks.fraction.total_cmp(&other.1.lacks.fraction));
-        let least = least.map_or_else(String::new, |(name, it)| format!("; {name} lacks least, {}", words(&it.lacks)));
-        return Choice { chosen: None, why: format!("each method lacks light that another finds{least}") };
+        let min = measured().min_by(|one, other| one.1.lacks.fraction.total_cmp(&other.1.lacks.fraction));
+        let min = min.map_or_else(String::new, |(name, it)| format!("; {name} lacks least, {}", words(&it.lacks)));
+        return Choice { chosen: None, why: format!("each method lacks light that another finds{min}") };
     };
     let why = if of_first.lacks.beyond_noise {
         format!("it lacks no light that another finds, and {first} lacks {}", words(&of_first.lacks))

@@ -144,41 +144,49 @@ pub struct ChosenRows {
 type ByWay = [[ChosenRows; 2]; WAYS];
 
 impl EmitterVisitor for OneLight<'_> {
-    fn visit<E: Emitting>(self, emitter: &E) {
-        // Copies, so that what is the same for all rows is computed once.
-        let (emitter, (_, one_sided, _)) = (*emitter, self.light);
+    fn visit<E: Emitting>(mut self, emitter: &E) {
+        let (_, one_sided, _) = self.light;
         if E::HAS_WAYS | one_sided {
-            for (side, (rows, draws)) in self.receivers.rows().into_iter().zip(self.draws).enumerate() {
-                let mut counts = [0; WAYS];
-                for chosen in self.by_way.iter_mut() {
-                    chosen[side].row.resize(rows.len(), 0);
-                    chosen[side].point.resize(rows.len(), [0.0; 2]);
-                }
-                let mut found = [0; AT_ONCE];
-                for (rows, draws) in rows.chunks(AT_ONCE).zip(draws.chunks(AT_ONCE)) {
-                    let starts = self.receivers.starts(rows, side == 1);
-                    ways_at(&emitter, one_sided, &starts, &mut found);
-                    for ((&row, &u), &found) in rows.iter().zip(draws).zip(&found) {
-                        let (way, shines) = ((found >> 1) as usize % WAYS, found & 1);
-                        let (chosen, count) = (&mut self.by_way[way][side], &mut counts[way]);
-                        // Every row is written, and the next one of its way overwrites it where no light shines on it.
-                        (chosen.row[*count], chosen.point[*count]) = (row, u);
-                        *count += shines as usize;
-                    }
-                }
-                for (chosen, count) in self.by_way.iter_mut().zip(counts) {
-                    chosen[side].row.truncate(count);
-                    chosen[side].point.truncate(count);
-                }
-            }
+            self.part_by_way(&|starts, found| ways_at(emitter, one_sided, starts, found));
         }
         emitter.in_ways(&mut InWays(self));
+    }
+}
+
+impl OneLight<'_> {
+    /// Lists the rows on which the light shines by the ways in which it is sampled for them, which the function finds out
+    /// for a block of rows.
+    fn part_by_way(&mut self, ways_at: &dyn Fn(&Starts, &mut [u32; AT_ONCE])) {
+        for (side, (rows, draws)) in self.receivers.rows().into_iter().zip(self.draws).enumerate() {
+            let mut counts = [0; WAYS];
+            for chosen in self.by_way.iter_mut() {
+                chosen[side].row.resize(rows.len(), 0);
+                chosen[side].point.resize(rows.len(), [0.0; 2]);
+            }
+            let mut found = [0; AT_ONCE];
+            for (rows, draws) in rows.chunks(AT_ONCE).zip(draws.chunks(AT_ONCE)) {
+                ways_at(&self.receivers.starts(rows, side == 1), &mut found);
+                for ((&row, &u), &found) in rows.iter().zip(draws).zip(&found) {
+                    let (way, shines) = ((found >> 1) as usize % WAYS, found & 1);
+                    let (chosen, count) = (&mut self.by_way[way][side], &mut counts[way]);
+                    // Every row is written, and the next one of its way overwrites it where no light shines on it.
+                    (chosen.row[*count], chosen.point[*count]) = (row, u);
+                    *count += shines as usize;
+                }
+            }
+            for (chosen, count) in self.by_way.iter_mut().zip(counts) {
+                chosen[side].row.truncate(count);
+                chosen[side].point.truncate(count);
+            }
+        }
     }
 }
 
 /// Twice the way in which an emitter is sampled from each of these points, and 1 more where it shines on it.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn ways_at<E: Emitting>(emitter: &E, one_sided: bool, starts: &Starts, found: &mut [u32; AT_ONCE]) {
+    // A copy, which nothing that is written can change: what is the same for all rows is computed once.
+    let emitter = *emitter;
     for lane in 0..AT_ONCE {
         let from = Vec3::from(starts.at(lane)).as_dvec3();
         let shines = !one_sided | emitter.faces(from);

@@ -14,8 +14,8 @@ use multiversion::target::target_cfg_f;
 
 /// 2⁻²⁰: sixteen times f32's unit roundoff, of which the sums below need thirteen.
 const OF_SUM: f64 = 1.0 / (1 << 20) as f64;
-/// Sizes that leave products of three lengths within what f32 represents.
-const USABLE: [f64; 2] = [1e-12, 1e12];
+/// The greatest length, and the greatest 1 over a length, whose products of three are within what f32 represents.
+const USABLE: f64 = 1e12;
 /// Of |R|₁, which is from 1 to √3 for a direction.
 const LENGTHS: [f32; 2] = [0.5, 4.0];
 /// 2⁻²⁸: f32's unit roundoff over that of the cross products in f64, with room to spare.
@@ -24,6 +24,41 @@ const OF_CROSS: f64 = 1.0 / (1 << 28) as f64;
 const MAX_ERROR: f64 = 1.0 / (1 << 10) as f64;
 /// The relative error of a t, and more than the 2⁻²⁴ within which f64 may take two triangles in another order.
 const OF_T: f32 = 1.0 / (1 << 20) as f32;
+
+/// The plane of a triangle in f64, for rays that start so close to it that f32 cannot say on which side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Plane {
+    /// The normal, whose |N|₁ is 1.
+    normal: DVec3,
+    /// N·A.
+    height: f64,
+    /// The error of N·(A − O) as a multiple of |O|₁ and alone, and of N·R as one of |R|₁.
+    error: f64,
+    size: f64,
+    /// The square of the longest edge over |(B − A) × (C − A)|₁: how thin the triangle is, and so how large the error of N.
+    thinness: f64,
+}
+
+impl Plane {
+    fn new([a, b, c]: [DVec3; 3]) -> Self {
+        /// 2⁻⁴⁸: 32 times f64's unit roundoff, of which the sums and a cross product over its length need eight.
+        const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
+        let cross = (b - a).cross(c - a);
+        let longest = [b - a, c - a, c - b].map(l1_norm).into_iter().fold(0.0, f64::max);
+        let normal = cross / l1_norm(cross);
+        let thinness = longest * longest / l1_norm(cross);
+        Self { normal, height: normal.dot(a), error: ROUNDING * (1.0 + thinness), size: l1_norm(a), thinness }
+    }
+
+    /// Whether it is certain that a ray has the plane behind it: that its t is negative.
+    #[inline(always)]
+    fn is_behind(&self, [origin, direction]: [DVec3; 2]) -> bool {
+        let (height, slope) = (self.height - self.normal.dot(origin), self.normal.dot(direction));
+        let is_certain = (height.abs() > self.error * (self.size + l1_norm(origin)))
+            & (slope.abs() > self.error * l1_norm(direction));
+        is_certain & ((height < 0.0) != (slope < 0.0))
+    }
+}
 
 /// A triangle as the test in f32 reads it, with coefficients of its error bounds.
 ///
@@ -49,62 +84,27 @@ struct TriangleInF32 {
 }
 
 impl TriangleInF32 {
-    fn new([a, b, c]: [DVec3; 3]) -> Self {
+    fn new(triangle: &TriangleRow, plane: &Plane) -> Self {
+        let ([a, b, c], size, normal) = (triangle.corners, triangle.size, plane.normal);
         let (along, across) = (b - a, c - a);
-        let cross = along.cross(across);
-        let size = l1_norm(a).max(l1_norm(b)).max(l1_norm(c));
-        let longest = [along, across, c - b].map(l1_norm).into_iter().fold(0.0, f64::max);
-        let normal = cross / l1_norm(cross);
         // U·(B − A) and V·(C − A) are 1, U·(C − A) and V·(B − A) are 0.
-        let scale = 1.0 / cross.length_squared();
-        let gradients = [across.cross(cross) * scale, cross.cross(along) * scale];
+        let scale = 1.0 / along.cross(across).dot(normal);
+        let gradients = [across.cross(normal) * scale, normal.cross(along) * scale];
         let steepest = gradients.map(|of| of.abs().max_element()).into_iter().fold(0.0, f64::max);
-        let error = OF_SUM * (1.0 + OF_CROSS * longest * longest / l1_norm(cross));
-        let is_usable = longest > USABLE[0] && size < USABLE[1] && steepest < USABLE[1] && error < MAX_ERROR;
+        let error = OF_SUM * (1.0 + OF_CROSS * plane.thinness);
+        // A gradient is at least 1 over an edge, so that none is shorter than the least length.
+        let is_usable = size < USABLE && steepest < USABLE && error < MAX_ERROR;
         let of = |error: f64| if is_usable { error as f32 } else { f32::INFINITY };
         let in_f32 = |v: DVec3| v.as_vec3().to_array();
         Self {
             normal: in_f32(normal),
-            height: normal.dot(a) as f32,
+            height: plane.height as f32,
             gradients: gradients.map(in_f32),
             at_origin: gradients.map(|of| -of.dot(a) as f32),
             size: size as f32,
             slope_error: of(3.0 * error),
             coordinate_error: [of(2.0 * error * steepest), of(2.0 * steepest)],
         }
-    }
-}
-
-/// The plane of a triangle in f64, for rays that start so close to it that f32 cannot say on which side.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Plane {
-    /// The normal, whose |N|₁ is 1.
-    normal: DVec3,
-    /// N·A.
-    height: f64,
-    /// The error of N·(A − O) as a multiple of |O|₁ and alone, and of N·R as one of |R|₁.
-    error: f64,
-    size: f64,
-}
-
-impl Plane {
-    fn new([a, b, c]: [DVec3; 3]) -> Self {
-        /// 2⁻⁴⁸: 32 times f64's unit roundoff, of which the sums and a cross product over its length need eight.
-        const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
-        let cross = (b - a).cross(c - a);
-        let longest = [b - a, c - a, c - b].map(l1_norm).into_iter().fold(0.0, f64::max);
-        let normal = cross / l1_norm(cross);
-        let error = ROUNDING * (1.0 + longest * longest / l1_norm(cross));
-        Self { normal, height: normal.dot(a), error, size: l1_norm(a) }
-    }
-
-    /// Whether it is certain that a ray has the plane behind it: that its t is negative.
-    #[inline(always)]
-    fn is_behind(&self, [origin, direction]: [DVec3; 2]) -> bool {
-        let (height, slope) = (self.height - self.normal.dot(origin), self.normal.dot(direction));
-        let is_certain = (height.abs() > self.error * (self.size + l1_norm(origin)))
-            & (slope.abs() > self.error * l1_norm(direction));
-        is_certain & ((height < 0.0) != (slope < 0.0))
     }
 }
 
@@ -152,7 +152,7 @@ fn first_hits<const FUSED: bool>(triangles: &[TriangleInF32], [o, d]: &Rays, unt
             d[0][lane].abs() + d[1][lane].abs() + d[2][lane].abs(),
         );
         // Of other rays f32 says nothing: products with theirs may be 0 or infinite.
-        let is_usable = (from < USABLE[1] as f32) & (along > LENGTHS[0]) & (along < LENGTHS[1]);
+        let is_usable = (from < USABLE as f32) & (along > LENGTHS[0]) & (along < LENGTHS[1]);
         (size[lane], length[lane]) = (if is_usable { from } else { f32::INFINITY }, along);
         (low[lane], high[lane]) = (until[lane] * (1.0 - OF_T), until[lane] * (1.0 + OF_T));
     }
@@ -259,8 +259,9 @@ fn filtered_rows<const FUSED: bool>(
         let all: Vec<u32> = (0..t.len() as u32).collect();
         return rows_by_axis(triangles, numbers, rays, &all, t, shape);
     }
-    let in_f32: Vec<TriangleInF32> = triangles.iter().map(|triangle| TriangleInF32::new(triangle.corners)).collect();
     let planes: Vec<Plane> = triangles.iter().map(|triangle| Plane::new(triangle.corners)).collect();
+    let in_f32: Vec<TriangleInF32> =
+        triangles.iter().zip(&planes).map(|(own, plane)| TriangleInF32::new(own, plane)).collect();
     let (mut pairs, mut against_all) = (Vec::with_capacity(2 * t.len()), Vec::new());
     let numbers_used = triangles.len().div_ceil(IN_ONE).min(NUMBERS);
     for start in (0..t.len()).step_by(LANES) {
@@ -405,7 +406,8 @@ mod tests {
                     }
                     rows_tried += 2 * rows.len();
                 }
-                let in_f32: Vec<TriangleInF32> = triangles.iter().map(|own| TriangleInF32::new(own.corners)).collect();
+                let in_f32: Vec<TriangleInF32> =
+                    triangles.iter().map(|own| TriangleInF32::new(own, &Plane::new(own.corners))).collect();
                 for start in (0..origins.len() - LANES).step_by(LANES) {
                     let part = |own: usize, axis: usize| std::array::from_fn(|lane| columns[own][axis][start + lane]);
                     let block = [0, 1].map(|own| [0, 1, 2].map(|axis| part(own, axis)));
