@@ -4,6 +4,8 @@
 
 #[path = "media/bodies.rs"]
 mod bodies;
+#[path = "media/density.rs"]
+mod density;
 #[path = "media/lights.rs"]
 mod lights;
 #[path = "media/refused.rs"]

@@ -1,6 +1,6 @@
 //! The figures of chapter 25, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, compared, vertices};
+use pinhole_lab::figure::{Figure, cloud, compared, vertices};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -28,6 +28,12 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             chapter,
             about: "a spotlight and a ball without fog, and in fog",
             draw: compared::draw_fog,
+        },
+        Figure {
+            name: "25_cloud",
+            chapter,
+            about: "a box of fog in sunlight, and the same with the density of a cloud",
+            draw: cloud::draw,
         },
     ]
 }

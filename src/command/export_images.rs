@@ -1,13 +1,13 @@
-//! The images of a scene that is exported: carried along beside the file, or named by their whole paths.
+//! The images and density grids of a scene that is exported: carried along beside the file, or named by their whole paths.
 
 use super::error::{Error, Result};
 use bevy_ecs::prelude::*;
 use pinhole::film::{Replaces, write_whole};
 use pinhole::scene::{
-    EmbeddedFiles, Environment, FileKind, IMAGE_FILE, MeshPart, ModelFiles, SceneFolder, for_each_texture_file,
-    printable_path, read_file, texture_files,
+    EmbeddedFiles, FileKind, MeshPart, ModelFiles, SceneFolder, for_each_file_name, named_files, printable_path,
+    read_file,
 };
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -20,17 +20,17 @@ use std::sync::Arc;
 pub fn carry_images(world: &mut World, file: &Path) -> Result<Vec<PathBuf>> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let (mut made, mut new_names) = (Vec::new(), BTreeMap::new());
-    for name in named_images(world) {
+    for (name, kind) in named_by_text(world) {
         let path = SceneFolder::path_of(world, &name);
         let embedded = held_image(world, &name);
         let kept = if embedded.is_none() { name_below(folder, &path) } else { None };
         let new_name = match kept {
             Some(kept) => kept,
             None => {
-                let bytes = embedded.map_or_else(|| read_file(&path, IMAGE_FILE), |bytes| Ok(bytes.to_vec()));
+                let bytes = embedded.map_or_else(|| read_file(&path, kind), |bytes| Ok(bytes.to_vec()));
                 let bytes = bytes.map_err(|why| refused(file, &name, &why))?;
                 let (free, is_new) =
-                    place_beside(folder, &path, &bytes, IMAGE_FILE).ok_or_else(|| refused(file, &name, &OTHERS))?;
+                    place_beside(folder, &path, &bytes, kind).ok_or_else(|| refused(file, &name, &OTHERS))?;
                 if is_new {
                     write_whole(Replaces::Nothing.at(&folder.join(&free)), |file| file.write_all(&bytes))?;
                     made.push(folder.join(&free));
@@ -49,7 +49,7 @@ pub fn carry_images(world: &mut World, file: &Path) -> Result<Vec<PathBuf>> {
 /// Returns the images that have none, for they are in the program only.
 pub fn name_images_whole(world: &mut World) -> Vec<String> {
     let (mut without, mut new_names) = (Vec::new(), BTreeMap::new());
-    for name in named_images(world) {
+    for name in named_by_text(world).into_keys() {
         let path = SceneFolder::path_of(world, &name);
         let is_compiled_in = EmbeddedFiles::find(world, &name).is_some() && !path.is_file();
         if is_compiled_in || ModelFiles::find(world, &name).is_some() {
@@ -68,15 +68,14 @@ pub fn held_image(world: &World, name: &str) -> Option<Arc<[u8]>> {
     ModelFiles::find(world, name).or_else(|| EmbeddedFiles::find(world, name).map(Arc::from))
 }
 
-/// The images that the text of a scene names: not those of materials that stay in a model file.
-fn named_images(world: &mut World) -> BTreeSet<String> {
-    let mut names = BTreeSet::new();
+/// The images and density grids that the text of a scene names: not those of materials that stay in a model file.
+fn named_by_text(world: &mut World) -> BTreeMap<String, FileKind> {
+    let mut names = BTreeMap::new();
     for entity in world.query::<EntityRef<'_>>().iter(world) {
         if entity.get::<MeshPart>().is_some_and(|part| part.0 != entity.id()) {
             continue;
         }
-        names.extend(texture_files(entity));
-        names.extend(entity.get::<Environment>().map(|environment| environment.file.clone()));
+        names.extend(named_files(entity));
     }
     names
 }
@@ -84,8 +83,7 @@ fn named_images(world: &mut World) -> BTreeSet<String> {
 /// All at once, for one image's new name may be another's old one.
 fn rename(world: &mut World, new_names: &BTreeMap<String, String>) {
     let renamed = |file: &mut String| new_names.get(file).into_iter().for_each(|new| file.clone_from(new));
-    for_each_texture_file(world, renamed);
-    world.query::<&mut Environment>().iter_mut(world).for_each(|mut image| renamed(&mut image.file));
+    for_each_file_name(world, renamed);
 }
 
 /// Why none is free.

@@ -21,6 +21,7 @@
 mod cameras;
 mod check;
 mod colour;
+mod density_grid;
 mod dispersion;
 mod exposure;
 mod file;
@@ -34,6 +35,7 @@ mod material;
 mod medium;
 mod memory;
 mod model;
+mod named_files;
 mod open_file;
 mod picture;
 mod placement;
@@ -55,6 +57,9 @@ pub use cameras::{
 #[doc(hidden)]
 pub use check::{colour_within, finite_point, light_colour, number, positive_length, triple};
 pub use colour::Rgb;
+pub use density_grid::DensityGrid;
+#[doc(hidden)]
+pub use density_grid::{DENSITY_FILE, MAX_VOXELS};
 #[doc(hidden)]
 pub use dispersion::Dispersion;
 pub use exposure::{Exposure, ToneMapping};
@@ -91,6 +96,8 @@ pub use model::{
 };
 pub use model::{Mesh, load_meshes};
 #[doc(hidden)]
+pub use named_files::{for_each_file_name, named_files};
+#[doc(hidden)]
 pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, opened_files, read_file};
 pub use picture::{
     Adaptive, BidirectionalPathTracing, Filter, Layers, LightTracing, PhotonMapping, Rasterisation, Resolution,
@@ -114,10 +121,8 @@ pub use textures::{
     Checker, EmissionMap, ImageTexture, NormalMap, Opacity, OpacityChannel, OpacityMap, SingleSided, Stripes,
 };
 #[doc(hidden)]
-pub use textures::{
-    Feeds, IMAGE_FILE, MetallicRoughnessMap, Texture, TextureBy, Tint, UvTransform, Wrap, WrapMode,
-    for_each_texture_file, texture_files,
-};
+pub use textures::{Feeds, IMAGE_FILE, MetallicRoughnessMap, Texture, TextureBy, Tint, UvTransform, Wrap, WrapMode};
+use textures::{change_texture_files, texture_files};
 
 // The random numbers of unit tests are the laboratory's.
 #[cfg(test)]

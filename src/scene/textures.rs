@@ -20,15 +20,15 @@ macro_rules! for_each_texture {
 macro_rules! texture_files {
     ($($texture:ident),+) => {
         /// The names of the images of an entity's textures.
-        pub fn texture_files(entity: EntityRef<'_>) -> Vec<String> {
+        pub(super) fn texture_files(entity: EntityRef<'_>) -> Vec<String> {
             let files = [$(entity.get::<$texture>().and_then(|texture| texture.clone().file().cloned())),+];
             files.into_iter().flatten().collect()
         }
 
         /// Calls a function with the name of each image of a scene's textures, which it may change.
-        pub fn for_each_texture_file(scene: &mut World, mut change: impl FnMut(&mut String)) {
+        pub(super) fn change_texture_files(scene: &mut World, change: &mut impl FnMut(&mut String)) {
             $(for mut texture in scene.query::<&mut $texture>().iter_mut(scene) {
-                texture.file().into_iter().for_each(&mut change);
+                texture.file().into_iter().for_each(&mut *change);
             })+
         }
     };

@@ -11,7 +11,7 @@
 //! `cargo bench --bench peers -- --agree cylinder,cone,torus,rough_glass,principled,ply_file,obj_file --python PROGRAM`
 //! compares block by block the pictures of scenes in tests/bench/peers, which stand there as scene files and again as a Python script;
 //! `--runs 16` and `--samples 256` say how many renders of how many samples, `--variant llvm_ad_rgb` by what Mitsuba.
-//! It fails where they are apart. Media are `fog_bodies,fog_room,fog_glass`, by Mitsuba's `volpath`
+//! It fails where they are apart. Media are `fog_bodies,fog_room,fog_glass,fog_cloud`, by Mitsuba's `volpath`
 //! or with `--their-integrator volpathmis` by that, which is the better oracle of the first; `dispersion` takes 1024 samples.
 //! With `--rounds 8` both render so often in turns, and the ratio of their efficiencies is printed, by processor seconds;
 //! `--sampler sobol` and `--their-sampler multijitter` are other samplers for it.

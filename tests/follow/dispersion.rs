@@ -284,7 +284,7 @@ fn on_screen(make: &dyn Fn() -> World, seeds: std::ops::Range<u64>) -> Vec<[[f64
             let mut world = make();
             let camera = named(&mut world, "camera");
             let filter = Filter::Box { radius: 0.5 };
-            world.entity_mut(camera).insert(Sampling { samples: 2048, seed, sampler: Sampler::Independent, filter });
+            world.entity_mut(camera).insert(Sampling { samples: 1024, seed, sampler: Sampler::Independent, filter });
             render(&world, &offer(), &Execution::default(), &()).expect("renders").film
         })
         .collect();

@@ -167,3 +167,35 @@ fn odd_media_are_said() {
     assert!(all.iter().any(|own| own.contains("medium \"haze\" fills all of space")), "{all:?}");
     eprintln!("{dense:?} {all:?}");
 }
+
+#[test]
+fn density_grids_are_refused_by_name() {
+    let own = || DensityGrid::of([2, 1, 1], |_| 1.0);
+    let cases: Vec<(&[&str], DensityGrid)> = vec![
+        (&["size", "0 × 0 × 0", "a file"], DensityGrid::default()),
+        (&["size", "4294967295 × 4294967295 × 2", "134217728"], DensityGrid { size: [u32::MAX, u32::MAX, 2], ..own() }),
+        (&["values", "2 numbers", "3, one for each"], DensityGrid { size: [3, 1, 1], ..own() }),
+        (&["values", "NaN", "finite"], DensityGrid { values: vec![1.0, f32::NAN], ..own() }),
+        (&["values", "-1", "at least 0"], DensityGrid { values: vec![1.0, -1.0], ..own() }),
+        (&["max", "(1, -1, 1)", "(-1, -1, -1)"], DensityGrid { max: DVec3::new(1.0, -1.0, 1.0), ..own() }),
+        (&["max", "NaN"], DensityGrid { max: DVec3::splat(f64::NAN), ..own() }),
+        (&["min", "1e30"], DensityGrid { min: DVec3::splat(-1e30), ..own() }),
+        (&["values", "beside the file", "one of the two"], DensityGrid { file: "a.vol".into(), ..own() }),
+        (&["file", "there is no file"], DensityGrid { file: "nowhere.vol".into(), ..DensityGrid::default() }),
+        (&["file", "no .vol file"], DensityGrid { file: "Cargo.toml".into(), ..DensityGrid::default() }),
+    ];
+    let count = cases.len();
+    for (words, grid) in cases {
+        let mut world = ball_of(Medium::default());
+        let cloud = named(&mut world, "cloud");
+        world.entity_mut(cloud).insert(grid);
+        let told = told(&world);
+        eprintln!("{told}");
+        assert!(told.contains("medium \"cloud\"") && words.iter().all(|word| told.contains(word)), "{told}");
+    }
+    let mut world = room();
+    world.spawn((Name::new("ball"), Sphere::default(), Matte::default(), own()));
+    let told = told(&world);
+    assert!(told.contains("density grid \"ball\"") && told.contains("beside"), "{told}");
+    eprintln!("density: {} grids refused by name", count + 1);
+}

@@ -27,14 +27,14 @@ use pinhole::{Chapter, Result};
 /// Three in a row.
 const SMALL: [u32; 2] = [276, 155];
 /// Two in a row.
-const LARGE: [u32; 2] = [384, 216];
+pub(super) const LARGE: [u32; 2] = [384, 216];
 
-fn exhibit(picture: Result<Picture>, lines: [&str; 2]) -> Result<Exhibit> {
+pub(super) fn exhibit(picture: Result<Picture>, lines: [&str; 2]) -> Result<Exhibit> {
     Ok(Exhibit { picture: picture?, lines: lines.map(str::to_owned).to_vec() })
 }
 
 /// Exhibits of one size in rows.
-fn rows<const N: usize>(
+pub(super) fn rows<const N: usize>(
     chapter: &Chapter,
     figure: &Figure,
     size: [u32; 2],
@@ -46,7 +46,7 @@ fn rows<const N: usize>(
 }
 
 /// So many samples a pixel, of this seed.
-fn sampled(samples: u32, seed: u64) -> impl Fn(&mut EntityWorldMut<'_>) + Copy {
+pub(super) fn sampled(samples: u32, seed: u64) -> impl Fn(&mut EntityWorldMut<'_>) + Copy {
     move |camera| {
         camera.insert(Sampling { samples, seed, ..Sampling::default() });
     }
@@ -262,20 +262,20 @@ pub fn draw_principled(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 /// The room by paths from the camera, and in the same time by paths from both ends.
 pub fn draw_ends(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let alone = Picture::of(chapter, LARGE, None, |camera| {
-        sampled(64, 39)(camera);
+        sampled(32, 39)(camera);
         camera.remove::<BidirectionalPathTracing>();
     });
-    let both = Picture::of(chapter, LARGE, None, sampled(16, 39));
+    let both = Picture::of(chapter, LARGE, None, sampled(8, 39));
     let exhibits = [
-        exhibit(alone, ["path tracing, 64 samples", "few paths find the keyhole"]),
-        exhibit(both, ["from both ends, 16 samples", "about the same time"]),
+        exhibit(alone, ["path tracing, 32 samples", "few paths find the keyhole"]),
+        exhibit(both, ["from both ends, 8 samples", "about the same time"]),
     ];
     rows(chapter, figure, LARGE, exhibits)
 }
 
 /// The light of each kind of way, weighted, which add up to the picture.
 pub fn draw_ways(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let of = |way, lines| exhibit(Picture::beside(chapter, SMALL, Some(only(way)), sampled(32, 39)), lines);
+    let of = |way, lines| exhibit(Picture::beside(chapter, SMALL, Some(only(way)), sampled(12, 39)), lines);
     let exhibits = [
         of(Way::LightSamples, ["light samples", "0 steps from the lamp"]),
         of(Way::Joins, ["joined vertices", "1 step from either end, or more"]),

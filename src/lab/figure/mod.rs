@@ -14,6 +14,7 @@ pub mod both;
 pub mod boxes;
 pub mod budget;
 pub mod cameras;
+pub mod cloud;
 pub mod compared;
 pub mod connection;
 pub mod coverage;

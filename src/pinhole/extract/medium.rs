@@ -2,6 +2,7 @@
 
 use super::cameras::{camera_of, eye};
 use super::check::kind_and_name;
+use super::density::{PlacedGrid, placed_grid};
 use super::integrator::integrator_of;
 use super::material::used_material;
 use super::motion::{moves_while_open, velocity_of};
@@ -11,7 +12,8 @@ use crate::check::triple;
 use crate::material::{Bsdf, PhaseTable, interior_of, is_material, material_entities, media_entities, one_material};
 use crate::plan::{Census, Evidence, Table, united};
 use crate::scene::{
-    BidirectionalPathTracing, Disabled, Emissive, LightTracing, Medium, PhotonMapping, SceneError, UsesMaterial, called,
+    BidirectionalPathTracing, DensityGrid, Disabled, Emissive, LightTracing, Medium, PhotonMapping, SceneError,
+    UsesMaterial, called,
 };
 use crate::shapes::{AnyShape, Bounds};
 use bevy_ecs::prelude::*;
@@ -48,19 +50,37 @@ pub enum MediumPlace {
     },
 }
 
+/// A place that a medium fills.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Filled {
+    /// The medium's row.
+    pub medium: usize,
+    /// The place.
+    pub place: MediumPlace,
+    /// By what the medium's coefficients are multiplied there; where nothing stands, by 1.
+    pub density: Option<PlacedGrid>,
+}
+
 /// The participating media, and every place that one fills.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MediumTable {
     /// The coefficients of each medium, in spawn order.
     pub medium: Vec<Coefficients>,
-    /// The places that media fill, each with the medium's row.
-    pub place: Vec<(usize, MediumPlace)>,
+    /// The places that media fill.
+    pub place: Vec<Filled>,
     /// The shape number of a scattering event in the first medium, after those of all shapes.
     pub first_shape: u32,
     /// The row of the first medium's phase function in the table of materials.
     pub first_material: u32,
     /// The bodies of glass, and what they are made of: where a point is in glass decides which media are there.
     pub glass: Option<(Arc<GlassBodyTable>, Arc<GlassTable>)>,
+}
+
+impl MediumTable {
+    /// Whether the density of any medium varies.
+    pub fn varies(&self) -> bool {
+        self.place.iter().any(|own| own.density.is_some())
+    }
 }
 
 impl Table for MediumTable {
@@ -85,23 +105,29 @@ impl Table for MediumTable {
             let extinction = [0, 1, 2].map(|part| absorption[part] + scattering[part]);
             table.medium.push(Coefficients { extinction, scattering, emission: own.emission.to_array() });
             let shapes = shapes_of(scene, entity);
+            let density_in = |shape| placed_grid(scene, &who, entity, (shape, eye(scene)?));
+            let mut fill = |place, density| table.place.push(Filled { medium: row, place, density });
             if is_material(scene, entity) {
-                table.place.push((row, MediumPlace::Glass(glass_row(scene, entity, &who)?)));
+                fill(MediumPlace::Glass(glass_row(scene, entity, &who)?), density_in(None)?);
             } else if shapes.is_empty() {
                 if let Some(other) = everywhere.replace(entity) {
                     let value = format!("without a shape, as that of {} is", called(scene, other));
                     let accepted = "one medium of a scene may fill all of space: put the other on a closed shape";
                     return Err(SceneError::new(who, "place", value, accepted));
                 }
-                check_finite(&own, &who, "all of space")?;
-                table.place.push((row, MediumPlace::Everywhere));
+                let density = density_in(None)?;
+                if density.is_none() {
+                    check_finite(&own, &who, "all of space")?;
+                }
+                fill(MediumPlace::Everywhere, density);
             }
             for shape in shapes.into_iter().filter(|_| !is_material(scene, entity)) {
-                let body = body(scene, shape)?;
-                if matches!(&body, MediumPlace::Body { bounds, .. } if *bounds == Bounds::ALL) {
+                let (body, density) = (body(scene, shape)?, density_in(Some(shape))?);
+                let is_endless = matches!(&body, MediumPlace::Body { bounds, .. } if *bounds == Bounds::ALL);
+                if is_endless && density.is_none() {
                     check_finite(&own, &who, "a shape without bounds")?;
                 }
-                table.place.push((row, body));
+                fill(body, density);
             }
         }
         check_followed(scene, media[0])?;
@@ -112,8 +138,17 @@ impl Table for MediumTable {
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(&self.medium[..]) + size_of_val(&self.place[..]) + self.place.len() * size_of::<AnyShape>()
+        let grids = self.place.iter().filter_map(|own| own.density.as_ref()).map(|own| own.grid.bytes());
+        let places = size_of_val(&self.place[..]) + self.place.len() * size_of::<AnyShape>();
+        size_of_val(&self.medium[..]) + places + grids.sum::<usize>()
     }
+}
+
+/// Checks that every density grid stands beside a medium.
+pub(super) fn check_density_grids(scene: &Census<'_>) -> Result<(), SceneError> {
+    let Some(&grid) = scene.entities::<(With<DensityGrid>, Without<Medium>)>().first() else { return Ok(()) };
+    let accepted = "it multiplies the coefficients of a medium, so it stands beside one";
+    Err(SceneError::new(kind_and_name(scene, "density grid", grid), "medium", "missing", accepted))
 }
 
 /// The shapes that carry a medium or use the entity that does, in spawn order.

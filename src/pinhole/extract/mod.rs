@@ -24,6 +24,7 @@ mod area_lights;
 mod camera_join;
 mod cameras;
 mod contact;
+mod density;
 mod exposure;
 mod glass;
 mod image_files;
@@ -62,6 +63,7 @@ pub use cameras::{
     eye, lens_evidence, pixel_width, ray_origins_evidence,
 };
 pub use contact::{Contact, ContactTable, contact_evidence, glass_contact_evidence, unresolved};
+pub use density::{Grid, PlacedGrid};
 pub use exposure::exposure_of;
 pub use glass::{
     GlassBody, GlassBodyTable, GlassTable, absorption_evidence, deep_glass, dispersion_evidence, glass_overlaps,
@@ -84,7 +86,7 @@ pub use material::{
     material_kind_evidence, matte_evidence, specular_evidence,
 };
 pub use medium::{
-    Coefficients, MediumPlace, MediumTable, emitting_medium_evidence, medium_evidence, scattering_evidence,
+    Coefficients, Filled, MediumPlace, MediumTable, emitting_medium_evidence, medium_evidence, scattering_evidence,
 };
 pub use motion::{
     MovingTable, ShutterTable, any_shapes, camera_moves_evidence, motion_evidence, moves_while_open, moving_evidence,

@@ -1,6 +1,6 @@
 //! How far light goes through participating media before it is scattered.
 
-use crate::extract::{Coefficients, MediumPlace, MediumTable, NO_ROW, list_around};
+use crate::extract::{Coefficients, Filled, MediumPlace, MediumTable, NO_ROW, list_around};
 use crate::shapes::{l1_norm, stretches_inside};
 use glam::DVec3;
 
@@ -11,13 +11,17 @@ pub struct Stretch {
     pub from: f64,
     /// Where it ends; infinite for a ray that hits nothing.
     pub to: f64,
-    /// The sum of the coefficients of all media there.
+    /// The sum of the coefficients of all media there; where their density varies, of the greatest.
     pub sum: Coefficients,
+    /// Whether the density of any of them varies.
+    pub varies: bool,
+    /// The number of the only span there; [`NO_ROW`] where there are several.
+    pub only: u32,
 }
 
 /// σ · length, which is 0 for an infinite way through nothing.
 #[inline(always)]
-fn depth(coefficient: f64, length: f64) -> f64 {
+pub(super) fn depth(coefficient: f64, length: f64) -> f64 {
     if coefficient > 0.0 { coefficient * length } else { 0.0 }
 }
 
@@ -25,20 +29,20 @@ impl Stretch {
     /// The coefficients by which distances are sampled: none where nothing scatters, so that a medium which only absorbs
     /// ends no path.
     #[inline(always)]
-    fn rate(&self) -> [f64; 3] {
+    pub(super) fn rate(&self) -> [f64; 3] {
         if self.sum.scattering == [0.0; 3] { [0.0; 3] } else { self.sum.extinction }
     }
 }
 
 /// Adds what a stretch contributes to an optical depth, colour by colour.
 #[inline(always)]
-fn add_depth(sum: &mut [f64; 3], coefficients: [f64; 3], length: f64) {
+pub(super) fn add_depth(sum: &mut [f64; 3], coefficients: [f64; 3], length: f64) {
     (0..3).for_each(|part| sum[part] += depth(coefficients[part], length));
 }
 
 /// e^(−τ) of each part.
 #[inline(always)]
-fn transmittances(depths: [f64; 3]) -> [f64; 3] {
+pub(super) fn transmittances(depths: [f64; 3]) -> [f64; 3] {
     depths.map(|depth| libm::exp(-depth))
 }
 
@@ -54,22 +58,30 @@ pub fn transmittance_along(stretches: &[Stretch]) -> [f64; 3] {
 /// Along a stretch it is the integral of ε e^(−σs), ε (1 − e^(−σl)) / σ.
 pub fn emission_along(stretches: &[Stretch], absorption: [f64; 3]) -> [f64; 3] {
     let (mut sum, mut depths, mut at) = ([0.0; 3], [0.0; 3], 0.0);
-    for Stretch { from, to, sum: Coefficients { extinction, emission, .. } } in stretches {
-        let length = to - from;
+    for stretch in stretches {
+        let Stretch { from, to, sum: Coefficients { extinction, .. }, .. } = stretch;
         add_depth(&mut depths, absorption, from - at);
+        let emitted = emission_between(stretch, absorption);
         for part in 0..3 {
-            let extinction = extinction[part] + absorption[part];
-            let emitted = match emission[part] {
-                0.0 => 0.0,
-                emission if extinction > 0.0 => emission / extinction * -libm::expm1(-extinction * length),
-                emission => emission * length,
-            };
-            sum[part] += libm::exp(-depths[part]) * emitted;
-            depths[part] += depth(extinction, length);
+            sum[part] += libm::exp(-depths[part]) * emitted[part];
+            depths[part] += depth(extinction[part] + absorption[part], to - from);
         }
         at = *to;
     }
     sum
+}
+
+/// What a stretch emits towards its beginning.
+pub(super) fn emission_between(stretch: &Stretch, absorption: [f64; 3]) -> [f64; 3] {
+    let length = stretch.to - stretch.from;
+    [0, 1, 2].map(|part: usize| {
+        let extinction = stretch.sum.extinction[part] + absorption[part];
+        match stretch.sum.emission[part] {
+            0.0 => 0.0,
+            emission if extinction > 0.0 => emission / extinction * -libm::expm1(-extinction * length),
+            emission => emission * length,
+        }
+    })
 }
 
 /// What becomes of a ray in the media along it.
@@ -123,13 +135,13 @@ pub fn sample_distance(stretches: &[Stretch], throughput: [f64; 3], number: f64)
 
 /// A value over its pdf; 0 for a colour that the path does not carry, whose quotient may be no number.
 #[inline(always)]
-fn over(choice: f64, value: f64, pdf: f64) -> f64 {
+pub(super) fn over(choice: f64, value: f64, pdf: f64) -> f64 {
     if choice > 0.0 && pdf >= f64::MIN_POSITIVE { value / pdf } else { 0.0 }
 }
 
 /// Chooses one of three with these probabilities, and what is left of the number, in [0, 1) again.
 #[inline(always)]
-fn chosen(probabilities: [f64; 3], number: f64) -> (usize, f64) {
+pub(super) fn chosen(probabilities: [f64; 3], number: f64) -> (usize, f64) {
     let mut before = 0.0;
     let mut last = (0, 0.0);
     for (place, probability) in probabilities.into_iter().enumerate().filter(|(_, own)| *own > 0.0) {
@@ -142,13 +154,29 @@ fn chosen(probabilities: [f64; 3], number: f64) -> (usize, f64) {
     last
 }
 
+/// A part of a ray along which it runs through a medium.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    /// The row of the medium.
+    pub(super) medium: usize,
+    /// The number of its grid along the ray, where the density varies; [`NO_ROW`] where it does not.
+    pub(super) grid: u32,
+    /// The greatest density.
+    pub(super) most: f64,
+}
+
 /// The media along one ray after another.
 #[derive(Debug, Default)]
 pub struct MediaAlong {
-    /// The places filled by media that a ray runs through: from where to where, and the row of the medium.
-    spans: Vec<(f64, f64, usize)>,
+    pub(super) spans: Vec<Span>,
+    /// Those before they were divided into the blocks of grids.
+    pub(super) whole: Vec<Span>,
     cuts: Vec<f64>,
     around: Vec<u32>,
+    /// The places whose density varies, and the ray in the index space of each.
+    pub(super) grids: Vec<(u32, [DVec3; 2])>,
     /// The stretches of the ray, from its origin on; none in a vacuum.
     pub stretches: Vec<Stretch>,
     /// The row of the glass that the ray runs through.
@@ -157,9 +185,20 @@ pub struct MediaAlong {
 
 impl MediaAlong {
     /// Finds the media along a ray that hits nothing before its end, at a time since the shutter opened.
-    pub fn find(&mut self, media: &MediumTable, [origin, direction]: [DVec3; 2], time: f64, end: f64) {
+    pub fn find(&mut self, media: &MediumTable, ray: [DVec3; 2], time: f64, end: f64) {
+        self.find_spans(media, (ray, time), end);
+        if self.varies() {
+            self.divide_into_blocks(media);
+        }
+        self.add_up(&media.medium);
+    }
+
+    /// Finds from where to where a ray runs through each medium.
+    pub(super) fn find_spans(&mut self, media: &MediumTable, (ray, time): ([DVec3; 2], f64), end: f64) {
+        let [origin, direction] = ray;
         self.spans.clear();
         self.stretches.clear();
+        self.grids.clear();
         self.glass = NO_ROW;
         if let Some((bodies, glass)) = &media.glass {
             // No surface is between its ends: what is around its middle is around all of it.
@@ -167,71 +206,96 @@ impl MediaAlong {
             list_around(&bodies.row, glass, (origin + middle * direction, time), &mut self.around);
             self.glass = self.around.first().copied().unwrap_or(NO_ROW);
         }
-        for (medium, place) in &media.place {
+        for (Filled { medium, place, density }, number) in media.place.iter().zip(0..) {
+            let grid = if density.is_some() { self.grids.len() as u32 } else { NO_ROW };
+            let before = self.spans.len();
+            let mut add = |from, to| self.spans.push(Span { from, to, medium: *medium, grid, most: 1.0 });
+            let mut start = origin;
             match place {
-                MediumPlace::Everywhere if self.glass == NO_ROW => self.spans.push((0.0, end, *medium)),
-                MediumPlace::Glass(row) if self.glass == *row => self.spans.push((0.0, end, *medium)),
+                MediumPlace::Everywhere if self.glass == NO_ROW => add(0.0, end),
+                MediumPlace::Glass(row) if self.glass == *row => add(0.0, end),
                 MediumPlace::Everywhere | MediumPlace::Glass(_) => {}
                 MediumPlace::Body { shape, velocity, bounds } => {
-                    let ray = [origin - *velocity * time, direction];
-                    stretches_inside((shape, bounds), ray, end, |[from, to]| self.spans.push((from, to, *medium)));
+                    start = origin - *velocity * time;
+                    stretches_inside((shape, bounds), [start, direction], end, |[from, to]| add(from, to));
                 }
             }
+            if let Some(placed) = density
+                && self.spans.len() > before
+            {
+                self.grids.push((number, placed.index_ray([start, direction])));
+            }
         }
-        self.add_up(&media.medium);
+    }
+
+    /// Whether the density of any medium along the ray varies.
+    pub fn varies(&self) -> bool {
+        !self.grids.is_empty()
     }
 
     /// Divides the ray where a medium begins or ends, and adds up the coefficients between.
     fn add_up(&mut self, media: &[Coefficients]) {
-        if let [(from, to, medium)] = self.spans[..] {
-            self.stretches.push(Stretch { from, to, sum: media[medium] });
+        let alone = |own: &Span| {
+            let Coefficients { extinction, scattering, emission } = media[own.medium];
+            let varies = own.grid != NO_ROW;
+            let most = |parts: [f64; 3]| if varies { parts.map(|part| part * own.most) } else { parts };
+            let sum =
+                Coefficients { extinction: most(extinction), scattering: most(scattering), emission: most(emission) };
+            Stretch { from: own.from, to: own.to, sum, varies, only: NO_ROW }
+        };
+        if self.spans.windows(2).all(|pair| pair[0].to <= pair[1].from) {
+            let stretches = self.spans.iter().zip(0..).map(|(own, only)| Stretch { only, ..alone(own) });
+            self.stretches.extend(stretches);
             return;
         }
         self.cuts.clear();
-        self.cuts.extend(self.spans.iter().flat_map(|&(from, to, _)| [from, to]));
+        self.cuts.extend(self.spans.iter().flat_map(|own| [own.from, own.to]));
         self.cuts.sort_by(f64::total_cmp);
         self.cuts.dedup();
         for pair in self.cuts.windows(2) {
-            let mut sum = Coefficients::default();
-            let mut within = false;
-            for &(_, _, medium) in self.spans.iter().filter(|own| own.0 <= pair[0] && pair[1] <= own.1) {
-                within = true;
-                let Coefficients { extinction, scattering, emission } = media[medium];
+            let within = self.spans.iter().filter(|own| own.from <= pair[0] && pair[1] <= own.to);
+            let sum = within.map(alone).reduce(|mut all, own| {
                 for part in 0..3 {
-                    sum.extinction[part] += extinction[part];
-                    sum.scattering[part] += scattering[part];
-                    sum.emission[part] += emission[part];
+                    all.sum.extinction[part] += own.sum.extinction[part];
+                    all.sum.scattering[part] += own.sum.scattering[part];
+                    all.sum.emission[part] += own.sum.emission[part];
                 }
-            }
-            if within {
-                self.stretches.push(Stretch { from: pair[0], to: pair[1], sum });
-            }
+                Stretch { varies: all.varies | own.varies, ..all }
+            });
+            self.stretches.extend(sum.map(|sum| Stretch { from: pair[0], to: pair[1], ..sum }));
         }
+    }
+
+    /// The spans that a distance lies in.
+    fn at(&self, t: f64) -> impl Iterator<Item = &Span> {
+        self.spans.iter().filter(move |own| own.from <= t && t <= own.to)
     }
 
     /// Chooses, by a number in [0, 1), one of the media that scatter light at a distance, in proportion to what each
     /// scatters of this throughput; returns its row, and the factor of the throughput.
-    pub fn choose(&self, media: &[Coefficients], t: f64, throughput: [f64; 3], number: f64) -> (usize, [f64; 3]) {
-        let there = || self.spans.iter().filter(|own| own.0 <= t && t <= own.1).map(|own| own.2);
-        let of = |medium: usize| media[medium].scattering;
-        let scatters = |medium: usize| (0..3).map(|part| throughput[part].abs() * of(medium)[part]).sum::<f64>();
+    pub fn choose(&self, media: &MediumTable, t: f64, throughput: [f64; 3], number: f64) -> (usize, [f64; 3]) {
+        let of = |own: &Span| {
+            let scattering = media.medium[own.medium].scattering;
+            if own.grid == NO_ROW { scattering } else { scattering.map(|part| part * self.density(media, own, t)) }
+        };
+        let scatters = |own: &Span| (0..3).map(|part| throughput[part].abs() * of(own)[part]).sum::<f64>();
         let (mut all, mut sum) = ([0.0; 3], 0.0);
-        for medium in there() {
-            sum += scatters(medium);
-            (0..3).for_each(|part| all[part] += of(medium)[part]);
+        for own in self.at(t) {
+            sum += scatters(own);
+            (0..3).for_each(|part| all[part] += of(own)[part]);
         }
         let (mut before, mut chosen) = (0.0, None);
-        for medium in there().filter(|&medium| scatters(medium) > 0.0) {
-            chosen = Some(medium);
-            before += scatters(medium);
+        for own in self.at(t).filter(|own| scatters(own) > 0.0) {
+            chosen = Some(own);
+            before += scatters(own);
             if number * sum < before {
                 break;
             }
         }
-        let Some(medium) = chosen else { return (there().next().unwrap_or(0), [0.0; 3]) };
-        let probability = scatters(medium) / sum;
-        let of_all = |part: usize| if all[part] > 0.0 { of(medium)[part] / all[part] / probability } else { 0.0 };
-        (medium, [0, 1, 2].map(of_all))
+        let Some(own) = chosen else { return (self.at(t).next().map_or(0, |own| own.medium), [0.0; 3]) };
+        let probability = scatters(own) / sum;
+        let of_all = |part: usize| if all[part] > 0.0 { of(own)[part] / all[part] / probability } else { 0.0 };
+        (own.medium, [0, 1, 2].map(of_all))
     }
 }
 
@@ -242,7 +306,13 @@ mod distance_tests {
 
     fn stretch(from: f64, to: f64, absorption: [f64; 3], scattering: [f64; 3]) -> Stretch {
         let extinction = [0, 1, 2].map(|part| absorption[part] + scattering[part]);
-        Stretch { from, to, sum: Coefficients { extinction, scattering, emission: [0.0; 3] } }
+        Stretch {
+            from,
+            to,
+            sum: Coefficients { extinction, scattering, emission: [0.0; 3] },
+            varies: false,
+            only: NO_ROW,
+        }
     }
 
     /// Stretches with gaps, of which some absorb, some scatter and some do both, by different amounts in each colour.
@@ -311,7 +381,7 @@ mod distance_tests {
     /// T at the end, ∫ σs T and ∫ t σs T, stretch by stretch in closed form.
     fn integrals(stretches: &[Stretch], part: usize) -> [f64; 3] {
         let (mut transmitted, mut scattered, mut moment) = (1.0, 0.0, 0.0);
-        for Stretch { from, to, sum } in stretches {
+        for Stretch { from, to, sum, .. } in stretches {
             let (sigma, length) = (sum.extinction[part], to - from);
             if sigma == 0.0 {
                 continue;

@@ -34,6 +34,7 @@ mod recursive_mis;
 mod scatter_block;
 mod specular;
 mod starts_on_glass;
+mod tracking;
 mod unsampled;
 
 pub use absorb::{

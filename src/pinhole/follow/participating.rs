@@ -13,18 +13,36 @@ use crate::extract::{
 use crate::intersect::{Hits, NO_SHAPE, Surface, Surfaces};
 use crate::material::{Named, PhaseTable};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut};
-use crate::rays::{DrawsView, PathLight, Paths, RayTimes, WorldRays, draws_of_one};
-use crate::sample::Purpose;
+use crate::rays::{Draws, DrawsView, PathLight, Paths, RayTimes, WorldRays, draws_of_one};
+use crate::sample::{Purpose, RandomStream};
 use crate::shade::{ShadowHits, ShadowRays, light_distance, light_evidence, shadow_evidence};
 use bevy_ecs::prelude::*;
 
+/// A number of each row of a tile by which distances are sampled.
+#[derive(Default)]
+pub struct Numbers {
+    rows: Vec<u32>,
+    distance: Vec<f64>,
+}
+
+impl Numbers {
+    fn draw(&mut self, of: &Draws<'_>, rows: usize) {
+        self.rows.clear();
+        self.rows.extend(0..rows as u32);
+        draws_of_one(of, Purpose::Distance, &self.rows, &mut self.distance);
+    }
+}
+
 /// Adds the light that media emit along each ray to its path.
 pub fn add_medium_emission(
-    media: Res<Shared<MediumTable>>,
-    mut along: Local<MediaAlong>,
-    mut tiles: Query<(&WorldRays, Option<&RayTimes>, &Hits, &Paths, &mut PathLight)>,
+    (media, sampling): (Res<Shared<MediumTable>>, Res<Shared<SamplingTable>>),
+    (mut along, mut numbers): (Local<MediaAlong>, Local<Numbers>),
+    mut tiles: Query<(&WorldRays, Option<&RayTimes>, &Hits, DrawsView, &Paths, &mut PathLight)>,
 ) {
-    for (rays, times, hits, paths, mut light) in &mut tiles {
+    for (rays, times, hits, draws, paths, mut light) in &mut tiles {
+        if media.varies() {
+            numbers.draw(&draws.draws(&sampling, Some(paths)), hits.rows());
+        }
         for row in 0..hits.rows() {
             let ray = [rays.origin_of(row), rays.direction_of(row)];
             along.find(&media, ray, times.map_or(0.0, |times| times.time[row]), hits.t[row]);
@@ -32,7 +50,13 @@ pub fn add_medium_emission(
                 Some((_, glass)) if along.glass != NO_ROW => glass.absorption[along.glass as usize],
                 _ => [0.0; 3],
             };
-            let (emitted, throughput) = (emission_along(&along.stretches, absorption), paths.throughput(row));
+            let emitted = if along.varies() {
+                let mut stream = RandomStream::of_ray(ray, !numbers.distance[row].to_bits());
+                along.emission(&media, absorption, stream.next_unit())
+            } else {
+                emission_along(&along.stretches, absorption)
+            };
+            let throughput = paths.throughput(row);
             light.rgb.add(paths.first[row] as usize, [0, 1, 2].map(|part| throughput[part] * emitted[part]));
         }
     }
@@ -43,17 +67,14 @@ pub fn add_medium_emission(
 pub fn sample_distances(
     media: Res<Shared<MediumTable>>,
     sampling: Res<Shared<SamplingTable>>,
-    (mut along, mut rows): (Local<MediaAlong>, Local<Vec<u32>>),
-    (mut numbers, mut choices): (Local<Vec<f64>>, Local<Vec<f64>>),
+    (mut along, mut numbers, mut choices): (Local<MediaAlong>, Local<Numbers>, Local<Vec<f64>>),
     mut tiles: Query<(&WorldRays, Option<&RayTimes>, DrawsView, &mut Paths, &mut Hits)>,
 ) {
     for (rays, times, draws, mut paths, mut hits) in &mut tiles {
-        rows.clear();
-        rows.extend(0..hits.rows() as u32);
         let of_paths = draws.draws(&sampling, Some(&paths));
-        draws_of_one(&of_paths, Purpose::Distance, &rows, &mut numbers);
+        numbers.draw(&of_paths, hits.rows());
         if media.medium.len() > 1 {
-            draws_of_one(&of_paths, Purpose::MaterialChoice, &rows, &mut choices);
+            draws_of_one(&of_paths, Purpose::MaterialChoice, &numbers.rows, &mut choices);
         }
         for row in 0..hits.rows() {
             let ray = [rays.origin_of(row), rays.direction_of(row)];
@@ -61,11 +82,17 @@ pub fn sample_distances(
             if along.stretches.is_empty() {
                 continue;
             }
-            let sampled = sample_distance(&along.stretches, paths.throughput(row), numbers[row]);
+            let (throughput, number) = (paths.throughput(row), numbers.distance[row]);
+            let sampled = if along.varies() {
+                let mut stream = RandomStream::of_ray(ray, number.to_bits());
+                along.sample_varying_distance(&media, throughput, number, &mut stream)
+            } else {
+                sample_distance(&along.stretches, throughput, number)
+            };
             paths.throughput.scale(row, sampled.weight);
             if let Some(t) = sampled.t {
                 let choice = choices.get(row).copied().unwrap_or_default();
-                let (medium, weight) = along.choose(&media.medium, t, paths.throughput(row), choice);
+                let (medium, weight) = along.choose(&media, t, paths.throughput(row), choice);
                 paths.throughput.scale(row, weight);
                 (hits.t[row], hits.shape[row]) = (t, media.first_shape + medium as u32);
             }
@@ -93,6 +120,7 @@ pub fn attenuate_shadow_rays(
     mut along: Local<MediaAlong>,
     mut tiles: Query<(Option<&RayTimes>, Option<&ShadowHits>, &mut ShadowRays)>,
 ) {
+    let varies = media.varies();
     for (times, hits, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
             if hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) || rays.t_max[ray] == 0.0 {
@@ -100,7 +128,13 @@ pub fn attenuate_shadow_rays(
             }
             let time = times.map_or(0.0, |times| times.time[rays.row[ray] as usize]);
             let way = [rays.origin_of(ray), rays.direction_of(ray)];
-            along.find(&media, way, time, light_distance(rays.t_max[ray]));
+            let end = light_distance(rays.t_max[ray]);
+            if varies {
+                along.find_spans(&media, (way, time), end);
+                rays.weight_by(ray, along.transmittance(&media));
+                continue;
+            }
+            along.find(&media, way, time, end);
             if !along.stretches.is_empty() {
                 rays.weight_by(ray, transmittance_along(&along.stretches));
             }

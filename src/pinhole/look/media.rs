@@ -2,7 +2,7 @@
 
 use crate::Result;
 use crate::check::{kind_and_name, number};
-use crate::extract::{MediumPlace, MediumTable, sky_evidence};
+use crate::extract::{Filled, MediumPlace, MediumTable, sky_evidence};
 use crate::material::media_entities;
 use crate::plan::Census;
 use crate::scene::DirectionalLight;
@@ -17,11 +17,13 @@ const STEPS: f64 = 8.0;
 /// Errors: an invalid medium.
 pub fn odd_media(scene: &Census<'_>) -> Result<Vec<String>> {
     let (table, entities, mut said) = (scene.table::<MediumTable>()?, media_entities(scene), Vec::new());
-    for &(medium, ref place) in &table.place {
+    for Filled { medium, place, density } in &table.place {
+        let medium = *medium;
         let (own, who) = (&table.medium[medium], kind_and_name(scene, "medium", entities[medium]));
-        let densest = own.extinction.into_iter().fold(0.0, f64::max);
+        let most = density.as_ref().map_or(1.0, |own| own.grid.max());
+        let densest = most * own.extinction.into_iter().fold(0.0, f64::max);
         let is_opaque = own.extinction.iter().all(|part| *part > 0.0);
-        if matches!(place, MediumPlace::Everywhere) && is_opaque {
+        if matches!(place, MediumPlace::Everywhere) && is_opaque && density.is_none() {
             let sky = sky_evidence(scene);
             let suns = scene.entities::<With<DirectionalLight>>().len();
             if sky.needed || suns > 0 {
@@ -31,6 +33,8 @@ pub fn odd_media(scene: &Census<'_>) -> Result<Vec<String>> {
                 ));
             }
         }
+        let remarks = density.iter().flat_map(|own| &own.grid.remarks);
+        said.extend(remarks.map(|remark| format!("of the density grid of the {who}, {remark}")));
         let MediumPlace::Body { bounds, .. } = place else { continue };
         let far = bounds.min.abs().max(bounds.max.abs()).max_element();
         let apart = far * f64::from(f32::EPSILON);

@@ -34,9 +34,29 @@ pub(super) fn mixed(bits: u64) -> u64 {
 /// As PBRT-4 decides whether a ray hits a surface with an alpha (`GeometricPrimitive::Intersect`).
 #[inline(always)]
 pub fn unit_of_ray(ray: [DVec3; 2], salt: u64) -> f64 {
-    let parts = ray.map(|vector| vector.to_array());
-    let bits = parts.as_flattened().iter().fold(mixed(salt), |bits, part| mixed(bits ^ part.to_bits()));
-    unit(halves(bits)[0])
+    unit(halves(RandomStream::of_ray(ray, salt).0)[0])
+}
+
+/// Random numbers without an end, for what may need any number of them: a hash of a ray and of a salt, and hashes of that
+/// hash counted on (SplitMix64).
+#[derive(Clone, Copy, Debug)]
+pub struct RandomStream(u64);
+
+impl RandomStream {
+    /// The stream that depends on every bit of a ray and of a salt.
+    #[inline(always)]
+    pub fn of_ray(ray: [DVec3; 2], salt: u64) -> Self {
+        let parts = ray.map(|vector| vector.to_array());
+        Self(parts.as_flattened().iter().fold(mixed(salt), |bits, part| mixed(bits ^ part.to_bits())))
+    }
+
+    /// The next number in [0, 1).
+    #[inline(always)]
+    pub fn next_unit(&mut self) -> f64 {
+        let bits = self.0;
+        self.0 = bits.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        unit(halves(mixed(bits))[0])
+    }
 }
 
 /// The two halves of 64 bits.

@@ -1,8 +1,8 @@
 use super::word::Word;
 use super::write::spawned;
 use crate::{
-    ChildOf, Disabled, EmbeddedFiles, Environment, Exposure, IMAGE_FILE, MeshGeometry, MeshInstance, ModelFiles, Name,
-    Sampler, Sampling, SceneFolder, Statistics, ToneMapping, UsesMaterial, read_file, texture_files,
+    ChildOf, Disabled, EmbeddedFiles, Exposure, MeshGeometry, MeshInstance, ModelFiles, Name, Sampler, Sampling,
+    SceneFolder, Statistics, ToneMapping, UsesMaterial, named_files, read_file,
 };
 use bevy_ecs::prelude::*;
 use std::any::TypeId;
@@ -20,7 +20,7 @@ pub fn fingerprint(scene: &World) -> String {
     let entities = spawned(scene);
     let places: HashMap<Entity, usize> = entities.iter().enumerate().map(|(at, entity)| (entity.id(), at)).collect();
     let place = |other: Entity| places.get(&other);
-    let mut images: HashMap<PathBuf, Option<u64>> = HashMap::new();
+    let mut files: HashMap<PathBuf, Option<u64>> = HashMap::new();
     let mut meshes: Vec<(&MeshGeometry, u64)> = Vec::new();
     let mut text = String::new();
     let left_out =
@@ -36,16 +36,15 @@ pub fn fingerprint(scene: &World) -> String {
                 text += &format!(" {}: {value}", word.word);
             }
         }
-        let environment = entity.get::<Environment>().map(|environment| environment.file.clone());
-        let named = texture_files(*entity).into_iter().chain(environment);
-        for file in named.filter(|_| !entity.contains::<Disabled>()) {
+        let named = named_files(*entity).into_iter().filter(|_| !entity.contains::<Disabled>());
+        for (file, kind) in named {
             let file = &file;
             let hash = |bytes: &[u8]| fnv(FNV_BASIS, bytes);
-            let read = |path: &PathBuf| read_file(path, IMAGE_FILE).ok().map(|bytes| hash(&bytes));
+            let read = |path: &PathBuf| read_file(path, kind).ok().map(|bytes| hash(&bytes));
             let held = EmbeddedFiles::find(scene, file)
                 .map(hash)
                 .or_else(|| ModelFiles::find(scene, file).map(|bytes| hash(&bytes)))
-                .or_else(|| *images.entry(SceneFolder::path_of(scene, file)).or_insert_with_key(read));
+                .or_else(|| *files.entry(SceneFolder::path_of(scene, file)).or_insert_with_key(read));
             text += &format!(" {held:?}");
         }
         if let Some(mesh) = entity.get::<MeshInstance>().filter(|_| !entity.contains::<Disabled>()) {

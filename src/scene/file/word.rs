@@ -1,7 +1,7 @@
 use crate::material::MATERIALS;
 use crate::{
-    Adaptive, Background, BidirectionalPathTracing, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk,
-    Dispersion, EmissionMap, Emissive, Environment, EquirectangularCamera, Exposure, FisheyeCamera, Gradient,
+    Adaptive, Background, BidirectionalPathTracing, Checker, Cone, Cuboid, Cylinder, DensityGrid, DirectionalLight,
+    Disk, Dispersion, EmissionMap, Emissive, Environment, EquirectangularCamera, Exposure, FisheyeCamera, Gradient,
     ImageTexture, Integrator, Keys, Layers, Lens, LightTracing, LookAt, Medium, Mesh, MetallicRoughnessMap, Motion,
     NormalMap, Opacity, OpacityMap, OrthographicCamera, PerspectiveCamera, PhotonMapping, Placement, Plane, PointLight,
     Rasterisation, Rectangle, Resolution, Sampling, Shutter, SingleSided, Sphere, SpotLight, Statistics, Stripes, Tint,
@@ -56,6 +56,7 @@ const WORDS: &[Word] = &[
     Word::of::<Emissive>("emissive"),
     Word::of::<Dispersion>("dispersion"),
     Word::of::<Medium>("medium"),
+    Word::of::<DensityGrid>("density_grid"),
     Word::of::<Checker>("checker"),
     Word::of::<Stripes>("stripes"),
     Word::of::<ImageTexture>("image_texture"),

@@ -14,6 +14,7 @@ The sphere of roughness 0.1 has nothing else. What glTF's material has beside it
 microfacets and diffuse light below the dielectric, which Mitsuba has not or otherwise, is a BSDF in this file: the
 formulae of Kulla and Conty (2017), Fdez-Agüera (2019) and Kelemen and Szirmay-Kalos (2001), over albedos integrated here.
 fog_bodies, fog_room, fog_glass: homogeneous media, by volpath. Where two overlap, Mitsuba gets the sum of both.
+fog_cloud: a density grid, whose three channels are given to Mitsuba as the extinction of each.
 volpath samples distances by one channel of a path, so that rare paths count much where colours differ; volpathmis does not,
 but in 3.9.1 its Russian roulette is biased (a medium of albedo 1 in an even sky is 0.6 % too dark), so it gets none.
 dispersion: Mitsuba's index of refraction is one number. So a render is the sum of those of 64 wavelengths, each with the
@@ -28,8 +29,8 @@ import time
 
 parser = argparse.ArgumentParser()
 parser.add_argument('scene', choices=['cylinder', 'cone', 'torus', 'rough_glass', 'principled', 'ply_file',
-                                      'obj_file', 'fog_bodies', 'fog_room', 'fog_glass', 'dispersion', 'caustic',
-                                      'pool'])
+                                      'obj_file', 'fog_bodies', 'fog_room', 'fog_glass', 'fog_cloud', 'dispersion',
+                                      'caustic', 'pool'])
 parser.add_argument('--samples', type=int, default=256)
 parser.add_argument('--runs', type=int, default=16)
 parser.add_argument('--variant', default='llvm_ad_rgb')
@@ -97,6 +98,18 @@ def medium(absorption, scattering, anisotropy=0.0):
 def body(shape, *coefficients):
     """A medium without a surface."""
     return {**shape, 'bsdf': {'type': 'null'}, 'interior': medium(*coefficients)}
+
+
+def grid_medium(file, to_world, absorption, scattering, anisotropy):
+    """to_world brings the unit cube to the box of the grid."""
+    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), file)
+    absorption, scattering = np.array(absorption), np.array(scattering)
+    density = np.array(mi.VolumeGrid(path))
+    extinction = density.reshape(*density.shape[:3], 1) * (absorption + scattering)
+    grid = mi.VolumeGrid(np.ascontiguousarray(extinction.astype(np.float32)))
+    return {'type': 'heterogeneous', 'phase': {'type': 'hg', 'g': float(anisotropy)},
+            'sigma_t': {'type': 'gridvolume', 'grid': grid, 'raw': True, 'to_world': to_world},
+            'albedo': {'type': 'constvolume', 'value': rgb(scattering / (absorption + scattering))}}
 
 
 def disk(to_world, height, radius):
@@ -347,6 +360,13 @@ def scene(name):
         # Of 9 times the fog's coefficients, in the fog.
         both = body(sphere((1.4, 1.2, -0.6), 0.7), 10 * fog[0], 10 * fog[1], 0.7)
         whole['cloud'] = {**both, 'exterior': there}
+    elif name == 'fog_cloud':
+        whole['integrator'] = {'type': 'volpath', 'max_depth': 100, 'rr_depth': 5}
+        whole['point'] = {'type': 'point', 'position': [1.8, 2.2, 1.6], 'intensity': rgb((4, 5, 6))}
+        own = placed((0, 0.9, 0), (0, 1, 0), 30) @ T().scale([0.8, 0.6, 0.8])
+        box = own @ T().translate([-2.2, -1.2, -1.5]) @ T().scale([4.4, 2.4, 3])
+        inside = grid_medium('../../media/cloud.vol', box, (0.1, 0.8, 2), (9.9, 9.2, 6), 0.5)
+        whole['cloud'] = {**cuboid(own, 4.4, 2.4, 3), 'bsdf': {'type': 'null'}, 'interior': inside}
     elif name == 'fog_glass':
         whole['integrator'] = {'type': 'volpath', 'max_depth': 100, 'rr_depth': 5}
         rough = {'type': 'roughdielectric', 'distribution': 'ggx', 'alpha': 0.3, 'int_ior': 1.5, 'ext_ior': 1.0}
