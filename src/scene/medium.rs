@@ -4,8 +4,8 @@ use crate::Rgb;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// A homogeneous participating medium, such as fog, smoke or milk: it absorbs and scatters the light that passes through
-/// it.
+/// A participating medium, such as fog, smoke or milk: it absorbs and scatters the light that passes through it, alike at
+/// every place or, with a [`DensityGrid`](super::DensityGrid) beside it, as that says.
 ///
 /// Where it stands says what it fills.
 /// On an entity with a closed shape and no material it fills that shape, which then has no surface: rays and light pass

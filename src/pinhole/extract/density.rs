@@ -236,7 +236,6 @@ impl Grid {
         corners
     }
 
-    // ANCHOR: density_integral
     /// The integral of the density along a ray of index space, from one distance to another.
     ///
     /// Within a cell between eight centres the density along a straight line is a polynomial of third degree, whose
@@ -255,7 +254,6 @@ impl Grid {
         });
         sum
     }
-    // ANCHOR_END: density_integral
 
     /// Calls a function for each block of voxels along a ray of index space in which the density is not 0: the distances
     /// where the ray is in it, and the greatest density.

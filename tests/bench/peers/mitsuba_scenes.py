@@ -466,6 +466,14 @@ for run in range(options.runs):
     started = time.process_time()
     images.append(render(loaded, options.seed + run))
     seconds.append(time.process_time() - started)
+lost = sum(int(np.count_nonzero(~np.isfinite(image))) for image in images)
+if lost:
+    # In a density grid volpath divides 0 by 0 now and then; what is around a lost pixel stands in for it.
+    print(f'{lost} numbers that are none', file=sys.stderr)
+    for image in images:
+        for y, x in {(y, x) for y, x, _ in np.argwhere(~np.isfinite(image))}:
+            near = image[max(y - 1, 0):y + 2, max(x - 1, 0):x + 2].reshape(-1, image.shape[2])
+            image[y, x] = near[np.isfinite(near).all(axis=1)].mean(axis=0)
 if options.image:
     mi.Bitmap(np.mean(images, 0).astype(np.float32)).write(options.image)
 json.dump({'images': [np.float32(image).ravel().tolist() for image in images], 'seconds': seconds}, sys.stdout)
