@@ -139,14 +139,14 @@ fn a_layer_emits_as_the_integral_says() {
             let count = 20_000;
             let step = 2.0 / f64::from(count);
             let truth = [0, 1, 2].map(|part: usize| {
-                let (mut sum, mut depth) = (0.0, 0.0);
+                let (mut sum, mut depth) = (0.0, 0.0_f64);
                 for place in 0..count {
                     let density = scale * along_z(1.0 - (f64::from(place) + 0.5) * step);
                     let of = |own: Rgb, fog: Rgb| {
                         density * own.to_array()[part] + if with_fog { fog.to_array()[part] } else { 0.0 }
                     };
                     let (emitted, taken) = (of(emission, fog.emission), of(absorption, fog.absorption));
-                    sum += (-(depth + 0.5 * taken * step) as f64).exp() * emitted * step;
+                    sum += (-(depth + 0.5 * taken * step)).exp() * emitted * step;
                     depth += taken * step;
                 }
                 sum
@@ -217,7 +217,7 @@ fn nothing_is_seen_in_equilibrium() {
                     }
                     "moving" => {
                         world.entity_mut(camera).insert(Shutter { open: 0.0, close: 1.0 });
-                        let motion = Motion { velocity: DVec3::new(0.5, 0.0, 1.0), ..Motion::default() };
+                        let motion = Motion { velocity: DVec3::new(0.5, 0.0, 1.0) };
                         world.spawn((Cuboid::default(), own, grid, turned, motion));
                     }
                     "glass" => {

@@ -241,7 +241,7 @@ impl Grid {
     /// Within a cell between eight centres the density along a straight line is a polynomial of third degree, whose
     /// integral Gauss's rule with two points gives exactly.
     pub fn integral(&self, ray: [DVec3; 2], range: [f64; 2]) -> f64 {
-        const NODES: [f64; 2] = [0.211_324_865_405_187_12, 0.788_675_134_594_812_9];
+        const NODES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
         let [origin, direction] = [ray[0] - 0.5, ray[1]];
         let mut sum = 0.0;
         self.blocks_along(ray, range, |of_block, _| {

@@ -149,8 +149,8 @@ impl MediaAlong {
     ///
     /// Where a block's greatest optical depth is less than its number of voxels, light goes from one possible collision to
     /// the next, as if the greatest density were everywhere, and each is a real one with the probability of the density
-    /// there over the greatest (Woodcock and others 1965). In a denser block the distance is found at which the optical depth is
-    /// the one sampled. Neither asks more than a block's voxels.
+    /// there over the greatest (Woodcock and others 1965). In a denser block the distance is found at which the optical depth
+    /// is the one sampled. So no block costs much more than its voxels do.
     ///
     /// Colours are weighted by the balance heuristic over everything that was decided on the way, null collisions
     /// included (Miller, Georgiev and Jarosz 2019).
