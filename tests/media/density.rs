@@ -171,6 +171,10 @@ fn noise(size: [u32; 3], seed: u64, peak: f32) -> DensityGrid {
     DensityGrid { size, values, ..DensityGrid::default() }
 }
 
+/// What a grid fills, or where it is.
+const PLACES: [&str; 11] =
+    ["sphere", "cuboid", "two", "moving", "glass", "space", "cylinder", "cone", "torus", "mesh", "half-space"];
+
 /// In equilibrium, where everything that absorbs emits as it would within walls of one temperature, nothing is seen: every
 /// ray brings the radiance of the sky, whatever the densities, whatever fills them, moving or not.
 #[test]
@@ -190,7 +194,11 @@ fn nothing_is_seen_in_equilibrium() {
     for (number, own) in (0_u64..).zip(media) {
         // Where nothing is scattered, no path ends for want of depth or of precision.
         for peak in [1.0, if own.scattering == Rgb::BLACK { 1e8 } else { 30.0 }] {
-            for place in ["sphere", "cuboid", "two", "moving", "glass", "space"] {
+            for (at, place) in PLACES.into_iter().enumerate() {
+                // One medium in all shapes, and all media in some.
+                if number > 0 && at >= 6 {
+                    continue;
+                }
                 // Where media overlap, emission is sampled, and what few voxels emit within their first 1e-8 seldom.
                 if place == "two" && peak > 1e3 {
                     continue;
@@ -226,6 +234,11 @@ fn nothing_is_seen_in_equilibrium() {
                         let emission = rgb(own.emission.to_array().map(|part| part * 1.5 * 1.5));
                         world.spawn((Sphere { radius: 0.9 }, glass, Medium { emission, ..own }, grid));
                     }
+                    "cylinder" => drop(world.spawn((Cylinder::default(), own, grid, turned))),
+                    "cone" => drop(world.spawn((Cone::default(), own, grid, turned))),
+                    "torus" => drop(world.spawn((Torus::default(), own, grid, turned))),
+                    "mesh" => drop(world.spawn((MeshInstance::default(), own, grid, turned))),
+                    "half-space" => drop(world.spawn((Plane { normal: DVec3::Y }, own, grid, turned))),
                     _ => drop(world.entity_mut(camera).insert((own, grid))),
                 }
                 let measured = Measured::of(&world);
