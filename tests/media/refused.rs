@@ -193,5 +193,5 @@ fn density_grids_are_refused_by_name() {
         eprintln!("{told}");
         assert!(told.contains("medium \"cloud\"") && words.iter().all(|word| told.contains(word)), "{told}");
     }
-    eprintln!("density: {} grids refused by name", count);
+    eprintln!("density: {count} grids refused by name");
 }
