@@ -193,5 +193,9 @@ fn density_grids_are_refused_by_name() {
         eprintln!("{told}");
         assert!(told.contains("medium \"cloud\"") && words.iter().all(|word| told.contains(word)), "{told}");
     }
-    eprintln!("density: {count} grids refused by name");
+    let mut world = room();
+    world.spawn((Name::new("ball"), Sphere::default(), Matte::default(), own()));
+    let told = told(&world);
+    assert!(told.contains("density grid \"ball\"") && told.contains("beside"), "{told}");
+    eprintln!("density: {} grids refused by name", count + 1);
 }

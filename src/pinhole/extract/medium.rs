@@ -87,6 +87,7 @@ impl Table for MediumTable {
     const NAME: &'static str = "media";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        check_density_grids(scene)?;
         let media = media_entities(scene);
         let mut table = Self {
             first_shape: shape_entities(scene).len() as u32,
@@ -145,8 +146,9 @@ impl Table for MediumTable {
 }
 
 /// Checks that every density grid stands beside a medium.
-pub(super) fn check_density_grids(scene: &Census<'_>) -> Result<(), SceneError> {
-    let Some(&grid) = scene.entities::<(With<DensityGrid>, Without<Medium>)>().first() else { return Ok(()) };
+fn check_density_grids(scene: &Census<'_>) -> Result<(), SceneError> {
+    let grids = scene.entities::<With<DensityGrid>>();
+    let Some(&grid) = grids.iter().find(|&&grid| scene.get::<Medium>(grid).is_none()) else { return Ok(()) };
     let accepted = "it multiplies the coefficients of a medium, so it stands beside one";
     Err(SceneError::new(kind_and_name(scene, "density grid", grid), "medium", "missing", accepted))
 }

@@ -43,7 +43,6 @@ impl Table for ShapeTable {
     const NAME: &'static str = "shapes";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        super::medium::check_density_grids(scene)?;
         let (materials, emissive) = (material_entities(scene), emissive_entities(scene));
         let kinds: Vec<_> = materials.iter().map(|&material| material_kind(scene, material)).collect();
         let non_specular =

@@ -93,7 +93,37 @@ pub struct SampledDistance {
     pub weight: [f64; 3],
 }
 
+impl SampledDistance {
+    /// That of a ray which carries nothing.
+    pub(super) const UNSCATTERED: Self = Self { t: None, weight: [1.0; 3] };
+}
+
+/// The colour by which a distance is sampled.
+pub(super) struct ChosenColour {
+    /// The probability of each colour.
+    pub(super) choice: [f64; 3],
+    /// The one that was chosen.
+    pub(super) colour: usize,
+    /// Its optical depth at which light is scattered.
+    pub(super) depth: f64,
+}
+
 // ANCHOR: sample_distance
+impl ChosenColour {
+    /// Chooses a colour in proportion to the throughput, and its depth by e^(−τ), both by one number in [0, 1); none for a
+    /// ray that carries nothing.
+    pub(super) fn of(throughput: [f64; 3], number: f64) -> Option<Self> {
+        let carried = throughput.map(f64::abs);
+        let sum = carried.iter().sum::<f64>();
+        if !(sum > 0.0) {
+            return None;
+        }
+        let choice = carried.map(|part| part / sum);
+        let (colour, number) = chosen(choice, number);
+        Some(Self { choice, colour, depth: -libm::log1p(-number) })
+    }
+}
+
 /// Samples the distance at which light is scattered along a ray of this throughput, by a number in [0, 1).
 ///
 /// The depth of a colour is sampled by its own e^(−τ), that colour having been chosen in proportion to its throughput; the
@@ -101,15 +131,9 @@ pub struct SampledDistance {
 /// So the weight is at most the sum of the throughputs over that of the sampled colour, however much the colours differ.
 /// Of a path with a wavelength a part may be negative, and its size counts.
 pub fn sample_distance(stretches: &[Stretch], throughput: [f64; 3], number: f64) -> SampledDistance {
-    let carried = throughput.map(f64::abs);
-    let sum = carried.iter().sum::<f64>();
-    if !(sum > 0.0) {
-        return SampledDistance { t: None, weight: [1.0; 3] };
-    }
-    let choice = carried.map(|part| part / sum);
-    let (colour, number) = chosen(choice, number);
-    let wanted = -libm::log1p(-number);
-
+    let Some(ChosenColour { choice, colour, depth: wanted }) = ChosenColour::of(throughput, number) else {
+        return SampledDistance::UNSCATTERED;
+    };
     let (mut rates, mut depths) = ([0.0; 3], [0.0; 3]);
     for stretch in stretches {
         let (rate, extinction, length) = (stretch.rate(), stretch.sum.extinction, stretch.to - stretch.from);
@@ -141,7 +165,7 @@ pub(super) fn over(choice: f64, value: f64, pdf: f64) -> f64 {
 
 /// Chooses one of three with these probabilities, and what is left of the number, in [0, 1) again.
 #[inline(always)]
-pub(super) fn chosen(probabilities: [f64; 3], number: f64) -> (usize, f64) {
+fn chosen(probabilities: [f64; 3], number: f64) -> (usize, f64) {
     let mut before = 0.0;
     let mut last = (0, 0.0);
     for (place, probability) in probabilities.into_iter().enumerate().filter(|(_, own)| *own > 0.0) {

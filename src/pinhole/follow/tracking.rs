@@ -1,7 +1,7 @@
 //! Media whose density varies along a ray: how far light goes in them, how much of it, and what they emit.
 
 use super::distances::{
-    MediaAlong, SampledDistance, Span, Stretch, add_depth, chosen, depth, emission_between, over, transmittances,
+    ChosenColour, MediaAlong, SampledDistance, Span, Stretch, add_depth, depth, emission_between, over, transmittances,
 };
 use crate::extract::{Coefficients, MediumTable, PlacedGrid};
 use crate::sample::RandomStream;
@@ -161,15 +161,9 @@ impl MediaAlong {
         number: f64,
         stream: &mut RandomStream,
     ) -> SampledDistance {
-        let carried = throughput.map(f64::abs);
-        let sum = carried.iter().sum::<f64>();
-        if !(sum > 0.0) {
-            return SampledDistance { t: None, weight: [1.0; 3] };
-        }
-        let choice = carried.map(|part| part / sum);
-        let (colour, number) = chosen(choice, number);
-        let mut left = -libm::log1p(-number);
-
+        let Some(ChosenColour { choice, colour, depth: mut left }) = ChosenColour::of(throughput, number) else {
+            return SampledDistance::UNSCATTERED;
+        };
         // What each colour's own sampling would have done all this with, and what only absorbs besides.
         let (mut densities, mut unscattered) = ([1.0; 3], [0.0; 3]);
         let weights = |values: [f64; 3], pdfs: [f64; 3]| {

@@ -64,6 +64,8 @@ impl<'w> Census<'w> {
     }
 
     /// The enabled entities that pass a filter, in spawn order.
+    ///
+    /// A filter passes nothing where it names a component that the scene does not know, not even `Without` of one.
     pub fn entities<F: ArchetypeFilter + 'static>(&self) -> Arc<[Entity]> {
         self.once(|census| entities::<F>(census).into())
     }
