@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// How many blocks the longest side of a grid is divided into.
 const BLOCKS: usize = 16;
 
-/// Numbers on a grid of voxels, and the greatest of each block of them.
+/// Numbers on a grid of voxels, and the majorant of each block of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     size: [usize; 3],
@@ -26,7 +26,7 @@ pub struct Grid {
     /// The voxels along a block's edges.
     block: usize,
     blocks: [usize; 3],
-    /// The greatest density within each block, faces included.
+    /// The greatest density within each block, faces included: its majorant.
     max: Vec<f32>,
     /// What there is to say of the file that it was read from.
     pub remarks: Vec<String>,
@@ -395,7 +395,7 @@ mod tests {
                 let grid = random_grid(size, &mut draws);
                 let ray = random_ray(size, &mut draws);
                 let mut found: Vec<([f64; 2], f64)> = Vec::new();
-                grid.blocks_along(ray, [0.0, f64::INFINITY], |range, most| found.push((range, most)));
+                grid.blocks_along(ray, [0.0, f64::INFINITY], |range, majorant| found.push((range, majorant)));
                 assert!(found.iter().all(|([from, to], _)| from < to));
                 assert!(found.windows(2).all(|pair| pair[0].0[1] <= pair[1].0[0]), "in order");
                 for number in 0..200 {
@@ -403,13 +403,16 @@ mod tests {
                     let t = (f64::from(number) + 0.5) * 0.37;
                     let density = grid.density(ray[0] + t * ray[1]);
                     let of_block = found.iter().filter(|(range, _)| range[0] <= t && t <= range[1]);
-                    let most = of_block.map(|own| own.1).fold(0.0, f64::max);
-                    assert!(density <= most * (1.0 + 1e-14), "{size:?}: {density} where {most} is the most");
+                    let majorant = of_block.map(|own| own.1).fold(0.0, f64::max);
+                    assert!(
+                        density <= majorant * (1.0 + 1e-14),
+                        "{size:?}: {density} where {majorant} is the majorant"
+                    );
                     points += 1;
                 }
             }
         }
-        eprintln!("density: {points} points within what their blocks hold at most");
+        eprintln!("density: {points} points below the majorants of their blocks");
     }
 
     /// A file is read as it was written, and damage is told.

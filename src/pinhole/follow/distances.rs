@@ -11,7 +11,7 @@ pub struct Stretch {
     pub from: f64,
     /// Where it ends; infinite for a ray that hits nothing.
     pub to: f64,
-    /// The sum of the coefficients of all media there; where their density varies, of the greatest.
+    /// The sum of the coefficients of all media there; where their density varies, of the majorant.
     pub sum: Coefficients,
     /// Whether the density of any of them varies.
     pub varies: bool,
@@ -187,8 +187,8 @@ pub(super) struct Span {
     pub(super) medium: usize,
     /// The number of its grid along the ray, where the density varies; [`NO_ROW`] where it does not.
     pub(super) grid: u32,
-    /// The greatest density.
-    pub(super) most: f64,
+    /// The greatest density, its majorant.
+    pub(super) majorant: f64,
 }
 
 /// The media along one ray after another.
@@ -233,7 +233,7 @@ impl MediaAlong {
         for (Filled { medium, place, density }, number) in media.place.iter().zip(0..) {
             let grid = if density.is_some() { self.grids.len() as u32 } else { NO_ROW };
             let before = self.spans.len();
-            let mut add = |from, to| self.spans.push(Span { from, to, medium: *medium, grid, most: 1.0 });
+            let mut add = |from, to| self.spans.push(Span { from, to, medium: *medium, grid, majorant: 1.0 });
             let mut start = origin;
             match place {
                 MediumPlace::Everywhere if self.glass == NO_ROW => add(0.0, end),
@@ -262,9 +262,8 @@ impl MediaAlong {
         let alone = |own: &Span| {
             let Coefficients { extinction, scattering, emission } = media[own.medium];
             let varies = own.grid != NO_ROW;
-            let most = |parts: [f64; 3]| if varies { parts.map(|part| part * own.most) } else { parts };
-            let sum =
-                Coefficients { extinction: most(extinction), scattering: most(scattering), emission: most(emission) };
+            let of = |parts: [f64; 3]| if varies { parts.map(|part| part * own.majorant) } else { parts };
+            let sum = Coefficients { extinction: of(extinction), scattering: of(scattering), emission: of(emission) };
             Stretch { from: own.from, to: own.to, sum, varies, only: NO_ROW }
         };
         if self.spans.windows(2).all(|pair| pair[0].to <= pair[1].from) {

@@ -7,7 +7,7 @@ use crate::extract::{Coefficients, MediumTable, PlacedGrid};
 use crate::sample::RandomStream;
 use glam::DVec3;
 
-/// The most steps by which a distance of a given optical depth is approached.
+/// The steps after which the search for a distance of a given optical depth ends.
 const TRIALS: u32 = 64;
 
 /// The grid of a span, and the ray in its index space.
@@ -22,10 +22,10 @@ fn grid_of<'m>(
 }
 
 impl MediaAlong {
-    /// The density of a span's medium at a distance; never more than the greatest, whatever rounding says.
+    /// The density of a span's medium at a distance; never more than the majorant, whatever rounding says.
     pub(super) fn density(&self, media: &MediumTable, own: &Span, t: f64) -> f64 {
         let Some((placed, [origin, direction])) = grid_of(&self.grids, media, own) else { return 1.0 };
-        placed.grid.density(origin + t * direction).min(own.most)
+        placed.grid.density(origin + t * direction).min(own.majorant)
     }
 
     /// The integral of the density of a span's medium between two distances, as far as they lie in the span.
@@ -69,22 +69,22 @@ impl MediaAlong {
         sum
     }
 
-    /// Divides each span whose density varies into the blocks of its grid, of which each knows its greatest density.
+    /// Divides each span whose density varies into the blocks of its grid, of which each knows its majorant.
     pub(super) fn divide_into_blocks(&mut self, media: &MediumTable) {
         let Self { spans, whole, grids, .. } = self;
         std::mem::swap(spans, whole);
         spans.clear();
         for own in whole.iter() {
             match grid_of(grids, media, own) {
-                Some((placed, ray)) => placed.grid.blocks_along(ray, [own.from, own.to], |[from, to], most| {
-                    spans.push(Span { from, to, most, ..*own });
+                Some((placed, ray)) => placed.grid.blocks_along(ray, [own.from, own.to], |[from, to], majorant| {
+                    spans.push(Span { from, to, majorant, ..*own });
                 }),
                 None => spans.push(*own),
             }
         }
     }
 
-    /// The voxels that a ray crosses between two distances, of the grid that has the most.
+    /// The voxels that a ray crosses between two distances, of the grid that has the smallest.
     fn voxels(&self, media: &MediumTable, stretch: &Stretch) -> f64 {
         let a_unit =
             self.within(stretch).filter_map(|own| Some(grid_of(&self.grids, media, own)?.1[1].abs().element_sum()));
@@ -147,9 +147,9 @@ impl MediaAlong {
     /// Samples the distance at which light is scattered along a ray of this throughput, where densities vary, by a number in
     /// [0, 1) and a stream of more.
     ///
-    /// Where a block's greatest optical depth is less than its number of voxels, light goes from one possible collision to
-    /// the next, as if the greatest density were everywhere, and each is a real one with the probability of the density
-    /// there over the greatest (Woodcock and others 1965). In a denser block the distance is found at which the optical depth
+    /// Where the optical depth of a block's majorant, its greatest density, is less than its number of voxels, light goes from
+    /// one possible collision to the next, as if the majorant were everywhere, and each is a real one with the probability of
+    /// the density there over it (Woodcock and others 1965). In a denser block the distance is found at which the optical depth
     /// is the one sampled. So no block costs much more than its voxels do.
     ///
     /// Colours are weighted by the balance heuristic over everything that was decided on the way, null collisions
@@ -165,56 +165,56 @@ impl MediaAlong {
             return SampledDistance::UNSCATTERED;
         };
         // What each colour's own sampling would have done all this with, and what only absorbs besides.
-        let (mut densities, mut unscattered) = ([1.0; 3], [0.0; 3]);
+        let (mut path_pdfs, mut unscattered) = ([1.0; 3], [0.0; 3]);
         let weights = |values: [f64; 3], pdfs: [f64; 3]| {
             let mean = (0..3).map(|part| choice[part] * pdfs[part]).sum::<f64>();
             [0, 1, 2].map(|part| over(choice[part], values[part], mean))
         };
         for stretch in &self.stretches {
-            let (most, range) = (stretch.rate(), [stretch.from, stretch.to]);
-            if most == [0.0; 3] {
+            let (majorants, range) = (stretch.rate(), [stretch.from, stretch.to]);
+            if majorants == [0.0; 3] {
                 self.add_depths(media, range, &mut unscattered);
                 continue;
             }
             let length = stretch.to - stretch.from;
-            let greatest = most.iter().fold(0.0, |max: f64, &part| max.max(part));
+            let greatest = majorants.iter().fold(0.0, |max: f64, &part| max.max(part));
             let collides_rarely = depth(greatest, length) < self.voxels(media, stretch);
             let event = if stretch.varies && collides_rarely {
-                self.null_collisions(media, (stretch, colour), &mut left, &mut densities, stream)
+                self.null_collisions(media, (stretch, colour), &mut left, &mut path_pdfs, stream)
             } else {
-                self.exact_distance(media, (stretch, colour), &mut left, &mut densities)
+                self.exact_distance(media, (stretch, colour), &mut left, &mut path_pdfs)
             };
             if let Some(t) = event {
                 let own = self.coefficients(media, stretch, t);
                 let absorbed = transmittances(unscattered);
-                let values = [0, 1, 2].map(|part| densities[part] * absorbed[part] * own.scattering[part]);
-                let pdfs = [0, 1, 2].map(|part| densities[part] * own.extinction[part]);
+                let values = [0, 1, 2].map(|part| path_pdfs[part] * absorbed[part] * own.scattering[part]);
+                let pdfs = [0, 1, 2].map(|part| path_pdfs[part] * own.extinction[part]);
                 return SampledDistance { t: Some(t), weight: weights(values, pdfs) };
             }
         }
         let absorbed = transmittances(unscattered);
-        let values = [0, 1, 2].map(|part| densities[part] * absorbed[part]);
-        SampledDistance { t: None, weight: weights(values, densities) }
+        let values = [0, 1, 2].map(|part| path_pdfs[part] * absorbed[part]);
+        SampledDistance { t: None, weight: weights(values, path_pdfs) }
     }
 
     // ANCHOR: null_collisions
     /// Goes from one possible collision to the next, and returns the distance of a real one; `left` is the optical depth of
-    /// the greatest density that is left until the next.
+    /// the majorant that is left until the next.
     fn null_collisions(
         &self,
         media: &MediumTable,
         (stretch, colour): (&Stretch, usize),
         left: &mut f64,
-        densities: &mut [f64; 3],
+        path_pdfs: &mut [f64; 3],
         stream: &mut RandomStream,
     ) -> Option<f64> {
-        let (most, mut at) = (stretch.sum.extinction, stretch.from);
+        let (majorants, mut at) = (stretch.sum.extinction, stretch.from);
         loop {
-            let rest = depth(most[colour], stretch.to - at);
-            let step = if rest > *left { *left / most[colour] } else { stretch.to - at };
+            let rest = depth(majorants[colour], stretch.to - at);
+            let step = if rest > *left { *left / majorants[colour] } else { stretch.to - at };
             // The same factor for all colours changes no weight.
-            if most != [most[colour]; 3] {
-                (0..3).for_each(|part| densities[part] *= libm::exp(-depth(most[part], step)));
+            if majorants != [majorants[colour]; 3] {
+                (0..3).for_each(|part| path_pdfs[part] *= libm::exp(-depth(majorants[part], step)));
             }
             if !(rest > *left) {
                 *left -= rest;
@@ -222,11 +222,11 @@ impl MediaAlong {
             }
             at += step;
             let own = self.coefficients(media, stretch, at).extinction;
-            if stream.next_unit() * most[colour] < own[colour] {
+            if stream.next_unit() * majorants[colour] < own[colour] {
                 return Some(at);
             }
-            // Over the greatest, which changes no weight either, they remain within range.
-            (0..3).for_each(|part| densities[part] *= (most[part] - own[part]).max(0.0) / most[colour]);
+            // Over the majorant, which changes no weight either, they remain within range.
+            (0..3).for_each(|part| path_pdfs[part] *= (majorants[part] - own[part]).max(0.0) / majorants[colour]);
             *left = -libm::log1p(-stream.next_unit());
         }
     }
@@ -238,7 +238,7 @@ impl MediaAlong {
         media: &MediumTable,
         (stretch, colour): (&Stretch, usize),
         left: &mut f64,
-        densities: &mut [f64; 3],
+        path_pdfs: &mut [f64; 3],
     ) -> Option<f64> {
         let depths_to = |t: f64| {
             let mut depths = [0.0; 3];
@@ -248,7 +248,7 @@ impl MediaAlong {
         let all = depths_to(stretch.to);
         if !(all[colour] > *left) {
             *left -= all[colour];
-            (0..3).for_each(|part| densities[part] *= libm::exp(-all[part]));
+            (0..3).for_each(|part| path_pdfs[part] *= libm::exp(-all[part]));
             return None;
         }
         let (mut before, mut after) = (stretch.from, stretch.to);
@@ -264,7 +264,7 @@ impl MediaAlong {
             t = next;
         }
         let depths = depths_to(t);
-        (0..3).for_each(|part| densities[part] *= libm::exp(-depths[part]));
+        (0..3).for_each(|part| path_pdfs[part] *= libm::exp(-depths[part]));
         Some(t)
     }
 }

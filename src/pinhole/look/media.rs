@@ -20,8 +20,8 @@ pub fn odd_media(scene: &Census<'_>) -> Result<Vec<String>> {
     for Filled { medium, place, density } in &table.place {
         let medium = *medium;
         let (own, who) = (&table.medium[medium], kind_and_name(scene, "medium", entities[medium]));
-        let most = density.as_ref().map_or(1.0, |own| own.grid.max());
-        let densest = most * own.extinction.into_iter().fold(0.0, f64::max);
+        let max = density.as_ref().map_or(1.0, |own| own.grid.max());
+        let densest = max * own.extinction.into_iter().fold(0.0, f64::max);
         let is_opaque = own.extinction.iter().all(|part| *part > 0.0);
         if matches!(place, MediumPlace::Everywhere) && is_opaque && density.is_none() {
             let sky = sky_evidence(scene);
