@@ -86,7 +86,7 @@ fn closed_forms_hold() {
 }
 
 /// How many times the samples of a test are taken.
-fn times_samples() -> u32 {
+pub fn times_samples() -> u32 {
     std::env::var("PINHOLE_TEST_SAMPLES").map_or(1, |times| times.parse().expect("a whole number"))
 }
 

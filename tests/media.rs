@@ -1,6 +1,9 @@
 //! Participating media, held against closed forms and against quadrature.
 //!
 //! All pixels of a picture have one expected value here, so that their spread says how well it is known.
+//!
+//! `PINHOLE_TEST_SAMPLES=16 cargo test --test renderer media -- --nocapture` takes 16 times as many samples, and says how
+//! well each mean is known.
 
 #[path = "media/bodies.rs"]
 mod bodies;
@@ -13,6 +16,7 @@ mod refused;
 #[path = "media/slabs.rs"]
 mod slabs;
 
+use crate::follow::times_samples;
 use crate::scenes::{named, offer};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -30,7 +34,7 @@ fn one_ray(world: &mut World, eye: DVec3, ahead: DVec3, samples: u32, max_depth:
     let integrator = Integrator::Path { max_depth, lights: LightStrategy::Mis, roulette: 5 };
     let size = Resolution { width: SIDE, height: SIDE };
     let camera = OrthographicCamera { view_height: 1e-5 };
-    let sampling = Sampling { samples, ..Sampling::default() };
+    let sampling = Sampling { samples: samples * times_samples(), ..Sampling::default() };
     world.spawn((Name::new("camera"), camera, look, size, sampling, integrator)).id()
 }
 
@@ -64,6 +68,13 @@ impl Measured {
             worst = worst.max(off.abs());
             let told = format!("{what}: {:?} ± {:?} for {truth:?}", self.mean, self.error);
             assert!(off.abs() <= 4.0 || self.mean[part] == truth[part], "{told}, {off:+.1} standard errors off");
+            if times_samples() > 1 && truth[part] > 0.0 {
+                eprintln!(
+                    "{what}: {:.4} % known to {:.4} %",
+                    100.0 * (self.mean[part] / truth[part] - 1.0),
+                    100.0 * error / truth[part]
+                );
+            }
             assert!(self.error[part] <= known * truth[part], "{told}: known to less than {known}");
         }
         worst

@@ -2,6 +2,7 @@
 //!
 //! *Index space* counts voxels: voxel i of an axis reaches from i to i + 1, and its centre is at i + 0.5.
 
+use super::cameras::eye;
 use super::image_files::shown_name;
 use super::pose::pose;
 use crate::check::{finite_point, number, positive_length, triple};
@@ -32,6 +33,15 @@ pub struct Grid {
     pub remarks: Vec<String>,
 }
 
+/// A grid in its box.
+pub(super) struct BoxedGrid {
+    grid: Arc<Grid>,
+    /// The voxels along a unit of the entity's space.
+    index_from_entity: DMat3,
+    /// The corner of the box where index space begins.
+    min: DVec3,
+}
+
 /// A grid where a medium stands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedGrid {
@@ -49,15 +59,10 @@ impl PlacedGrid {
     }
 }
 
-/// The grid beside a medium, standing in the space of a shape which that fills, or in the world.
+/// The grid beside a medium, one for all that the medium fills.
 ///
-/// Errors: values, a box or a file that are not accepted.
-pub(super) fn placed_grid(
-    scene: &Census<'_>,
-    who: &str,
-    medium: Entity,
-    (shape, eye): (Option<Entity>, DVec3),
-) -> Result<Option<PlacedGrid>, SceneError> {
+/// Errors: values or a file that are not accepted.
+pub(super) fn grid_beside(scene: &Census<'_>, who: &str, medium: Entity) -> Result<Option<BoxedGrid>, SceneError> {
     let Some(own) = scene.get::<DensityGrid>(medium) else { return Ok(None) };
     let grid = grid_of(scene, who, own)?;
     let (min, max) = (finite_point(who, "min", own.min)?, finite_point(who, "max", own.max)?);
@@ -67,6 +72,20 @@ pub(super) fn placed_grid(
         return Err(SceneError::new(who, "max", triple(max), accepted));
     }
     positive_length(who, "edge of the density grid's box", edges.min_element())?;
+    let size = DVec3::from_array(grid.size.map(|side| side as f64));
+    let index_from_entity = DMat3::from_diagonal(size / edges);
+    Ok(Some(BoxedGrid { grid, index_from_entity, min }))
+}
+
+/// A grid in the space of a shape that its medium fills, or in the world.
+///
+/// Errors: a placement that is not accepted.
+pub(super) fn placed(
+    scene: &Census<'_>,
+    who: &str,
+    BoxedGrid { grid, index_from_entity, min }: &BoxedGrid,
+    shape: Option<Entity>,
+) -> Result<PlacedGrid, SceneError> {
     let (entity_from_world, position) = match shape {
         Some(shape) => {
             let Pose { world_from_entity, entity_from_world } = pose(scene, who, shape)?;
@@ -74,11 +93,9 @@ pub(super) fn placed_grid(
         }
         None => (DMat3::IDENTITY, DVec3::ZERO),
     };
-    let size = DVec3::from_array(grid.size.map(|side| side as f64));
-    let index_from_entity = DMat3::from_diagonal(size / edges);
-    let matrix3 = index_from_entity * entity_from_world;
-    let translation = matrix3 * (eye - position) - index_from_entity * min;
-    Ok(Some(PlacedGrid { grid, index_from_render: DAffine3 { matrix3, translation } }))
+    let matrix3 = *index_from_entity * entity_from_world;
+    let translation = matrix3 * (eye(scene)? - position) - *index_from_entity * *min;
+    Ok(PlacedGrid { grid: Arc::clone(grid), index_from_render: DAffine3 { matrix3, translation } })
 }
 
 /// The densities of a component, from its file or its own values.

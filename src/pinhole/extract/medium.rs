@@ -2,7 +2,7 @@
 
 use super::cameras::{camera_of, eye};
 use super::check::kind_and_name;
-use super::density::{PlacedGrid, placed_grid};
+use super::density::{PlacedGrid, grid_beside, placed};
 use super::integrator::integrator_of;
 use super::material::used_material;
 use super::motion::{moves_while_open, velocity_of};
@@ -106,7 +106,8 @@ impl Table for MediumTable {
             let extinction = [0, 1, 2].map(|part| absorption[part] + scattering[part]);
             table.medium.push(Coefficients { extinction, scattering, emission: own.emission.to_array() });
             let shapes = shapes_of(scene, entity);
-            let density_in = |shape| placed_grid(scene, &who, entity, (shape, eye(scene)?));
+            let grid = grid_beside(scene, &who, entity)?;
+            let density_in = |shape| grid.as_ref().map(|grid| placed(scene, &who, grid, shape)).transpose();
             let mut fill = |place, density| table.place.push(Filled { medium: row, place, density });
             if is_material(scene, entity) {
                 fill(MediumPlace::Glass(glass_row(scene, entity, &who)?), density_in(None)?);
@@ -139,7 +140,11 @@ impl Table for MediumTable {
     }
 
     fn bytes(&self) -> usize {
-        let grids = self.place.iter().filter_map(|own| own.density.as_ref()).map(|own| own.grid.bytes());
+        // All that a medium fills shares its grid, as do media that name the same file.
+        let mut grids: Vec<_> = self.place.iter().filter_map(|own| Some(&own.density.as_ref()?.grid)).collect();
+        grids.sort_by_key(|grid| Arc::as_ptr(grid));
+        grids.dedup_by(|one, other| Arc::ptr_eq(one, other));
+        let grids = grids.into_iter().map(|grid| grid.bytes());
         let places = size_of_val(&self.place[..]) + self.place.len() * size_of::<AnyShape>();
         size_of_val(&self.medium[..]) + places + grids.sum::<usize>()
     }
