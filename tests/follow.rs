@@ -24,6 +24,8 @@ mod far;
 mod foretold;
 #[path = "follow/frusta.rs"]
 mod frusta;
+#[path = "follow/in_media.rs"]
+mod in_media;
 #[path = "follow/inside.rs"]
 mod inside;
 #[path = "follow/leaning.rs"]

@@ -96,6 +96,7 @@ const LIST: &[Part] = &[Part(&[
     (Glass, follow::leave_glass_at_start_stage),
     (PhotonMapping, follow::start_photon_paths_stage),
     (Bounces, follow::start_paths_stage),
+    (Media, follow::light_from_outside_stage),
     (Bounces, follow::start_scattered_stage),
     (AreaLights, follow::start_previous_surfaces_stage),
 
@@ -174,6 +175,7 @@ const LIST: &[Part] = &[Part(&[
     (AmbientOcclusion, follow::sky_rays_stage),
     (Bidirectional, follow::join_ratios_stage),
 ], joins), Part(&[
+    (Media, follow::phase_join_stage),
 
     // Shadow rays are traced.
     (Glass, follow::leave_contacts_to_lights_stage),
@@ -185,6 +187,7 @@ const LIST: &[Part] = &[Part(&[
     (Glass, follow::block_across_surfaces_stage),
     (Media, follow::medium_shadow_stage),
     (Media, follow::phase_mis_stage),
+    (Media, follow::phase_join_weight_stage),
 
     // Direct light is evaluated: the light of unblocked shadow rays, reflected along the path.
 ], direct_light_of_bsdfs), Part(&[
@@ -200,6 +203,7 @@ const LIST: &[Part] = &[Part(&[
     (Media, follow::phase_sample_stage),
     (LightTracing, follow::shading_adjoint_stage),
     (Bidirectional, follow::leave_specular_stage),
+    (Media, follow::phase_ratios_stage),
 ], carried_ratios), Part(&[
     (PathContinuation, follow::roulette_stage),
     (Bounces, follow::add_bounce_stage),

@@ -18,19 +18,19 @@ pub(super) fn joined(make: &dyn Fn() -> World) -> impl Fn() -> World + '_ {
 }
 
 /// Whether every block of pixels is as bright as by paths from the camera alone.
-fn agrees(name: &str, make: &dyn Fn() -> World, [alone, both]: [u32; 2]) {
+pub(super) fn agrees(name: &str, make: &dyn Fn() -> World, [alone, both]: [u32; 2]) {
     const SETS: u64 = 12;
     let alone = renders(make, LightStrategy::Mis, alone, 0..SETS);
     let both = renders(&joined(make), LightStrategy::Mis, both, SETS..2 * SETS);
     assert_agree(name, &alone, &both, 8);
 }
 
-fn glow(radiance: f64) -> Emissive {
+pub(super) fn glow(radiance: f64) -> Emissive {
     Emissive { radiance: Rgb::grey(radiance), ..Emissive::default() }
 }
 
 /// A room 2 wide, open to the camera, with two balls.
-fn room(lamps: &dyn Fn(&mut World)) -> World {
+pub(super) fn room(lamps: &dyn Fn(&mut World)) -> World {
     let mut world = World::new();
     let look = LookAt { eye: DVec3::new(0.0, 1.0, 3.8), target: DVec3::new(0.0, 1.0, 0.0), up: DVec3::Y };
     let integrator = Integrator::Path { max_depth: 6, lights: LightStrategy::Mis, roulette: 3 };

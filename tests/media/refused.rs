@@ -94,10 +94,13 @@ fn places_that_a_medium_cannot_fill_are_refused_by_name() {
             let camera = named(w, "camera");
             w.entity_mut(camera).insert(Integrator::RayCasting);
         }),
-        (&["camera \"camera\"", "light_tracing", "\"haze\""], |w| {
+        (&["camera \"camera\"", "bidirectional_path_tracing", "\"haze\"", "64 lights"], |w| {
             w.spawn((Name::new("haze"), Medium::default()));
+            for number in 0..65 {
+                w.spawn((Sphere { radius: 0.1 }, Emissive::default(), Placement::at(f64::from(number), 0.0, 0.0)));
+            }
             let camera = named(w, "camera");
-            w.entity_mut(camera).insert(LightTracing::default());
+            w.entity_mut(camera).insert(BidirectionalPathTracing::default());
         }),
         (&["camera \"camera\"", "photon_mapping", "\"haze\""], |w| {
             w.spawn((Name::new("haze"), Medium::default()));

@@ -94,6 +94,15 @@ impl LightPathTable {
         }
     }
 
+    /// Whether paths start on a light outside the scene, since it has no position.
+    pub fn is_distant(&self, light: usize) -> bool {
+        match self.light.get(light) {
+            Some(LightSource::Delta(own)) => own.position().is_none(),
+            Some(LightSource::Environment(..)) => true,
+            Some(LightSource::Area { .. }) | None => false,
+        }
+    }
+
     /// The mesh of a light that is one of its triangles.
     #[inline(always)]
     pub fn mesh_of(&self, light: usize) -> &MeshLights {

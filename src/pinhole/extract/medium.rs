@@ -7,13 +7,12 @@ use super::integrator::integrator_of;
 use super::material::used_material;
 use super::motion::{moves_while_open, velocity_of};
 use super::shapes::{bodies_in_words, listed_kinds, one_shape};
-use super::{GlassBodyTable, GlassTable, glass_evidence, shape_entities};
+use super::{GlassBodyTable, GlassTable, glass_evidence, many_area_lights_evidence, shape_entities};
 use crate::check::triple;
 use crate::material::{Bsdf, PhaseTable, interior_of, is_material, material_entities, media_entities, one_material};
 use crate::plan::{Census, Evidence, Table, united};
 use crate::scene::{
-    BidirectionalPathTracing, DensityGrid, Disabled, Emissive, LightTracing, Medium, PhotonMapping, SceneError,
-    UsesMaterial, called,
+    BidirectionalPathTracing, DensityGrid, Disabled, Emissive, Medium, PhotonMapping, SceneError, UsesMaterial, called,
 };
 use crate::shapes::{AnyShape, Bounds};
 use bevy_ecs::prelude::*;
@@ -255,14 +254,18 @@ fn check_followed(scene: &Census<'_>, first: Entity) -> Result<(), SceneError> {
         let accepted = format!("light in the medium {medium} is followed by path tracing alone: give it Path()");
         return Err(SceneError::new(who, "integrator", chosen.in_words(), accepted));
     }
-    let traced = [
-        ("light_tracing", scene.get::<LightTracing>(camera).is_some()),
-        ("photon_mapping", scene.get::<PhotonMapping>(camera).is_some()),
-        ("bidirectional_path_tracing", scene.get::<BidirectionalPathTracing>(camera).is_some()),
-    ];
-    if let Some((field, _)) = traced.into_iter().find(|(_, is_asked)| *is_asked) {
-        let value = format!("with the medium {medium}");
-        return Err(SceneError::new(who, field, value, "no light path crosses a medium yet: remove one of them"));
+    if scene.get::<PhotonMapping>(camera).is_some() {
+        let accepted = "no photon is gathered in a medium: use light_tracing or bidirectional_path_tracing";
+        return Err(SceneError::new(who, "photon_mapping", format!("with the medium {medium}"), accepted));
+    }
+    if scene.get::<BidirectionalPathTracing>(camera).is_some()
+        && scattering_evidence(scene).needed
+        && many_area_lights_evidence(scene).needed
+    {
+        let value = format!("with the medium {medium} and so many lights");
+        let accepted = "with more than 64 lights one is chosen by the side of a surface, which a scattering event does \
+                        not have: use fewer, or light_tracing";
+        return Err(SceneError::new(who, "bidirectional_path_tracing", value, accepted));
     }
     Ok(())
 }

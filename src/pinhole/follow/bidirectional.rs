@@ -16,7 +16,7 @@ use crate::extract::{
     GlassTable, IntegratorTable, MaterialTable, bidirectional_evidence, bsdf_evidence, lit_from_behind_evidence,
 };
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine};
-use crate::material::{Bsdf, Parameters, ShadingContext, Transport};
+use crate::material::{Bsdf, MaterialKind, Parameters, ShadingContext, Transport};
 use crate::plan::{Census, Column, Shared, Stage, StageKind, Table, TileSystems, VectorRowsMut, column};
 use crate::rays::{Depth, Paths, PixelSamples, Tile, WorldRays, pixel_of_row};
 use crate::scene::SceneError;
@@ -303,14 +303,14 @@ struct Join {
 }
 
 // ANCHOR: join_vertex
-/// The ray from a surface to a light vertex with this BSDF, and the irradiance that it carries: what the vertex sends here
+/// The ray from a surface of some kind to a light vertex with this BSDF, and the irradiance that it carries: what the vertex sends here
 /// is its power, times its BSDF and the cosines of both ends over the square of the distance.
 #[inline(always)]
 fn join_vertex<B: Bsdf>(
     bsdf: &B,
     vertex: &LightVertex,
     bsdf_row: usize,
-    [origin, normal, shaded]: [DVec3; 3],
+    (kind, [origin, normal, shaded]): (MaterialKind, [DVec3; 3]),
 ) -> Option<Join> {
     let own = vertex.normal.as_dvec3();
     let seen = (origin - vertex.position.as_dvec3()).dot(own);
@@ -340,14 +340,14 @@ fn join_vertex<B: Bsdf>(
     let geometry = sent * arriving / square;
 
     // As many paths from either end come along the ray as its BSDF samples this direction.
-    let from_light = bsdf.pdf(&context, onward, to_source) * normal.dot(direction).abs() / square;
+    let from_light = bsdf.pdf(&context, onward, to_source) * kind.cosine(normal, direction) / square;
     let back = squared(reverse_pdf(bsdf, &context, onward, to_source));
     let known = bounded(vertex.arrival + vertex.earlier * back);
     Some(Join {
         direction: direction.as_vec3(),
         distance: square.sqrt(),
         irradiance: [0, 1, 2].map(|part| vertex.power[part] * scattered[part] * geometry),
-        onward: bounded(squared(leaving / square) * known),
+        onward: bounded(squared(B::KIND.cosine(own, direction) / square) * known),
         reverse: squared(from_light),
     })
 }
@@ -377,7 +377,8 @@ pub fn join_vertices<B: Bsdf>(
                 let normal = surface.normal * side as f32;
                 let shaded = shading.map_or(surface.normal.as_dvec3(), |shading| shading.get(row)) * side;
                 let origin = offset_origin(surface.position, normal, surface.bound);
-                let ends = [origin.as_dvec3(), normal.as_dvec3(), shaded];
+                let kind = materials.kind[surface.material as usize];
+                let ends = (kind, [origin.as_dvec3(), normal.as_dvec3(), shaded]);
                 for vertex in vertices_of(of) {
                     let material = vertex.material as usize;
                     let segments = depth.0.saturating_add(2).saturating_add(vertex.segments);

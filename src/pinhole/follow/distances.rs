@@ -217,6 +217,16 @@ impl MediaAlong {
         self.add_up(&media.medium);
     }
 
+    /// The transmittance of the media along a ray, at a time since the shutter opened.
+    pub fn find_transmittance(&mut self, media: &MediumTable, of: ([DVec3; 2], f64), end: f64) -> [f64; 3] {
+        self.find_spans(media, of, end);
+        if self.varies() {
+            return self.transmittance(media);
+        }
+        self.add_up(&media.medium);
+        transmittance_along(&self.stretches)
+    }
+
     /// Finds from where to where a ray runs through each medium.
     pub(super) fn find_spans(&mut self, media: &MediumTable, (ray, time): ([DVec3; 2], f64), end: f64) {
         let [origin, direction] = ray;

@@ -68,8 +68,9 @@ pub use media::{
 };
 pub use occlusion::{SkyLists, SkyView, sample_sky, sample_sky_with, show_occlusion, sky_rays_stage, sky_stage};
 pub use participating::{
-    add_medium_emission, attenuate_shadow_rays, distance_stage, fill_scattering_events, medium_emission_stage,
-    medium_shadow_stage, phase_direct_light_stage, phase_mis_stage, phase_sample_stage, sample_distances,
+    add_medium_emission, attenuate_light_from_outside, attenuate_shadow_rays, distance_stage, fill_scattering_events,
+    light_from_outside_stage, medium_emission_stage, medium_shadow_stage, phase_direct_light_stage, phase_join_stage,
+    phase_join_weight_stage, phase_mis_stage, phase_ratios_stage, phase_sample_stage, sample_distances,
     scattering_event_stage,
 };
 pub use paths::{

@@ -4,15 +4,19 @@
 //! ray, and whose BSDF is the phase function.
 //! So every later stage treats it as any other.
 
+use super::bidirectional::join_vertices;
 use super::bsdf::{add_direct_light, continues, mis_bsdf, sample_bsdf, without_sides};
-use super::distances::{MediaAlong, emission_along, sample_distance, transmittance_along};
+use super::distances::{MediaAlong, emission_along, sample_distance};
+use super::light_paths::{LightPower, StartedOn};
+use super::recursive_mis::{JoinRatios, leave_with_ratios, weight_joins};
 use crate::extract::{
-    MediumTable, NO_ROW, SamplingTable, area_light_evidence, emitting_medium_evidence, environment_light_evidence,
-    medium_evidence, mis_evidence, scattering_evidence,
+    LightPathTable, MediumTable, NO_ROW, SamplingTable, area_light_evidence, bidirectional_evidence,
+    distant_start_evidence, emitting_medium_evidence, environment_light_evidence, medium_evidence, mis_evidence,
+    scattering_evidence, traced_evidence,
 };
 use crate::intersect::{Hits, NO_SHAPE, Surface, Surfaces};
 use crate::material::{Named, PhaseTable};
-use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems, VectorRowsMut};
 use crate::rays::{Draws, DrawsView, PathLight, Paths, RayTimes, WorldRays, draws_of_one};
 use crate::sample::{Purpose, RandomStream};
 use crate::shade::{ShadowHits, ShadowRays, light_distance, light_evidence, shadow_evidence};
@@ -120,7 +124,6 @@ pub fn attenuate_shadow_rays(
     mut along: Local<MediaAlong>,
     mut tiles: Query<(Option<&RayTimes>, Option<&ShadowHits>, &mut ShadowRays)>,
 ) {
-    let varies = media.varies();
     for (times, hits, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
             if hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) || rays.t_max[ray] == 0.0 {
@@ -129,14 +132,28 @@ pub fn attenuate_shadow_rays(
             let time = times.map_or(0.0, |times| times.time[rays.row[ray] as usize]);
             let way = [rays.origin_of(ray), rays.direction_of(ray)];
             let end = light_distance(rays.t_max[ray]);
-            if varies {
-                along.find_spans(&media, (way, time), end);
-                rays.weight_by(ray, along.transmittance(&media));
-                continue;
+            let reached_by = along.find_transmittance(&media, (way, time), end);
+            if reached_by != [1.0; 3] {
+                rays.weight_by(ray, reached_by);
             }
-            along.find(&media, way, time, end);
-            if !along.stretches.is_empty() {
-                rays.weight_by(ray, transmittance_along(&along.stretches));
+        }
+    }
+}
+
+/// Multiplies the power of the light paths that start outside the scene by the transmittance of the media that their light
+/// has crossed before.
+pub fn attenuate_light_from_outside(
+    (media, starts): (Res<Shared<MediumTable>>, Res<Shared<LightPathTable>>),
+    mut along: Local<MediaAlong>,
+    mut tiles: Query<(&WorldRays, &Paths, &StartedOn, &mut LightPower)>,
+) {
+    for (rays, paths, started, mut power) in &mut tiles {
+        for row in 0..rays.rows() {
+            let path = paths.first[row] as usize;
+            if starts.is_distant(started.light[path] as usize) {
+                let way = [rays.origin_of(row), -rays.direction_of(row)];
+                let reached_by = along.find_transmittance(&media, (way, 0.0), f64::INFINITY);
+                power.rgb.scale(path, reached_by);
             }
         }
     }
@@ -149,10 +166,18 @@ pub fn medium_emission_stage() -> Stage {
         .when(emitting_medium_evidence)
 }
 
+/// The stage that attenuates the light of paths that start outside the scene.
+pub fn light_from_outside_stage() -> Stage {
+    Stage::new("Attenuate light from outside", TileSystems::Start, attenuate_light_from_outside)
+        .on_light_paths()
+        .on_first_bounce()
+        .when(|scene| medium_evidence(scene).and(|| traced_evidence(scene)).and(|| distant_start_evidence(scene)))
+}
+
 /// The stage that samples distances.
 pub fn distance_stage() -> Stage {
     Stage::new("Sample distances in media", TileSystems::Contact, sample_distances)
-        .on_camera_paths()
+        .on_all_paths()
         .kind(StageKind::Estimator)
         .when(medium_evidence)
 }
@@ -160,7 +185,7 @@ pub fn distance_stage() -> Stage {
 /// The stage that places scattering events.
 pub fn scattering_event_stage() -> Stage {
     Stage::new("Compute surfaces: scattering events", TileSystems::Surface, fill_scattering_events)
-        .on_camera_paths()
+        .on_all_paths()
         .when(scattering_evidence)
 }
 
@@ -168,7 +193,7 @@ pub fn scattering_event_stage() -> Stage {
 pub fn medium_shadow_stage() -> Stage {
     let stage = Stage::new("Attenuate shadow rays in media", TileSystems::AbsorbShadowRays, attenuate_shadow_rays);
     stage
-        .on_camera_paths()
+        .on_all_paths()
         .when(|scene| medium_evidence(scene).and(|| light_evidence(scene)).and(|| shadow_evidence(scene)))
 }
 
@@ -178,16 +203,20 @@ pub fn phase_mis_stage() -> Stage {
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .when(|scene| {
+            let joined = bidirectional_evidence(scene);
+            if joined.needed {
+                return Evidence { needed: false, ..joined };
+            }
             let lights = area_light_evidence(scene).or(environment_light_evidence(scene));
             lights.and(|| mis_evidence(scene)).and(|| scattering_evidence(scene))
         })
 }
 
-/// The stage that evaluates phase functions for direct light.
+/// The stage that evaluates phase functions for direct light, and for connections to the camera.
 pub fn phase_direct_light_stage() -> Stage {
     let evaluate = add_direct_light::<PhaseTable, false>;
     without_sides(Stage::new(PhaseTable::NAMES.direct_light, TileSystems::Shade, evaluate))
-        .on_camera_paths()
+        .on_all_paths()
         .when(|scene| scattering_evidence(scene).and(|| light_evidence(scene)))
 }
 
@@ -195,6 +224,38 @@ pub fn phase_direct_light_stage() -> Stage {
 pub fn phase_sample_stage() -> Stage {
     let sample = sample_bsdf::<PhaseTable, false>;
     continues(without_sides(Stage::new("Sample phase functions", TileSystems::SampleBsdfs, sample)))
-        .on_camera_paths()
+        .on_all_paths()
         .when(scattering_evidence)
+}
+
+/// Evidence that paths from both sides are joined at scattering events.
+fn joined_events_evidence(scene: &Census<'_>) -> Evidence {
+    bidirectional_evidence(scene).and(|| scattering_evidence(scene))
+}
+
+/// The stage that joins what paths from the camera hit to scattering events on light paths.
+pub fn phase_join_stage() -> Stage {
+    without_sides(Stage::new(PhaseTable::NAMES.join, TileSystems::SampleLights, join_vertices::<PhaseTable>))
+        .on_camera_paths()
+        .kind(StageKind::Alternative)
+        .appends::<ShadowRays>()
+        .changes::<JoinRatios>()
+        .when(joined_events_evidence)
+}
+
+/// The stage that weights what is joined to scattering events.
+pub fn phase_join_weight_stage() -> Stage {
+    without_sides(Stage::new(PhaseTable::NAMES.join_weights, TileSystems::MisWeights, weight_joins::<PhaseTable>))
+        .on_all_paths()
+        .kind(StageKind::Alternative)
+        .when(joined_events_evidence)
+}
+
+/// The stage that carries ratios on from scattering events.
+pub fn phase_ratios_stage() -> Stage {
+    let carry = leave_with_ratios::<PhaseTable, false>;
+    without_sides(Stage::new(PhaseTable::NAMES.ratios, TileSystems::Roulette, carry))
+        .on_all_paths()
+        .kind(StageKind::Alternative)
+        .when(joined_events_evidence)
 }

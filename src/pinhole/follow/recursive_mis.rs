@@ -6,6 +6,10 @@
 //! Ratios of pdfs of ways that are next to each other have nearly all factors in common, so that the sum is built up vertex
 //! by vertex (van Antwerpen 2011; Georgiev 2012, whose d_VCM and d_VC are the roots of `arrival` and `earlier`).
 //!
+//! A scattering event in a medium is a vertex as well; no cosine counts there.
+//! The pdfs of distances are left out: nearly all of their factors are common to all ways, and weights that sum to one
+//! leave the mean as it is, whatever pdfs they are made of.
+//!
 //! Reads: hits, surfaces and scattered rays of paths from either side.
 //! Writes: [`RecursiveMis`], [`JoinRatios`], and the weights of [`ShadowRays`].
 //! Space: 1/pdf in the units of area and solid angle; what is joined has none.
@@ -22,7 +26,7 @@ use crate::extract::{
 use crate::follow::PreviousSurfaces;
 use crate::intersect::{EmissiveRows, HitPrimitives, Hits, NO_SHAPE, ShadingNormals, Surface, SurfaceSides, Surfaces};
 use crate::lights::Receiver;
-use crate::material::{Bsdf, ShadingContext, Transport};
+use crate::material::{Bsdf, MaterialKind, ShadingContext, Transport};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
 use crate::rays::{Depth, LensPoints, Paths, WorldRays, join_camera};
 use crate::shade::{EmissionFactors, LightPdfs, ParameterColumns, Radiance, ShadowRays, area_light_pdf};
@@ -230,7 +234,10 @@ fn cosines(surfaces: &Surfaces, shading: Option<&ShadingNormals>, row: usize, di
 // ANCHOR: light_sample_ratios
 /// Begins the list of ratios with those of the light samples: as many light paths arrive along a ray as its share of all
 /// power says, E / Φ; none from an environment, a distant light or one without shadows.
-pub fn begin_join_ratios(starts: Res<Shared<LightPathTable>>, mut tiles: Query<LightSampleView>) {
+pub fn begin_join_ratios(
+    (starts, materials): (Res<Shared<LightPathTable>>, Res<Shared<MaterialTable>>),
+    mut tiles: Query<LightSampleView>,
+) {
     for LightSampleViewItem { surfaces, shading, pdfs, rays, mut ratios } in &mut tiles {
         let (rows, onward, reverse) = ratios.slices_mut(rays.rows());
         rows.copy_from_slice(&rays.row);
@@ -240,8 +247,12 @@ pub fn begin_join_ratios(starts: Res<Shared<LightPathTable>>, mut tiles: Query<L
             onward[ray] = if by_light > 0.0 { squared(1.0 / by_light) } else { 0.0 };
             let is_started_on = rays.t_max[ray] > 0.0 && rays.t_max[ray] < f32::INFINITY;
             let share = luminance(rays.irradiance(ray).map(f64::from)) / starts.power;
-            reverse[ray] =
-                if is_started_on { squared(share * cosines(surfaces, shading, row, direction)) } else { 0.0 };
+            let by_area = match materials.kind[surfaces.material[row] as usize] {
+                // The irradiance of a scattering event counts by a cosine that its phase function takes back.
+                MaterialKind::Phase => 1.0 / surfaces.normal(row).as_dvec3().dot(direction).abs(),
+                _ => cosines(surfaces, shading, row, direction),
+            };
+            reverse[ray] = if is_started_on { squared(share * by_area) } else { 0.0 };
         }
     }
 }
@@ -268,7 +279,10 @@ pub struct CameraConnectionView {
 
 /// The same for connections to the camera, where the irradiance is the importance: as many camera rays come along one, to
 /// the light paths of a sample.
-pub fn begin_camera_ratios(tracing: Res<Shared<LightTracingTable>>, mut tiles: Query<CameraConnectionView>) {
+pub fn begin_camera_ratios(
+    (tracing, materials): (Res<Shared<LightTracingTable>>, Res<Shared<MaterialTable>>),
+    mut tiles: Query<CameraConnectionView>,
+) {
     for CameraConnectionViewItem { arriving, surfaces, shading, rays, mut ratios } in &mut tiles {
         let (rows, onward, reverse) = ratios.slices_mut(rays.rows());
         rows.copy_from_slice(&rays.row);
@@ -276,8 +290,11 @@ pub fn begin_camera_ratios(tracing: Res<Shared<LightTracingTable>>, mut tiles: Q
         for ray in 0..rays.rows() {
             let row = rays.row[ray] as usize;
             let importance = f64::from(rays.irradiance(ray)[0]);
-            let by_geometry = cosines(surfaces, shading, row, arriving.direction_of(row));
-            reverse[ray] = squared(importance * by_geometry / tracing.each_sample);
+            let by_area = match materials.kind[surfaces.material[row] as usize] {
+                MaterialKind::Phase => 1.0 / surfaces.normal(row).as_dvec3().dot(rays.direction_of(ray)).abs(),
+                _ => cosines(surfaces, shading, row, arriving.direction_of(row)),
+            };
+            reverse[ray] = squared(importance * by_area / tracing.each_sample);
         }
     }
 }
@@ -380,7 +397,8 @@ pub fn leave_with_ratios<B: Bsdf, const FROM_LIGHT: bool>(
             let context = shading_context::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
             let back = squared(reverse_pdf(&**bsdf, &context, local_from_world * onward, to_eye));
             let pdf = scattered.pdf[ray];
-            earlier[path] = bounded(squared(own.dot(onward) / pdf) * (earlier[path] * back + arrival[path]));
+            let cosine = B::KIND.cosine(own, onward);
+            earlier[path] = bounded(squared(cosine / pdf) * (earlier[path] * back + arrival[path]));
             arrival[path] = squared(1.0 / pdf);
         }
     }

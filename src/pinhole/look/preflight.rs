@@ -375,8 +375,8 @@ pub fn missing_paths(scene: &Census<'_>, pilot: &Pilot) -> Vec<String> {
     let area = "a small sphere or disk that emits, in place of the light, is found by paths there, too";
     // What is refused is not advised.
     let is_adaptive = adaptive_of(scene).is_ok_and(|own| own.is_some());
-    let is_refused = is_adaptive || medium_evidence(scene).needed || motion_evidence(scene).needed;
-    let are_photons_refused = is_refused || dispersion_evidence(scene).needed;
+    let is_refused = is_adaptive || motion_evidence(scene).needed;
+    let are_photons_refused = is_refused || medium_evidence(scene).needed || dispersion_evidence(scene).needed;
     let photons = if are_photons_refused { area } else { "PhotonMapping in its place finds it there, too" };
     let mut warnings = Vec::new();
     if started.needed && !is_traced {

@@ -339,6 +339,13 @@ impl MaterialKind {
     pub const fn is_specular(self) -> bool {
         matches!(self.class(), BsdfClass::Specular)
     }
+
+    /// By how much an area with this normal counts for a ray: |cos θ| of a surface; 1 of a scattering event, which has no
+    /// area.
+    #[inline(always)]
+    pub fn cosine(self, normal: DVec3, direction: DVec3) -> f64 {
+        if self == Self::Phase { 1.0 } else { normal.dot(direction).abs() }
+    }
 }
 
 // The materials of a scene, by what the list of BSDFs says of their components.
