@@ -83,6 +83,7 @@ fn the_page_s_table_of_what_is_not_found_is_measured() {
         ("point light through rough glass", "tests/methods/rough_glass.ron"),
         ("point light through glass that disperses", "tests/methods/prism.ron"),
         ("point light in fog", "tests/methods/fog.ron"),
+        ("point light through glass in fog", "tests/methods/fog_caustic.ron"),
     ] {
         let told = pilot(scene);
         if scene.contains("mirror") {
@@ -143,9 +144,19 @@ fn efficiency(line: &str) -> String {
 #[test]
 fn a_method_that_is_refused_says_why_and_one_without_work_says_whose_it_does() {
     let text = printed("methods tests/methods/fog.ron --size 8x6 --samples 1 --seeds 4").expect("measured");
+    let line = text.lines().find(|line| line.starts_with("photon_mapping")).expect("a line");
+    assert!(line.contains("refused: camera \"camera\": ") && line.contains("with the medium"), "{line}");
+    let folder = tempfile::tempdir().expect("a folder");
+    let moving = folder.path().join("moving.ron");
+    let still = std::fs::read_to_string(root().join("tests/methods/fog.ron")).expect("the scene");
+    let moves = still
+        .replace("point_light:", "motion: (velocity: (1, 0, 0)), point_light:")
+        .replace("medium:", "shutter: (), medium:");
+    std::fs::write(&moving, moves).expect("written");
+    let text = printed(&format!("methods {} --size 8x6 --samples 1 --seeds 4", moving.display())).expect("measured");
     for method in &METHODS[1..] {
         let line = text.lines().find(|line| line.starts_with(method)).expect("a line");
-        assert!(line.contains("refused: camera \"camera\": ") && line.contains("with the medium"), "{line}");
+        assert!(line.contains("refused: camera \"camera\": ") || line.contains("by the same stages"), "{line}");
     }
     assert!(text.contains("path_tracing: no other method has anything to do here"), "{text}");
     let text = printed("methods tests/methods/room.ron --size 8x8 --samples 1 --seeds 4").expect("measured");

@@ -304,7 +304,7 @@ fn light_tracing_is_advised_where_it_helps() {
         let water = named(world, "water");
         world.entity_mut(water).insert(Dispersion::Water);
     };
-    for (more, refused) in [(&haze as &dyn Fn(&mut World), "Tracing"), (&falling, "Tracing"), (&parted, "Photon")] {
+    for (more, refused) in [(&haze as &dyn Fn(&mut World), "Photon"), (&falling, "Tracing"), (&parted, "Photon")] {
         let told = tank(true, false, more);
         assert!(
             told.len() == 1 && told[0].contains("a small sphere or disk") && !told[0].contains(refused),

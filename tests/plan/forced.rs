@@ -344,6 +344,29 @@ fn in_a_cloud() -> World {
     world
 }
 
+/// The same, with paths from the lamp.
+fn joined_in_a_cloud() -> World {
+    let mut world = in_a_cloud();
+    let mut cameras = world.query_filtered::<Entity, With<PerspectiveCamera>>();
+    let camera = cameras.single(&world).expect("a camera");
+    world.entity_mut(camera).insert(BidirectionalPathTracing::default());
+    world
+}
+
+/// A glass ball throws the light of a sun, which comes through a cloud, on the ground.
+fn sun_through_a_cloud() -> World {
+    let mut world = World::new();
+    let look = LookAt { eye: DVec3::new(0.0, 2.0, 5.0), target: DVec3::ZERO, ..LookAt::default() };
+    let size = Resolution { width: 24, height: 16 };
+    world.spawn((PerspectiveCamera::default(), look, size, Integrator::PATH, LightTracing::default()));
+    world.spawn((Rectangle { width: 6.0, depth: 6.0 }, Matte::default()));
+    world.spawn((Sphere { radius: 0.7 }, Glass::default(), Placement::at(0.0, 0.9, 0.0)));
+    let cloud = Medium { absorption: Rgb::grey(0.5), ..Medium::default() };
+    world.spawn((Sphere::default(), cloud, Placement::at(0.0, 9.0, 0.0)));
+    world.spawn((DirectionalLight::default(), LookAt { eye: DVec3::Y, target: DVec3::ZERO, up: DVec3::X }));
+    world
+}
+
 #[test]
 fn forcing_a_needed_stage_off_shows() {
     let two_bounces = Integrator::Path { max_depth: 2, lights: LightStrategy::Mis, roulette: 0 };
@@ -398,6 +421,8 @@ fn forcing_a_needed_stage_off_shows() {
         ("an eye and a lamp on the sea", on_the_sea()),
         ("a diamond", a_diamond()),
         ("a lamp in a cloud", in_a_cloud()),
+        ("a lamp in a cloud from both ends", joined_in_a_cloud()),
+        ("a sun through a cloud", sun_through_a_cloud()),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();

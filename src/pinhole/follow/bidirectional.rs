@@ -406,10 +406,14 @@ pub fn join_vertices<B: Bsdf>(
 
 /// The stage that joins surfaces to light vertices with a BSDF.
 pub fn join_stage<B: Bsdf>() -> Stage {
+    joins::<B>().when(|scene| bidirectional_evidence(scene).and(|| bsdf_evidence::<B>(scene)))
+}
+
+/// The same, whatever has the BSDF.
+pub(super) fn joins<B: Bsdf>() -> Stage {
     without_sides(Stage::new(B::NAMES.join, TileSystems::SampleLights, join_vertices::<B>))
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .appends::<ShadowRays>()
         .changes::<JoinRatios>()
-        .when(|scene| bidirectional_evidence(scene).and(|| bsdf_evidence::<B>(scene)))
 }

@@ -4,11 +4,11 @@
 //! ray, and whose BSDF is the phase function.
 //! So every later stage treats it as any other.
 
-use super::bidirectional::join_vertices;
+use super::bidirectional::joins;
 use super::bsdf::{add_direct_light, continues, mis_bsdf, sample_bsdf, without_sides};
 use super::distances::{MediaAlong, emission_along, sample_distance};
 use super::light_paths::{LightPower, StartedOn};
-use super::recursive_mis::{JoinRatios, leave_with_ratios, weight_joins};
+use super::recursive_mis::{leave_with_ratios, weight_joins};
 use crate::extract::{
     LightPathTable, MediumTable, NO_ROW, SamplingTable, area_light_evidence, bidirectional_evidence,
     distant_start_evidence, emitting_medium_evidence, environment_light_evidence, medium_evidence, mis_evidence,
@@ -171,6 +171,7 @@ pub fn light_from_outside_stage() -> Stage {
     Stage::new("Attenuate light from outside", TileSystems::Start, attenuate_light_from_outside)
         .on_light_paths()
         .on_first_bounce()
+        .kind(StageKind::Alternative)
         .when(|scene| medium_evidence(scene).and(|| traced_evidence(scene)).and(|| distant_start_evidence(scene)))
 }
 
@@ -235,12 +236,7 @@ fn joined_events_evidence(scene: &Census<'_>) -> Evidence {
 
 /// The stage that joins what paths from the camera hit to scattering events on light paths.
 pub fn phase_join_stage() -> Stage {
-    without_sides(Stage::new(PhaseTable::NAMES.join, TileSystems::SampleLights, join_vertices::<PhaseTable>))
-        .on_camera_paths()
-        .kind(StageKind::Alternative)
-        .appends::<ShadowRays>()
-        .changes::<JoinRatios>()
-        .when(joined_events_evidence)
+    joins::<PhaseTable>().when(joined_events_evidence)
 }
 
 /// The stage that weights what is joined to scattering events.
