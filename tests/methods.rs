@@ -149,9 +149,8 @@ fn a_method_that_is_refused_says_why_and_one_without_work_says_whose_it_does() {
     let folder = tempfile::tempdir().expect("a folder");
     let moving = folder.path().join("moving.ron");
     let still = std::fs::read_to_string(root().join("tests/methods/fog.ron")).expect("the scene");
-    let moves = still
-        .replace("point_light:", "motion: (velocity: (1, 0, 0)), point_light:")
-        .replace("medium:", "shutter: (), medium:");
+    let moves =
+        still.replace("matte:", "motion: (velocity: (1, 0, 0)), matte:").replace("medium:", "shutter: (), medium:");
     std::fs::write(&moving, moves).expect("written");
     let text = printed(&format!("methods {} --size 8x6 --samples 1 --seeds 4", moving.display())).expect("measured");
     for method in &METHODS[1..] {
