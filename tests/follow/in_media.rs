@@ -1,7 +1,7 @@
 //! Paths from the lights through participating media: closed forms, and agreement with paths from the camera alone.
 
 use super::bidirectional::{agrees, glow, joined, room};
-use super::caustics::{camera, mean_of};
+use super::caustics::{assert_same_bits_however_divided, camera, mean_of};
 use super::*;
 use glam::{DQuat, DVec3};
 use pinhole::scene::*;
@@ -193,4 +193,67 @@ fn light_from_outside_has_crossed_what_hangs_above() {
     };
     assert_eq!(mean_of(&endless, &offer(), 4, 0..2).mean, 0.0, "nothing comes through endless ink");
     eprintln!("light from outside: {tried} closed forms, 0 apart");
+}
+
+/// No number is lost at either end of what is accepted, for a path that ends on its first event and for one that meets none.
+#[test]
+fn extremes_are_numbers() {
+    let mut tried = 0;
+    for density in [1e-8, 1e-3, 1.0, 1e3, 1e8, 1e30] {
+        for anisotropy in [-0.999, 0.0, 0.999_999] {
+            for albedo in [0.0, 0.5, 1.0 - 1e-9, 1.0] {
+                let make = |is_joined: bool| {
+                    let mut world = room(&|world| {
+                        shine(world, 2);
+                        world.spawn((Sphere { radius: 0.2 }, Glass::default(), Placement::at(-0.3, 0.9, 0.6)));
+                        let own = medium([density * (1.0 - albedo); 3], [density * albedo; 3], anisotropy);
+                        world.spawn((Cuboid { size: DVec3::splat(1.4) }, own, Placement::at(0.0, 1.0, 0.0)));
+                    });
+                    let camera = named(&mut world, "camera");
+                    let mut camera = world.entity_mut(camera);
+                    camera.insert((Resolution { width: 8, height: 8 }, Sampling { samples: 4, ..Sampling::default() }));
+                    if is_joined {
+                        camera.insert(BidirectionalPathTracing::default());
+                    } else {
+                        camera.insert(LightTracing::default());
+                    }
+                    world
+                };
+                for is_joined in [false, true] {
+                    let film = render(&make(is_joined), &offer(), &Execution::default(), &()).expect("renders").film;
+                    assert_eq!(
+                        film.rejected().0,
+                        0,
+                        "{density:e}, {anisotropy}, {albedo}: samples that are no numbers"
+                    );
+                    let numbers = film.means().into_iter().flatten();
+                    assert!({ numbers }.all(|part| (0.0..1e6).contains(&part)), "{density:e}, {anisotropy}, {albedo}");
+                    tried += 1;
+                }
+            }
+        }
+    }
+    eprintln!("light paths in media: {tried} extremes are numbers");
+}
+
+#[test]
+fn light_paths_in_media_have_the_same_bits_however_they_are_traced() {
+    let (mut tried, folder) = (0, tempfile::tempdir().expect("a folder"));
+    for (filling, is_joined) in [(6, true), (7, true), (7, false)] {
+        let mut scene = room(&|world| {
+            fill(world, filling);
+            shine(world, 2);
+            world.spawn((Sphere { radius: 0.2 }, Glass::default(), Placement::at(-0.3, 0.9, 0.6)));
+        });
+        let camera = named(&mut scene, "camera");
+        let mut camera = scene.entity_mut(camera);
+        camera.insert(Sampling { samples: 4, seed: 39, ..Sampling::default() });
+        if is_joined {
+            camera.insert(BidirectionalPathTracing::default());
+        } else {
+            camera.insert(LightTracing::default());
+        }
+        tried += assert_same_bits_however_divided(&scene, 4, folder.path());
+    }
+    eprintln!("light paths in media: {tried} ways to trace 3 films, every bit the same");
 }

@@ -303,8 +303,8 @@ struct Join {
 }
 
 // ANCHOR: join_vertex
-/// The ray from a surface of some kind to a light vertex with this BSDF, and the irradiance that it carries: what the vertex sends here
-/// is its power, times its BSDF and the cosines of both ends over the square of the distance.
+/// The ray from a surface of some kind to a light vertex with this BSDF, and the irradiance that it carries: what the
+/// vertex sends here is its power, times its BSDF and the cosines of both ends over the square of the distance.
 #[inline(always)]
 fn join_vertex<B: Bsdf>(
     bsdf: &B,
