@@ -68,13 +68,13 @@ fn shine(world: &mut World, number: usize) {
 }
 
 /// Every place that a medium fills, under lights in turn: behind glass only those with an area, which paths from the camera
-/// find as well, and so where a lamp stands in the medium, since the light of a point has no finite variance there for
-/// them.
+/// find as well, and so where a lamp stands in a medium whose density varies, since the light of a point has no finite variance
+/// there for them.
 #[test]
 fn joined_paths_bring_what_paths_from_the_camera_bring() {
     let mut tried = 0;
     for filling in 0..FILLINGS {
-        let lights: &[usize] = if [0, 4, 5, 7].contains(&filling) { &[0, 1] } else { &[0, 1, 2, 3] };
+        let lights: &[usize] = if [4, 5, 7].contains(&filling) { &[0, 1] } else { &[0, 1, 2, 3] };
         let all = 0..if times_samples() > 1 { lights.len() } else { 2 };
         for light in all.map(|step| lights[(filling + step) % lights.len()]) {
             let make = || room(&|world| (fill(world, filling), shine(world, light)).0);

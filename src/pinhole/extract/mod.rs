@@ -25,6 +25,7 @@ mod camera_join;
 mod cameras;
 mod contact;
 mod density;
+mod equiangular;
 mod exposure;
 mod glass;
 mod image_files;
@@ -64,6 +65,7 @@ pub use cameras::{
 };
 pub use contact::{Contact, ContactTable, contact_evidence, glass_contact_evidence, unresolved};
 pub use density::{Grid, PlacedGrid};
+pub use equiangular::EquiangularTable;
 pub use exposure::exposure_of;
 pub use glass::{
     GlassBody, GlassBodyTable, GlassTable, absorption_evidence, deep_glass, dispersion_evidence, glass_overlaps,

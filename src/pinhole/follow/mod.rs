@@ -22,6 +22,7 @@ mod bsdf;
 mod dispersion;
 mod distances;
 mod emission;
+mod equiangular;
 mod interface;
 mod light_paths;
 mod media;

@@ -7,10 +7,11 @@
 use super::bidirectional::joins;
 use super::bsdf::{add_direct_light, continues, mis_bsdf, sample_bsdf, without_sides};
 use super::distances::{MediaAlong, emission_along, sample_distance};
+use super::equiangular::sample_distance_towards;
 use super::light_paths::{LightPower, StartedOn};
 use super::recursive_mis::{leave_with_ratios, weight_joins};
 use crate::extract::{
-    LightPathTable, MediumTable, NO_ROW, SamplingTable, area_light_evidence, bidirectional_evidence,
+    EquiangularTable, LightPathTable, MediumTable, NO_ROW, SamplingTable, area_light_evidence, bidirectional_evidence,
     distant_start_evidence, emitting_medium_evidence, environment_light_evidence, medium_evidence, mis_evidence,
     scattering_evidence, traced_evidence,
 };
@@ -69,7 +70,7 @@ pub fn add_medium_emission(
 /// Samples how far each ray goes before it is scattered; where that is nearer than what it hit, the event is what it hits
 /// instead.
 pub fn sample_distances(
-    media: Res<Shared<MediumTable>>,
+    (media, lamps): (Res<Shared<MediumTable>>, Res<Shared<EquiangularTable>>),
     sampling: Res<Shared<SamplingTable>>,
     (mut along, mut numbers, mut choices): (Local<MediaAlong>, Local<Numbers>, Local<Vec<f64>>),
     mut tiles: Query<(&WorldRays, Option<&RayTimes>, DrawsView, &mut Paths, &mut Hits)>,
@@ -90,6 +91,9 @@ pub fn sample_distances(
             let sampled = if along.varies() {
                 let mut stream = RandomStream::of_ray(ray, number.to_bits());
                 along.sample_varying_distance(&media, throughput, number, &mut stream)
+            } else if !lamps.position.is_empty() {
+                let light = lamps.chosen(RandomStream::of_ray(ray, number.to_bits()).next_unit());
+                sample_distance_towards(&along.stretches, (ray, light), throughput, number)
             } else {
                 sample_distance(&along.stretches, throughput, number)
             };
