@@ -145,7 +145,7 @@ mod equiangular_tests {
             for index in 0..STEPS {
                 let along = (f64::from(index) + 0.5) * step;
                 for part in 0..3 {
-                    let left = (-depths[part] - own.sum.extinction[part] * along).exp();
+                    let left = libm::exp(-depths[part] - own.sum.extinction[part] * along);
                     sum[part] += own.sum.scattering[part] * left * of(own.from + along) * step;
                 }
             }
