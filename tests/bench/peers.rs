@@ -18,6 +18,10 @@
 //! `caustic` and `pool` are by path tracing, or with `--light-tracing 1` or `--photon-mapping 1`, and Mitsuba's `path`, or
 //! with `--their-integrator ptracer` the first; `--their-samples 4096` gives Mitsuba so many.
 //!
+//! `--agree smallvcm_sun,smallvcm_area,smallvcm_point,smallvcm_sky --smallvcm FOLDER --method vcm` compares with SmallVCM,
+//! of whose repository FOLDER holds a copy, instead of with Mitsuba; its methods are `pt`, `lt`, `ppm`, `bpm`, `bpt` and
+//! `vcm`, and `--bidirectional 1` asks for pinhole's from both ends. It needs g++.
+//!
 //! `--stages` prints the nanoseconds a row of each stage of those scenes, on one thread, the median of as many renders as
 //! there are rounds; `--samples` says of how many samples.
 //!
@@ -33,7 +37,7 @@ mod interval;
 #[path = "../scenes/mod.rs"]
 mod scenes;
 
-use agree::Agreement;
+use agree::{Agreement, Peer};
 use bevy_ecs::prelude::World;
 use interval::{interval, median};
 use pinhole::plan::Census;
@@ -200,21 +204,28 @@ fn theirs(options: &Options, python: &str, variant: &str, scene: &str) -> Vec<(f
 
 fn main() {
     if after("--agree").is_some() {
+        let peer = match after("--smallvcm") {
+            Some(copy) => Peer::smallvcm(&copy, after("--method").unwrap_or("vcm".into())),
+            None => Peer::Mitsuba {
+                python: after("--python").expect("--python names a Python that has mitsuba"),
+                variant: after("--variant").unwrap_or("llvm_ad_rgb".into()),
+                sampler: after("--their-sampler").unwrap_or("independent".into()),
+                integrator: after("--their-integrator"),
+            },
+        };
         let agreement = Agreement {
             scenes: list("--agree", ""),
-            python: after("--python").expect("--python names a Python that has mitsuba"),
-            variant: after("--variant").unwrap_or("llvm_ad_rgb".into()),
+            peer,
             runs: count("--runs", 16),
             rounds: count("--rounds", 1),
             samples: count("--samples", 256),
             their_samples: count("--their-samples", count("--samples", 256)),
             sampler: after("--sampler").map(|word| sampler(&word)),
-            their_sampler: after("--their-sampler").unwrap_or("independent".into()),
-            their_integrator: after("--their-integrator"),
             light_tracing: after("--light-tracing").map(|word| word.parse().expect("a number")),
             photon_mapping: after("--photon-mapping").map(|word| word.parse().expect("a number")),
+            bidirectional: after("--bidirectional").map(|word| word.parse().expect("a number")),
         };
-        assert!(agreement.run(), "pinhole and Mitsuba are apart");
+        assert!(agreement.run(), "the two programs are apart");
         return;
     }
     let Some(options) = Options::read() else {

@@ -1,4 +1,4 @@
-//! Whether pinhole and Mitsuba render the same picture of a scene, by the means of blocks of its pixels.
+//! Whether pinhole and another program render the same picture of a scene, by the means of blocks of its pixels.
 //!
 //! Each program renders the scene several times with seeds of its own, so that every block mean has a standard error on
 //! both sides, and so has every pixel: what varies from render to render is the error of one of them, whatever the truth.
@@ -8,7 +8,7 @@ use super::{named, offer};
 use cpu_time::ProcessTime;
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
-use pinhole::scene::{LightTracing, PhotonMapping, Sampler, Sampling, SceneFile};
+use pinhole::scene::{BidirectionalPathTracing, LightTracing, PhotonMapping, Sampler, Sampling, SceneFile};
 use pinhole_lab::report::distribution::{sidak, student_cdf};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -18,35 +18,76 @@ use std::time::Instant;
 /// The side of a block, in pixels; the scenes are whole blocks wide and high.
 const SIDE: usize = 16;
 
-/// The relative error of Mitsuba's sums in single precision, for each sample of a pixel.
+/// The relative error of the other program's sums in single precision, for each sample of a pixel.
 const ROUNDING: f64 = 1.5e-8;
 
 /// What is compared, and how.
 pub struct Agreement {
     /// The names of scenes in tests/bench/peers.
     pub scenes: Vec<String>,
-    /// A Python that has numpy and mitsuba.
-    pub python: String,
-    /// Mitsuba's variant.
-    pub variant: String,
+    /// The other program.
+    pub peer: Peer,
     /// Renders of each program in a round.
     pub runs: u64,
     /// How often the programs take turns.
     pub rounds: u64,
     /// Samples per pixel of each render.
     pub samples: u32,
-    /// The same of Mitsuba.
+    /// The same of the other program.
     pub their_samples: u32,
     /// Another sampler than the scene file's.
     pub sampler: Option<Sampler>,
-    /// Mitsuba's sampler.
-    pub their_sampler: String,
-    /// Another integrator of Mitsuba's than its scene has.
-    pub their_integrator: Option<String>,
     /// Light paths per camera path, where pinhole is to trace such.
     pub light_tracing: Option<f64>,
     /// The same for photon mapping.
     pub photon_mapping: Option<f64>,
+    /// The same for bidirectional path tracing.
+    pub bidirectional: Option<f64>,
+}
+
+/// The program beside which pinhole renders.
+pub enum Peer {
+    /// Mitsuba 3.
+    Mitsuba {
+        /// A Python that has numpy and mitsuba.
+        python: String,
+        /// Its variant.
+        variant: String,
+        /// Its sampler.
+        sampler: String,
+        /// Another integrator than its scene has.
+        integrator: Option<String>,
+    },
+    /// SmallVCM, on one thread.
+    SmallVcm {
+        /// smallvcm.cxx, compiled with its headers.
+        program: PathBuf,
+        /// The word by which it knows a method.
+        method: String,
+    },
+}
+
+impl Peer {
+    /// Compiles smallvcm.cxx with the headers in a folder that holds a copy of SmallVCM's repository.
+    pub fn smallvcm(copy: &str, method: String) -> Self {
+        let program = std::env::temp_dir().join(format!("pinhole-smallvcm-{}", std::process::id()));
+        let compiled = Command::new("g++")
+            .args(["-O3", "-march=native", "-std=c++11", "-I", &format!("{copy}/src")])
+            .arg(folder().join("smallvcm.cxx"))
+            .arg("-o")
+            .arg(&program)
+            .status();
+        assert!(compiled.expect("g++ starts").success(), "{copy} holds no SmallVCM that g++ can compile");
+        Self::SmallVcm { program, method }
+    }
+
+    /// How it is named beside its figures.
+    fn label(&self) -> String {
+        match self {
+            Self::Mitsuba { sampler, .. } => format!("Mitsuba, {sampler}"),
+            Self::SmallVcm { method, .. } => format!("SmallVCM, {method}"),
+        }
+    }
 }
 
 /// Images of one size, each a list of red, green and blue line by line, and the processor seconds that each took.
@@ -74,7 +115,7 @@ impl Agreement {
             let own;
             (own, width) = self.pinhole(scene, round);
             let half = Instant::now();
-            let theirs = self.mitsuba(scene, round);
+            let theirs = self.theirs(scene, (width, round));
             seconds[0] += (half - started).as_secs_f64();
             seconds[1] += half.elapsed().as_secs_f64();
             let truth = mean_image([&own, &theirs]);
@@ -102,10 +143,11 @@ impl Agreement {
             // A block of nothing but sky has no noise, only rounding.
             let rounding = ROUNDING * f64::from(self.their_samples) * their_mean;
             let both = error.hypot(their_error).hypot(rounding);
-            let z = (mean - their_mean) / both;
+            // Where no light is at all, nothing is known better than that.
+            let z = if mean == their_mean { 0.0 } else { (mean - their_mean) / both };
             squares += z * z;
             apart += usize::from(2.0 * student_cdf(-z.abs(), freedom) < limit);
-            known.push(both / their_mean);
+            known.push(if both > 0.0 { both / their_mean } else { 0.0 });
             if z.abs() > worst.0.abs() {
                 worst = (z, test);
             }
@@ -118,13 +160,14 @@ impl Agreement {
         let block = worst.1 / 3;
         println!(
             "{scene}: {} blocks of {SIDE} × {SIDE} pixels in 3 channels, {} renders of {} and {} samples; \
-             (pinhole − Mitsuba) / SE: rms {:.2} (expected {:.2}), worst {:+.1} in block ({}, {}), {apart} of {tests} \
+             (pinhole − {}) / SE: rms {:.2} (expected {:.2}), worst {:+.1} in block ({}, {}), {apart} of {tests} \
              apart at 1 % (Šidák); SE of a block {:.3} % (median), {:.3} % (worst); ratio of the means {:.5} ± {:.5}; \
              {:.0} s and {:.0} s",
             tests / 3,
             self.runs * self.rounds,
             self.samples,
             self.their_samples,
+            self.peer.label(),
             (squares / tests as f64).sqrt(),
             (freedom / (freedom - 2.0)).sqrt(),
             worst.0,
@@ -142,11 +185,11 @@ impl Agreement {
             let logs: Vec<f64> = efficiencies.iter().map(|(_, log)| *log).collect();
             let (low, middle, high) = interval(&logs);
             println!(
-                "{scene}: relMSE · processor seconds {:.5} (pinhole), {:.5} (Mitsuba, {}); efficiency ratio {middle:.2} \
+                "{scene}: relMSE · processor seconds {:.5} (pinhole), {:.5} ({}); efficiency ratio {middle:.2} \
                  [{low:.2}, {high:.2}] of {} rounds",
                 own / self.rounds as f64,
                 theirs / self.rounds as f64,
-                self.their_sampler,
+                self.peer.label(),
                 self.rounds
             );
         }
@@ -172,6 +215,9 @@ impl Agreement {
             if let Some(paths) = self.photon_mapping {
                 world.entity_mut(camera).insert(PhotonMapping { paths, ..PhotonMapping::default() });
             }
+            if let Some(paths) = self.bidirectional {
+                world.entity_mut(camera).insert(BidirectionalPathTracing { paths });
+            }
             let started = ProcessTime::now();
             let mut render =
                 RenderInProgress::begin(&Census::of(&world), &offer(), &Execution::default()).expect("begins");
@@ -191,20 +237,31 @@ impl Agreement {
         (renders, width)
     }
 
-    /// Mitsuba's renders of a round.
-    fn mitsuba(&self, scene: &str, round: u64) -> Renders {
-        let output = Command::new(&self.python)
-            .arg(folder().join("mitsuba_scenes.py"))
-            .arg(scene)
-            .args(["--variant", &self.variant, "--sampler", &self.their_sampler])
-            .args(["--samples", &self.their_samples.to_string(), "--runs", &self.runs.to_string()])
-            .args(["--seed", &(7001 + round * self.runs).to_string()])
-            .args(self.their_integrator.iter().flat_map(|own| ["--integrator", own]))
-            .stderr(Stdio::inherit())
-            .output()
-            .expect("Python starts");
+    /// The other program's renders of a round, so many pixels wide.
+    fn theirs(&self, scene: &str, (width, round): (usize, u64)) -> Renders {
+        let [samples, runs] = [self.their_samples.to_string(), self.runs.to_string()];
+        let seed = (7001 + round * self.runs).to_string();
+        let mut command = match &self.peer {
+            Peer::Mitsuba { python, variant, sampler, integrator } => {
+                let mut command = Command::new(python);
+                command.arg(folder().join("mitsuba_scenes.py")).arg(scene);
+                command.args(["--variant", variant, "--sampler", sampler]);
+                command.args(["--samples", &samples, "--runs", &runs, "--seed", &seed]);
+                command.args(integrator.iter().flat_map(|named| ["--integrator", named]));
+                command
+            }
+            Peer::SmallVcm { program, method } => {
+                let kinds = ["sun", "area", "point", "sky"].map(|kind| format!("smallvcm_{kind}"));
+                let number = kinds.iter().position(|kind| kind == scene);
+                let number = number.unwrap_or_else(|| panic!("SmallVCM has no scene {scene}: it has {kinds:?}"));
+                let mut command = Command::new(program);
+                command.args([&number.to_string(), method, &width.to_string(), &samples, &runs, &seed]);
+                command
+            }
+        };
+        let output = command.stderr(Stdio::inherit()).output().expect("the other program starts");
         let text = String::from_utf8_lossy(&output.stdout);
-        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{scene}: Mitsuba's images: {error}: {text}"))
+        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{scene}: their images: {error}: {text}"))
     }
 }
 
