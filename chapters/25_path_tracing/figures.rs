@@ -26,7 +26,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
         Figure {
             name: "25_fog",
             chapter,
-            about: "a spotlight and a ball without fog, and in fog",
+            about: "a spotlight and a ball without fog, in fog, and of glass in fog",
             draw: compared::draw_fog,
         },
         Figure {

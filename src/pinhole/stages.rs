@@ -112,6 +112,7 @@ const LIST: &[Part] = &[Part(&[
     // Media emit and scatter light on the way to what was hit.
     (Media, follow::medium_emission_stage),
     (Media, follow::distance_stage),
+    (Media, follow::distance_from_lights_stage),
 
     // Surfaces that touch glass are hit or crossed together with it.
     (Glass, intersect::contact_stage),

@@ -396,8 +396,8 @@ impl Default for PhotonMapping {
 ///
 /// The same light is found in many ways, from a path of the camera that hits a lamp to one of a lamp that is joined to the
 /// camera; each counts by its MIS weight.
-/// Paths start on lights with a position or an area; light of a sky, an environment image or a directional light is found
-/// as without it.
+/// Paths start on lights with a position or an area, in all directions, and on directional lights towards mirrors and glass;
+/// light of a sky or an environment image is found as without it.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BidirectionalPathTracing {

@@ -1,5 +1,6 @@
 //! Light paths that start outside the scene, on suns and environments: closed forms, and the camera's paths alone.
 
+use super::bidirectional::joined;
 use super::caustics::{Form, WIDTH, agrees, camera, mean_of, white};
 use super::*;
 use glam::{DQuat, DVec3};
@@ -165,6 +166,8 @@ fn a_sun_s_caustics_are_those_of_a_small_far_light() {
     let sun = renders(&make(false), LightStrategy::Mis, 64, 0..SETS);
     let far = renders(&make(true), LightStrategy::Mis, 64, SETS..2 * SETS);
     assert_agree("a sun and a far ball", &sun, &far, 4);
+    let from_both_ends = renders(&joined(&make(false)), LightStrategy::Mis, 32, 2 * SETS..3 * SETS);
+    assert_agree("a sun from both ends, and a far ball", &from_both_ends, &far, 4);
     let without = || {
         let mut world = make(false)();
         let camera = named(&mut world, "camera");

@@ -180,11 +180,16 @@ fn light_from_outside_has_crossed_what_hangs_above() {
         // Through what is around: from its near face at x = 1 to the wall, and from there at a slant.
         let depth = above.unwrap_or(0.0) * 0.7 + around * (1.0 + 1.0 / 0.6);
         let truth = bare * libm::exp(-depth);
-        let found = mean_of(&make(above, varies, around), &offer(), 200, 20 * number..20 * number + 6);
-        let off = (found.mean - truth) / found.error;
-        eprintln!("{above:?}, {varies}, {around}: {:.5} ± {:.5} for {truth:.5}: {off:+.1} SE", found.mean, found.error);
-        assert!(off.abs() <= 4.0 && found.error <= 0.01 * truth, "{above:?}, {around}");
-        tried += 1;
+        let make = make(above, varies, around);
+        let from_both_ends = joined(&make);
+        for make in [&make as &dyn Fn() -> World, &from_both_ends] {
+            let found = mean_of(make, &offer(), 200, 20 * number..20 * number + 6);
+            let off = (found.mean - truth) / found.error;
+            let (mean, error) = (found.mean, found.error);
+            eprintln!("{above:?}, {varies}, {around}: {mean:.5} ± {error:.5} for {truth:.5}: {off:+.1} SE");
+            assert!(off.abs() <= 4.0 && error <= 0.01 * truth, "{above:?}, {around}");
+            tried += 1;
+        }
     }
     let endless = || {
         let mut world = make(None, false, 0.0)();

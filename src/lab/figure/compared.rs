@@ -123,19 +123,34 @@ fn beam(world: &mut World) {
     world.spawn((light, from));
 }
 
-/// A spotlight's beam without fog and with it.
+/// The same, with a ball of glass and paths from the light.
+fn bent_beam(world: &mut World) {
+    beam(world);
+    let mut balls = world.query_filtered::<Entity, With<Sphere>>();
+    let balls: Vec<Entity> = balls.iter(world).collect();
+    balls.into_iter().for_each(|ball| _ = world.entity_mut(ball).remove::<Matte>().insert(Glass::default()));
+    let mut cameras = world.query_filtered::<Entity, With<PerspectiveCamera>>();
+    let cameras: Vec<Entity> = cameras.iter(world).collect();
+    let integrator = Integrator::Path { max_depth: 6, lights: LightStrategy::Mis, roulette: 0 };
+    let both_ends = (integrator, BidirectionalPathTracing::default());
+    cameras.into_iter().for_each(|camera| _ = world.entity_mut(camera).insert(both_ends));
+}
+
+/// A spotlight's beam without fog, with it, and through glass in it.
 pub fn draw_fog(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let scene = chapter.clone().with_scene(beam);
-    let of = |scattering: f64, line: &str| {
+    let of = |scene: fn(&mut World), (scattering, samples): (f64, u32), line: &str| {
         let change = |camera: &mut EntityWorldMut<'_>| {
-            sampled(if scattering > 0.0 { 36 } else { 4 }, 25)(camera);
+            sampled(samples, 25)(camera);
             if scattering > 0.0 {
                 camera.insert(Medium { scattering: Rgb::grey(scattering), ..Medium::default() });
             }
         };
+        let scene = chapter.clone().with_scene(scene);
         exhibit(Picture::of(&scene, SMALL, None, change), [line, &format!("*σ*ₛ = {scattering}")])
     };
-    rows(chapter, figure, SMALL, [of(0.0, "no fog"), of(0.15, "fog")])
+    let exhibits =
+        [of(beam, (0.0, 4), "no fog"), of(beam, (0.15, 36), "fog"), of(bent_beam, (0.15, 16), "glass, from both ends")];
+    rows(chapter, figure, SMALL, exhibits)
 }
 
 /// A pool, with a ball and a buoy in it, and a lamp above.

@@ -378,7 +378,7 @@ pub fn emissive_evidence(scene: &Census<'_>) -> Evidence {
 // How one of several lights is chosen.
 
 /// The number of equal parts into which the unit interval is divided for choosing a light.
-const PARTS: u64 = 1 << 32;
+pub(super) const PARTS: u64 = 1 << 32;
 
 /// How one of many lights without an area is chosen for a surface.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,3 +1,4 @@
+use super::area_lights::{PARTS, light_distribution};
 use super::integrator::{bidirectional_evidence, shadowed_point_evidence};
 use super::lights_of::light_kinds;
 use super::luminance;
@@ -13,16 +14,20 @@ use glam::DVec3;
 pub struct EquiangularTable {
     /// Where each is, in render space.
     pub position: Vec<DVec3>,
-    /// Of all power, what it and those before it have together; the last one 1.
-    pub until: Vec<f64>,
+    /// Their cumulative distribution by power in units of 2⁻³², as in [`super::AreaLightTable`].
+    pub until: Vec<u64>,
 }
 
 impl EquiangularTable {
-    /// The position of a light chosen in proportion to its power by a number in [0, 1).
+    /// The position of a light chosen in proportion to its power by a number in [0, 1), which is asked for where there
+    /// are several; none without a light.
     #[inline(always)]
-    pub fn chosen(&self, number: f64) -> DVec3 {
-        let last = self.position.len() - 1;
-        self.position[self.until.partition_point(|&until| until <= number).min(last)]
+    pub fn chosen(&self, number: impl FnOnce() -> f64) -> Option<DVec3> {
+        if self.position.len() < 2 {
+            return self.position.first().copied();
+        }
+        let part = (number() * PARTS as f64) as u64;
+        self.position.get(self.until.partition_point(|&until| until <= part)).copied()
     }
 }
 
@@ -30,22 +35,20 @@ impl Table for EquiangularTable {
     const NAME: &'static str = "lights in media";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let (mut table, mut sum) = (Self::default(), 0.0);
         if !equiangular_evidence(scene).needed {
-            return Ok(table);
+            return Ok(Self::default());
         }
+        let (mut position, mut powers) = (Vec::new(), Vec::new());
         for kind in light_kinds(scene).filter(|kind| !kind.is_distant) {
             for light in (kind.sources)(scene)? {
-                let power = luminance(light.power(0.0));
-                if let (Some(position), true) = (light.position(), power > 0.0) {
-                    sum += power;
-                    table.position.push(position);
-                    table.until.push(sum);
+                if let Some(place) = light.position() {
+                    position.push(place);
+                    powers.push(luminance(light.power(0.0)));
                 }
             }
         }
-        table.until.iter_mut().for_each(|until| *until /= sum);
-        Ok(table)
+        let (until, _) = light_distribution(&powers, 0.0);
+        Ok(Self { position, until })
     }
 
     fn bytes(&self) -> usize {

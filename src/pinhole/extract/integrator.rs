@@ -315,7 +315,8 @@ fn tracing_request(scene: &Census<'_>) -> Evidence {
     Evidence::of::<LightTracing>(scene, "light-tracing camera")
 }
 
-fn bidirectional_request(scene: &Census<'_>) -> Evidence {
+/// Evidence that the camera requests it.
+pub(super) fn bidirectional_request(scene: &Census<'_>) -> Evidence {
     Evidence::of::<BidirectionalPathTracing>(scene, "camera for bidirectional path tracing")
 }
 
@@ -339,8 +340,7 @@ pub fn caustics_evidence(scene: &Census<'_>) -> Evidence {
 /// Evidence that paths from the lights and from the camera are joined vertex by vertex: the camera requests it, and there
 /// are a light to start on and surfaces that are not specular.
 pub fn bidirectional_evidence(scene: &Census<'_>) -> Evidence {
-    let started = || area_light_evidence(scene).or(shadowed_point_evidence(scene));
-    bidirectional_request(scene).and(|| material_evidence(scene)).and(started)
+    bidirectional_request(scene).and(|| material_evidence(scene)).and(|| started_on_evidence(scene))
 }
 
 /// Evidence that light paths are connected to the camera by straight lines.

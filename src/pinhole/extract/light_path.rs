@@ -1,5 +1,6 @@
 use super::area_lights::{EVEN, light_distribution};
 use super::cameras::eye;
+use super::integrator::bidirectional_request;
 use super::lights_of::{light_kinds, shadowed_evidence};
 use super::shapes::{listed_kind, one_shape, shape_entities};
 use super::{
@@ -61,16 +62,27 @@ pub struct LightPathTable {
     pub probability: Vec<f64>,
     /// The luminance of the power of all lights together.
     pub power: f64,
-    /// The mirrors and the glass, towards which they start; none where light paths are joined to those of the camera,
-    /// which start in all directions.
+    /// The mirrors and the glass, towards which they start.
     pub targets: Targets,
+    /// Whether light paths are joined to those of the camera, and start in all directions on lights with a position.
+    pub is_for_all_light: bool,
 }
+
+/// Where paths start in all directions.
+static NO_TARGETS: Targets =
+    Targets { sphere: Vec::new(), scene: Target { centre: DVec3::ZERO, radius: 0.0 }, infinite: Vec::new() };
 
 impl LightPathTable {
     /// The light chosen by a 32-bit fraction.
     #[inline(always)]
     pub fn chosen(&self, fraction: u32) -> usize {
         self.until.partition_point(|&until| until <= u64::from(fraction))
+    }
+
+    /// The targets of lights with a position.
+    #[inline(always)]
+    pub fn near_targets(&self) -> &Targets {
+        if self.is_for_all_light { &NO_TARGETS } else { &self.targets }
     }
 
     /// The number that a light has among those with an area, and the luminance of its radiance; none for one without.
@@ -123,7 +135,8 @@ impl Table for LightPathTable {
             light.push(LightSource::Area { emitter: *emitter, radiance, one_sided });
         }
         let is_for_all_light = bidirectional_evidence(scene).needed;
-        let targets = if is_for_all_light { Arc::default() } else { targets(scene)? };
+        let is_needed = !is_for_all_light || distant_start_evidence(scene).needed;
+        let targets = if is_needed { Targets::clone(&*targets(scene)?) } else { Targets::default() };
         let across = targets.across();
         let is_started = |is_distant: bool| !is_distant || !targets.sphere.is_empty();
         for kind in light_kinds(scene).filter(|kind| is_started(kind.is_distant)) {
@@ -132,7 +145,7 @@ impl Table for LightPathTable {
                 light.push(LightSource::Delta(source));
             }
         }
-        if environment_light_evidence(scene).needed && is_started(true) {
+        if started_environment_evidence(scene).needed && is_started(true) {
             let environment = scene.table::<EnvironmentTable>()?;
             powers.push(environment_strength(&environment) * across);
             light.push(LightSource::Environment(environment, scene.table()?));
@@ -145,7 +158,7 @@ impl Table for LightPathTable {
         }
         let (until, probability) = light_distribution(&powers, if is_for_all_light { 0.0 } else { EVEN });
         let power = powers.iter().filter(|power| !power.is_nan()).sum();
-        Ok(Self { light, mesh, until, probability, power, targets: Targets::clone(&targets) })
+        Ok(Self { light, mesh, until, probability, power, targets, is_for_all_light })
     }
 
     fn bytes(&self) -> usize {
@@ -198,13 +211,20 @@ fn find_targets(scene: &Census<'_>) -> Result<Targets, SceneError> {
     Ok(Targets { sphere: found, scene, infinite })
 }
 
+/// Evidence of an environment image on which light paths start: not where they are joined to those of the camera, which
+/// find its light behind mirrors and glass as well.
+fn started_environment_evidence(scene: &Census<'_>) -> Evidence {
+    let joined = bidirectional_request(scene);
+    if joined.needed { Evidence { needed: false, ..joined } } else { environment_light_evidence(scene) }
+}
+
 /// Evidence of a light from which light paths start outside the scene: one without a position, or an environment image.
 ///
 /// None start on a background or a gradient: such light arrives from everywhere nearly alike, so that BSDF sampling
 /// finds it with a sixth of the variance.
 /// Where a mirror or glass is infinite, no area across such a light holds all that it sends there, and none starts.
 pub fn distant_start_evidence(scene: &Census<'_>) -> Evidence {
-    let distant = shadowed_evidence(scene, true).or(environment_light_evidence(scene));
+    let distant = shadowed_evidence(scene, true).or(started_environment_evidence(scene));
     distant.and(|| match targets(scene) {
         Ok(targets) if !targets.sphere.is_empty() => Evidence::always("every mirror and glass is bounded"),
         _ => Evidence { needed: false, reason: "a mirror or glass is infinite".into(), count: 0 },

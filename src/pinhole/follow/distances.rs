@@ -40,10 +40,21 @@ pub(super) fn add_depth(sum: &mut [f64; 3], coefficients: [f64; 3], length: f64)
     (0..3).for_each(|part| sum[part] += depth(coefficients[part], length));
 }
 
-/// e^(−τ) of each part.
+/// e^(−τ) of each part, once where all are equal.
 #[inline(always)]
 pub(super) fn transmittances(depths: [f64; 3]) -> [f64; 3] {
+    if depths[0] == depths[1] && depths[0] == depths[2] {
+        return [libm::exp(-depths[0]); 3];
+    }
     depths.map(|depth| libm::exp(-depth))
+}
+
+/// The same of the depths by which distances are sampled, and of those of all that takes light away, which differ where
+/// something only absorbs.
+#[inline(always)]
+pub(super) fn both_transmittances(rates: [f64; 3], depths: [f64; 3]) -> [[f64; 3]; 2] {
+    let sampled = transmittances(rates);
+    [sampled, if rates == depths { sampled } else { transmittances(depths) }]
 }
 
 /// The transmittance along all stretches of a ray.
@@ -142,7 +153,7 @@ pub fn sample_distance(stretches: &[Stretch], throughput: [f64; 3], number: f64)
             let reached = left / rate[colour];
             add_depth(&mut rates, rate, reached);
             add_depth(&mut depths, extinction, reached);
-            let (sampled, reached_by) = (transmittances(rates), transmittances(depths));
+            let [sampled, reached_by] = both_transmittances(rates, depths);
             let pdf = (0..3).map(|part| choice[part] * rate[part] * sampled[part]).sum::<f64>();
             let weight = |part: usize| over(choice[part], stretch.sum.scattering[part] * reached_by[part], pdf);
             return SampledDistance { t: Some(stretch.from + reached), weight: [0, 1, 2].map(weight) };
@@ -150,9 +161,8 @@ pub fn sample_distance(stretches: &[Stretch], throughput: [f64; 3], number: f64)
         add_depth(&mut rates, rate, length);
         add_depth(&mut depths, extinction, length);
     }
-    let sampled = transmittances(rates);
+    let [sampled, reached_by] = both_transmittances(rates, depths);
     let probability = (0..3).map(|part| choice[part] * sampled[part]).sum::<f64>();
-    let reached_by = transmittances(depths);
     SampledDistance { t: None, weight: [0, 1, 2].map(|part| over(choice[part], reached_by[part], probability)) }
 }
 // ANCHOR_END: sample_distance

@@ -5,7 +5,9 @@
 //! Equal angles seen from the light are sampled as often (Kulla and Fajardo 2012), and both pdfs are mixed, which is the
 //! balance heuristic of one sample.
 
-use super::distances::{ChosenColour, SampledDistance, Stretch, add_depth, over, sample_distance, transmittances};
+use super::distances::{
+    ChosenColour, SampledDistance, Stretch, add_depth, both_transmittances, over, sample_distance, transmittances,
+};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
@@ -86,7 +88,7 @@ fn scattered_at(stretches: &[Stretch], choice: [f64; 3], t: f64) -> ([f64; 3], f
         add_depth(&mut rates, stretch.rate(), length);
         add_depth(&mut depths, stretch.sum.extinction, length);
         if t <= stretch.to {
-            let (sampled, left) = (transmittances(rates), transmittances(depths));
+            let [sampled, left] = both_transmittances(rates, depths);
             let pdf = (0..3).map(|part| choice[part] * stretch.rate()[part] * sampled[part]).sum();
             return ([0, 1, 2].map(|part| stretch.sum.scattering[part] * left[part]), pdf);
         }

@@ -3,14 +3,14 @@
 use super::Scattered;
 use super::specular::mirroring_normal;
 use crate::extract::{
-    CameraJoinTable, LightPathTable, LightSource, MaterialTable, SamplingTable, caustics_evidence,
-    environment_traced_evidence, joined_caustics_evidence, joined_evidence, lens_evidence, normal_map_evidence,
-    traced_evidence,
+    CameraJoinTable, LightPathTable, LightSource, MaterialTable, SamplingTable, bidirectional_evidence,
+    caustics_evidence, distant_start_evidence, environment_traced_evidence, joined_caustics_evidence, joined_evidence,
+    lens_evidence, normal_map_evidence, traced_evidence,
 };
 use crate::intersect::{Hits, MaterialRows, NO_SHAPE, ShadingNormals, Surfaces, vertex_normal_evidence};
 use crate::lights::{LightStart, MAX_TARGETS_SOLID_ANGLE, StartDraws, direction_to_targets};
 use crate::material::{cosine_direction, frame_of};
-use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
 use crate::rays::{Depth, Paths, SampleNumber, Tile, WorldRays, join_camera};
 use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
 use crate::shade::{JoinPoints, Radiance, ShadowRays, environment_direction, environment_radiance};
@@ -68,7 +68,9 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
     let of_mesh;
     let (emitter, radiance, one_sided) = match table.light.get(light) {
         Some(LightSource::Area { emitter, radiance, one_sided }) => (emitter, *radiance, *one_sided),
-        Some(LightSource::Delta(light)) => return times(light.start(&table.targets, draws), chosen),
+        Some(LightSource::Delta(light)) => {
+            return times(light.start([table.near_targets(), &table.targets], draws), chosen);
+        }
         Some(LightSource::Environment(environment, light)) => {
             let (to_light, pdf) = environment_direction(light, environment.turn, draws.direction);
             let radiance = environment_radiance(environment, to_light);
@@ -82,7 +84,7 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
         }
     };
     let point = leaving_point(emitter, one_sided, draws.point, draws.side);
-    let (targets, limit) = (&table.targets.sphere, MAX_TARGETS_SOLID_ANGLE);
+    let (targets, limit) = (&table.near_targets().sphere, MAX_TARGETS_SOLID_ANGLE);
     let (direction, weight) = match direction_to_targets(targets, point.position, limit, draws.target, draws.direction)
     {
         Some((direction, weight)) => (direction, direction.dot(point.normal).max(0.0) * weight),
@@ -275,8 +277,22 @@ impl Splats {
 
 /// Leaves light that goes straight from lights to non-specular surfaces to the camera's paths: at the first bounce,
 /// only mirrors and glass scatter.
-pub fn keep_specular(mut tiles: Query<&mut MaterialRows>) {
-    tiles.iter_mut().for_each(|mut list| list.row.clear());
+///
+/// Where paths start in all directions, that holds of lights without a position alone: towards everything else than mirrors
+/// and glass none start on these.
+pub fn keep_specular(
+    starts: Res<Shared<LightPathTable>>,
+    mut tiles: Query<(&Paths, Option<&StartedOn>, &mut MaterialRows)>,
+) {
+    for (paths, started, mut list) in &mut tiles {
+        match started.filter(|_| starts.is_for_all_light) {
+            None => list.row.clear(),
+            Some(started) => {
+                let light = |row: u32| started.light[paths.first[row as usize] as usize] as usize;
+                list.row.retain(|&row| !starts.is_distant(light(row)));
+            }
+        }
+    }
 }
 
 /// The stage that runs [`keep_specular`].
@@ -286,7 +302,14 @@ pub fn keep_specular_stage() -> Stage {
         .on_first_bounce()
         .kind(StageKind::Alternative)
         .changes::<MaterialRows>()
-        .when(caustics_evidence)
+        .reads_where::<StartedOn>(bidirectional_evidence)
+        .when(specular_first_evidence)
+}
+
+/// Evidence that some light is left to the camera's paths where it has not come through mirrors or glass.
+fn specular_first_evidence(scene: &Census<'_>) -> Evidence {
+    let caustics = caustics_evidence(scene);
+    if caustics.needed { caustics } else { bidirectional_evidence(scene).and(|| distant_start_evidence(scene)) }
 }
 
 /// Rays that reached the camera, what they carry, and the splats that become of them.

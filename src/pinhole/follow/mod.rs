@@ -69,10 +69,10 @@ pub use media::{
 };
 pub use occlusion::{SkyLists, SkyView, sample_sky, sample_sky_with, show_occlusion, sky_rays_stage, sky_stage};
 pub use participating::{
-    add_medium_emission, attenuate_light_from_outside, attenuate_shadow_rays, distance_stage, fill_scattering_events,
-    light_from_outside_stage, medium_emission_stage, medium_shadow_stage, phase_direct_light_stage, phase_join_stage,
-    phase_join_weight_stage, phase_mis_stage, phase_ratios_stage, phase_sample_stage, sample_distances,
-    scattering_event_stage,
+    add_medium_emission, attenuate_light_from_outside, attenuate_shadow_rays, distance_from_lights_stage,
+    distance_stage, fill_scattering_events, light_from_outside_stage, medium_emission_stage, medium_shadow_stage,
+    phase_direct_light_stage, phase_join_stage, phase_join_weight_stage, phase_mis_stage, phase_ratios_stage,
+    phase_sample_stage, sample_distances, sample_distances_from_lights, scattering_event_stage,
 };
 pub use paths::{
     Scattered, ScatteredRay, Stop, add_bounce, add_bounce_stage, advance_to_next_bounce, carry_times, drop_footprints,

@@ -19,9 +19,10 @@ use crate::intersect::{Hits, NO_SHAPE, Surface, Surfaces};
 use crate::material::{Named, PhaseTable};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems, VectorRowsMut};
 use crate::rays::{Draws, DrawsView, PathLight, Paths, RayTimes, WorldRays, draws_of_one};
-use crate::sample::{Purpose, RandomStream};
+use crate::sample::{Purpose, RandomStream, unit_of_ray};
 use crate::shade::{ShadowHits, ShadowRays, light_distance, light_evidence, shadow_evidence};
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
 
 /// A number of each row of a tile by which distances are sampled.
 #[derive(Default)]
@@ -67,45 +68,84 @@ pub fn add_medium_emission(
     }
 }
 
-/// Samples how far each ray goes before it is scattered; where that is nearer than what it hit, the event is what it hits
-/// instead.
-pub fn sample_distances(
-    (media, lamps): (Res<Shared<MediumTable>>, Res<Shared<EquiangularTable>>),
-    sampling: Res<Shared<SamplingTable>>,
-    (mut along, mut numbers, mut choices): (Local<MediaAlong>, Local<Numbers>, Local<Vec<f64>>),
-    mut tiles: Query<(&WorldRays, Option<&RayTimes>, DrawsView, &mut Paths, &mut Hits)>,
-) {
-    for (rays, times, draws, mut paths, mut hits) in &mut tiles {
-        let of_paths = draws.draws(&sampling, Some(&paths));
+/// Columns of a tile whose rays may be scattered.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct DistanceView {
+    rays: &'static WorldRays,
+    times: Option<&'static RayTimes>,
+    draws: DrawsView,
+    paths: &'static mut Paths,
+    hits: &'static mut Hits,
+}
+
+/// What is kept from tile to tile.
+#[derive(Default)]
+pub struct DistanceLists {
+    along: MediaAlong,
+    numbers: Numbers,
+    choices: Vec<f64>,
+}
+
+impl DistanceViewItem<'_, '_> {
+    /// Samples how far each ray goes before it is scattered; where that is nearer than what it hit, the event is what it
+    /// hits instead.
+    fn sample(
+        &mut self,
+        (media, lamps): (&MediumTable, Option<&EquiangularTable>),
+        sampling: &SamplingTable,
+        DistanceLists { along, numbers, choices }: &mut DistanceLists,
+    ) {
+        let (paths, hits) = (&mut *self.paths, &mut *self.hits);
+        let of_paths = self.draws.draws(sampling, Some(paths));
         numbers.draw(&of_paths, hits.rows());
         if media.medium.len() > 1 {
-            draws_of_one(&of_paths, Purpose::MaterialChoice, &numbers.rows, &mut choices);
+            draws_of_one(&of_paths, Purpose::MaterialChoice, &numbers.rows, choices);
         }
         for row in 0..hits.rows() {
-            let ray = [rays.origin_of(row), rays.direction_of(row)];
-            along.find(&media, ray, times.map_or(0.0, |times| times.time[row]), hits.t[row]);
+            let ray = [self.rays.origin_of(row), self.rays.direction_of(row)];
+            along.find(media, ray, self.times.map_or(0.0, |times| times.time[row]), hits.t[row]);
             if along.stretches.is_empty() {
                 continue;
             }
             let (throughput, number) = (paths.throughput(row), numbers.distance[row]);
             let sampled = if along.varies() {
                 let mut stream = RandomStream::of_ray(ray, number.to_bits());
-                along.sample_varying_distance(&media, throughput, number, &mut stream)
-            } else if !lamps.position.is_empty() {
-                let light = lamps.chosen(RandomStream::of_ray(ray, number.to_bits()).next_unit());
-                sample_distance_towards(&along.stretches, (ray, light), throughput, number)
+                along.sample_varying_distance(media, throughput, number, &mut stream)
             } else {
-                sample_distance(&along.stretches, throughput, number)
+                let lamp = lamps.and_then(|lamps| lamps.chosen(|| unit_of_ray(ray, number.to_bits())));
+                match lamp {
+                    Some(lamp) => sample_distance_towards(&along.stretches, (ray, lamp), throughput, number),
+                    None => sample_distance(&along.stretches, throughput, number),
+                }
             };
             paths.throughput.scale(row, sampled.weight);
             if let Some(t) = sampled.t {
                 let choice = choices.get(row).copied().unwrap_or_default();
-                let (medium, weight) = along.choose(&media, t, paths.throughput(row), choice);
+                let (medium, weight) = along.choose(media, t, paths.throughput(row), choice);
                 paths.throughput.scale(row, weight);
                 (hits.t[row], hits.shape[row]) = (t, media.first_shape + medium as u32);
             }
         }
     }
+}
+
+/// Samples the distances at which light is scattered on its way to the camera.
+pub fn sample_distances(
+    (media, lamps): (Res<Shared<MediumTable>>, Res<Shared<EquiangularTable>>),
+    (sampling, mut lists): (Res<Shared<SamplingTable>>, Local<DistanceLists>),
+    mut tiles: Query<DistanceView>,
+) {
+    tiles.iter_mut().for_each(|mut view| view.sample((&media, Some(&lamps)), &sampling, &mut lists));
+}
+
+/// The same for paths from the lights, which leave a lamp behind them.
+pub fn sample_distances_from_lights(
+    media: Res<Shared<MediumTable>>,
+    (sampling, mut lists): (Res<Shared<SamplingTable>>, Local<DistanceLists>),
+    mut tiles: Query<DistanceView>,
+) {
+    tiles.iter_mut().for_each(|mut view| view.sample((&media, None), &sampling, &mut lists));
 }
 
 /// Places a surface at every scattering event.
@@ -182,9 +222,17 @@ pub fn light_from_outside_stage() -> Stage {
 /// The stage that samples distances.
 pub fn distance_stage() -> Stage {
     Stage::new("Sample distances in media", TileSystems::Contact, sample_distances)
-        .on_all_paths()
+        .on_camera_paths()
         .kind(StageKind::Estimator)
         .when(medium_evidence)
+}
+
+/// The stage that samples distances on light paths.
+pub fn distance_from_lights_stage() -> Stage {
+    Stage::new("Sample distances in media from lights", TileSystems::Contact, sample_distances_from_lights)
+        .on_light_paths()
+        .kind(StageKind::Estimator)
+        .when(|scene| medium_evidence(scene).and(|| traced_evidence(scene)))
 }
 
 /// The stage that places scattering events.

@@ -209,7 +209,6 @@ pub fn arrive_with_ratios_stage() -> Stage {
     Stage::new("Carry MIS ratios to surfaces", TileSystems::Join, arrive_with_ratios)
         .kind(StageKind::Alternative)
         .reads_where::<LensPoints>(lens_evidence)
-        .reads_where::<StartedOn>(bidirectional_evidence)
         .when(bidirectional_evidence)
 }
 
@@ -224,11 +223,22 @@ pub struct LightSampleView {
     ratios: &'static mut JoinRatios,
 }
 
-/// |cos θ| by the geometric normal over that by the shading normal.
+/// By what the irradiance of a joined ray is multiplied so that it counts by the geometric area: |cos θ| of the light by
+/// the geometric normal over that by the shading normal.
+///
+/// That of a scattering event is divided by a cosine that its phase function takes back.
 #[inline(always)]
-fn cosines(surfaces: &Surfaces, shading: Option<&ShadingNormals>, row: usize, direction: DVec3) -> f64 {
+fn by_area(
+    (materials, surfaces, shading): (&MaterialTable, &Surfaces, Option<&ShadingNormals>),
+    row: usize,
+    [joined, lit]: [DVec3; 2],
+) -> f64 {
+    let normal = surfaces.normal(row).as_dvec3();
+    if materials.kind[surfaces.material[row] as usize] == MaterialKind::Phase {
+        return 1.0 / normal.dot(joined).abs();
+    }
     let Some(shading) = shading else { return 1.0 };
-    (surfaces.normal(row).as_dvec3().dot(direction) / shading.get(row).dot(direction)).abs()
+    (normal.dot(lit) / shading.get(row).dot(lit)).abs()
 }
 
 // ANCHOR: light_sample_ratios
@@ -247,12 +257,8 @@ pub fn begin_join_ratios(
             onward[ray] = if by_light > 0.0 { squared(1.0 / by_light) } else { 0.0 };
             let is_started_on = rays.t_max[ray] > 0.0 && rays.t_max[ray] < f32::INFINITY;
             let share = luminance(rays.irradiance(ray).map(f64::from)) / starts.power;
-            let by_area = match materials.kind[surfaces.material[row] as usize] {
-                // The irradiance of a scattering event counts by a cosine that its phase function takes back.
-                MaterialKind::Phase => 1.0 / surfaces.normal(row).as_dvec3().dot(direction).abs(),
-                _ => cosines(surfaces, shading, row, direction),
-            };
-            reverse[ray] = if is_started_on { squared(share * by_area) } else { 0.0 };
+            let more = by_area((&materials, surfaces, shading), row, [direction; 2]);
+            reverse[ray] = if is_started_on { squared(share * more) } else { 0.0 };
         }
     }
 }
@@ -290,11 +296,9 @@ pub fn begin_camera_ratios(
         for ray in 0..rays.rows() {
             let row = rays.row[ray] as usize;
             let importance = f64::from(rays.irradiance(ray)[0]);
-            let by_area = match materials.kind[surfaces.material[row] as usize] {
-                MaterialKind::Phase => 1.0 / surfaces.normal(row).as_dvec3().dot(rays.direction_of(ray)).abs(),
-                _ => cosines(surfaces, shading, row, arriving.direction_of(row)),
-            };
-            reverse[ray] = squared(importance * by_area / tracing.each_sample);
+            let ways = [rays.direction_of(ray), arriving.direction_of(row)];
+            let more = by_area((&materials, surfaces, shading), row, ways);
+            reverse[ray] = squared(importance * more / tracing.each_sample);
         }
     }
 }

@@ -151,11 +151,11 @@ macro_rules! registry {
         }
 
         impl AnyLight {
-            /// Samples a ray that leaves the light.
+            /// Samples a ray that leaves the light, by the targets of lights with a position or by those of the others.
             #[inline(always)]
-            pub fn start(&self, targets: &Targets, draws: &StartDraws) -> LightStart {
+            pub fn start(&self, targets: [&Targets; 2], draws: &StartDraws) -> LightStart {
                 match self {
-                    $(Self::$kind(light) => Light::start(light, targets, draws),)+
+                    $(Self::$kind(light) => StartsPaths::start(light, targets, draws),)+
                     Self::Custom(light) => light.0.start(targets, draws),
                 }
             }
@@ -226,15 +226,16 @@ impl AnyLight {
 
 /// What is asked of [`AnyLight`], of a light without its type.
 trait StartsPaths: Debug + Send + Sync {
-    fn start(&self, targets: &Targets, draws: &StartDraws) -> LightStart;
+    fn start(&self, targets: [&Targets; 2], draws: &StartDraws) -> LightStart;
     fn bounds(&self) -> Option<LightBounds>;
     fn power(&self, across: f64) -> [f64; 3];
     fn irradiance_at(&self, point: DVec3) -> [f64; 3];
 }
 
 impl<L: Light> StartsPaths for L {
-    fn start(&self, targets: &Targets, draws: &StartDraws) -> LightStart {
-        Light::start(self, targets, draws)
+    #[inline(always)]
+    fn start(&self, targets: [&Targets; 2], draws: &StartDraws) -> LightStart {
+        Light::start(self, targets[usize::from(L::IS_DISTANT)], draws)
     }
     fn bounds(&self) -> Option<LightBounds> {
         Light::bounds(self)
