@@ -149,7 +149,7 @@ pub fn draw_fog(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         exhibit(Picture::of(&scene, SMALL, None, change), [line, &format!("*σ*ₛ = {scattering}")])
     };
     let exhibits =
-        [of(beam, (0.0, 4), "no fog"), of(beam, (0.15, 36), "fog"), of(bent_beam, (0.15, 16), "glass, from both ends")];
+        [of(beam, (0.0, 4), "no fog"), of(beam, (0.15, 24), "fog"), of(bent_beam, (0.15, 10), "glass, from both ends")];
     rows(chapter, figure, SMALL, exhibits)
 }
 
@@ -277,20 +277,20 @@ pub fn draw_principled(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 /// The room by paths from the camera, and in the same time by paths from both ends.
 pub fn draw_ends(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let alone = Picture::of(chapter, LARGE, None, |camera| {
-        sampled(32, 39)(camera);
+        sampled(24, 39)(camera);
         camera.remove::<BidirectionalPathTracing>();
     });
-    let both = Picture::of(chapter, LARGE, None, sampled(8, 39));
+    let both = Picture::of(chapter, LARGE, None, sampled(6, 39));
     let exhibits = [
-        exhibit(alone, ["path tracing, 32 samples", "few paths find the keyhole"]),
-        exhibit(both, ["from both ends, 8 samples", "about the same time"]),
+        exhibit(alone, ["path tracing, 24 samples", "few paths find the keyhole"]),
+        exhibit(both, ["from both ends, 6 samples", "about the same time"]),
     ];
     rows(chapter, figure, LARGE, exhibits)
 }
 
 /// The light of each kind of way, weighted, which add up to the picture.
 pub fn draw_ways(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let of = |way, lines| exhibit(Picture::beside(chapter, SMALL, Some(only(way)), sampled(12, 39)), lines);
+    let of = |way, lines| exhibit(Picture::beside(chapter, SMALL, Some(only(way)), sampled(6, 39)), lines);
     let exhibits = [
         of(Way::LightSamples, ["light samples", "0 steps from the lamp"]),
         of(Way::Joins, ["joined vertices", "1 step from either end, or more"]),
