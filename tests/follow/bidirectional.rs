@@ -5,7 +5,7 @@ use super::many_lights::under_a_knot;
 use super::*;
 use glam::{DQuat, DVec3};
 use pinhole::scene::*;
-use scenes::caustics::caustics;
+use scenes::caustics::{caustics, traced};
 
 /// The same scene, where paths from the lights are joined to those of the camera.
 pub(super) fn joined(make: &dyn Fn() -> World) -> impl Fn() -> World + '_ {
@@ -54,20 +54,13 @@ pub(super) fn room(lamps: &dyn Fn(&mut World)) -> World {
     world
 }
 
-/// What holds of light tracing's closed forms holds of this as well, but for an environment image: the same caustics are
-/// found.
+/// What holds of light tracing's closed forms holds of this as well: the same caustics are found.
 #[test]
 fn closed_forms_of_caustics_hold() {
     const SEEDS: u64 = 12;
     let mut tried = 0;
     for (number, form) in (300..).zip(forms()) {
         let make = joined(&*form.make);
-        let mut world = make();
-        let mut distant = world.query_filtered::<(), With<Environment>>();
-        let is_distant = distant.iter(&world).next().is_some();
-        if is_distant {
-            continue;
-        }
         let found = mean_of(&make, &offer(), 3 * form.samples, number * SEEDS..(number + 1) * SEEDS);
         let off = (found.mean - form.truth) / found.error;
         eprintln!("{:<36} {:.5} ± {:.5} for {:.5}: {off:+.1} SE", form.name, found.mean, found.error, form.truth);
@@ -272,14 +265,18 @@ fn every_camera_and_glass_bring_what_paths_from_the_camera_bring() {
 #[test]
 fn pictures_have_the_same_bits_however_they_are_traced() {
     let (mut tried, folder) = (0, tempfile::tempdir().expect("a folder"));
-    for (lamps, sampler, paths) in [(true, Sampler::Sobol, 1.0), (false, Sampler::Independent, 0.3)] {
-        let mut scene = joined(&|| caustics(lamps))();
+    for (lamps, is_sunny, sampler, paths) in [
+        (true, false, Sampler::Sobol, 1.0),
+        (false, false, Sampler::Independent, 0.3),
+        (true, true, Sampler::Sobol, 0.7),
+    ] {
+        let mut scene = joined(&|| if is_sunny { in_the_sun(1.0) } else { caustics(lamps) })();
         let camera = named(&mut scene, "camera");
         let sampling = Sampling { samples: 4, seed: 39, sampler, ..Sampling::default() };
         scene.entity_mut(camera).insert((sampling, BidirectionalPathTracing { paths }));
         tried += assert_same_bits_however_divided(&scene, 4, folder.path());
     }
-    eprintln!("bidirectional: {tried} ways to trace 2 films, every bit the same");
+    eprintln!("bidirectional: {tried} ways to trace 3 films, every bit the same");
 }
 
 #[test]
@@ -362,7 +359,35 @@ fn extremes_leave_finite_pictures() {
         assert_eq!(film.rejected().0, 0, "{paths} paths, radius {radius}");
         tried += 1;
     }
+    for irradiance in [1e-38, 1e-6, 1e6, 1e30] {
+        let film =
+            render(&joined(&|| in_the_sun(irradiance))(), &offer(), &Execution::default(), &()).expect("renders");
+        assert_eq!(film.film.rejected().0, 0, "a sun of {irradiance}");
+        tried += 1;
+    }
     eprintln!("bidirectional: {tried} extreme renders, 0 samples rejected");
+}
+
+/// Lamps and glass, and a sun that is as bright as they are, or far less or more.
+fn in_the_sun(irradiance: f64) -> World {
+    let mut world = caustics(true);
+    let look = LookAt { eye: DVec3::new(-1.0, 2.0, 0.5), target: DVec3::ZERO, up: DVec3::Y };
+    world.spawn((DirectionalLight { irradiance: Rgb::grey(irradiance), ..DirectionalLight::default() }, look));
+    world
+}
+
+/// Light tracing finds the same caustics of a sun and of lamps, with other weights.
+#[test]
+fn a_sun_beside_lamps_brings_what_light_tracing_brings() {
+    const SETS: u64 = 12;
+    for (name, irradiance) in
+        [("a sun like the lamps", 1.0), ("a faint sun", 0.02), ("a sun that outshines them", 50.0)]
+    {
+        let make = || in_the_sun(irradiance);
+        let traced = renders(&traced(&make), LightStrategy::Mis, 48, 0..SETS);
+        let both = renders(&joined(&make), LightStrategy::Mis, 24, SETS..2 * SETS);
+        assert_agree(name, &traced, &both, 8);
+    }
 }
 
 #[test]
@@ -375,7 +400,7 @@ fn a_scene_without_it_has_nothing_of_it() {
         [stages, plan.columns.iter().filter(|column| columns.contains(&column.name)).count()]
     };
     assert_eq!(kept(&caustics(true)), [0; 2]);
-    assert_eq!(kept(&scenes::caustics::traced(|| caustics(true))()), [0; 2]);
+    assert_eq!(kept(&traced(|| caustics(true))()), [0; 2]);
     let [stages, columns] = kept(&joined(&|| caustics(true))());
     assert!(stages >= 8, "{stages}");
     assert_eq!(columns, 4);

@@ -70,7 +70,7 @@ pub enum Peer {
 impl Peer {
     /// Compiles smallvcm.cxx with the headers in a folder that holds a copy of SmallVCM's repository.
     pub fn smallvcm(copy: &str, method: String) -> Self {
-        let program = std::env::temp_dir().join(format!("pinhole-smallvcm-{}", std::process::id()));
+        let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("smallvcm");
         let compiled = Command::new("g++")
             .args(["-O3", "-march=native", "-std=c++11", "-I", &format!("{copy}/src")])
             .arg(folder().join("smallvcm.cxx"))
