@@ -4,6 +4,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{AreaLightTable, SamplingTable};
 use pinhole::intersect::Surfaces;
+use pinhole::lights::Receiver;
 use pinhole::plan::{Shared, VectorRowsMut};
 use pinhole::rays::{Depth, SampleNumber, draws_of_two};
 use pinhole::sample::Purpose;
@@ -198,7 +199,8 @@ fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
                     let asked = (from.into(), (from + to).into(), shape.normal.into(), shape.area());
                     let Some(pdf) = ask.at(place, row, asked) else { continue };
                     let cosine = surfaces.get(row).normal.as_dvec3().dot(to.normalize()).max(0.0);
-                    let pdf = lights.probability[light] * pdf;
+                    let receiver = Receiver { depth: depth.0, ..Receiver::default() };
+                    let pdf = lights.probability_of(light, &receiver) * pdf;
                     let light = irradiance_from_area(lights.radiance[light], cosine, pdf).map(|part| part as f32);
                     let finite = light.iter().all(|part| part.is_finite());
                     rays.irradiance.put(ray, if finite { light } else { [0.0; 3] });

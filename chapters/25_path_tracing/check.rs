@@ -198,10 +198,11 @@ fn mine(ask: Ask<Input, [f64; 3]>, setting: &Setting<'_>) -> StandIn {
                 let draws = rays::Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), depth };
                 draws_of_one(&draws, Purpose::Roulette, &scattered.row, &mut numbers);
                 for (ray, &u) in numbers.iter().enumerate() {
-                    let throughput = scattered.throughput.at(ray);
+                    // In units of what is at risk, as pinhole asks.
+                    let left = scattered.throughput.at(ray).map(|part| part / IntegratorTable::AT_RISK);
                     let row = scattered.row[ray] as usize;
-                    if let Some(throughput) = ask.at((tile, samples, Some(paths)), row, (throughput, u)) {
-                        scattered.throughput.put(ray, throughput);
+                    if let Some(left) = ask.at((tile, samples, Some(paths)), row, (left, u)) {
+                        scattered.throughput.put(ray, left.map(|part| part * IntegratorTable::AT_RISK));
                     }
                 }
             }

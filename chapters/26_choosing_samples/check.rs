@@ -8,7 +8,7 @@ use pinhole::follow::power_heuristic;
 use pinhole::intersect::{EmissiveRows, Hits, SurfaceSides};
 use pinhole::lights::Receiver;
 use pinhole::plan::{Shared, VectorRowsMut};
-use pinhole::rays::{Paths, PixelSamples, Tile, WorldRays};
+use pinhole::rays::{Depth, Paths, PixelSamples, Tile, WorldRays};
 use pinhole::shade::{Radiance, area_light_pdf};
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Ask, Exercise, Mistakes, Probe, Question, Setting, Shown, StandIn, extremes, probes};
@@ -155,11 +155,11 @@ fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
         follow::mis_emission_stage,
         move |(emissive, lights): (Res<Shared<EmissiveTable>>, Res<Shared<AreaLightTable>>),
               mut tiles: Query<(
-            (&Tile, Option<&PixelSamples>, &Paths),
+            (&Tile, Option<&PixelSamples>, &Paths, &Depth),
             (&WorldRays, &Hits, &EmissiveRows, Option<&SurfaceSides>),
             &mut Radiance,
         )>| {
-            for ((tile, samples, paths), (rays, hits, list, sides), mut radiance) in &mut tiles {
+            for ((tile, samples, paths, depth), (rays, hits, list, sides), mut radiance) in &mut tiles {
                 for (&row, &of) in list.row.iter().zip(&list.emissive) {
                     let (row, emitted) = (row as usize, emissive.radiance[of as usize]);
                     if sides.is_some_and(|sides| sides.outside[row] == 0 && emissive.one_sided[of as usize]) {
@@ -170,8 +170,9 @@ fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {
                         1.0
                     } else {
                         let at = rays.point_at(row, hits.t[row]);
-                        // Few lights are chosen alike for all surfaces, whatever the normal.
-                        let receiver = Receiver { position: rays.origin_of(row), normal: DVec3::ZERO };
+                        // Few lights are sampled alike from all surfaces, whatever the normal.
+                        let (position, normal) = (rays.origin_of(row), DVec3::ZERO);
+                        let receiver = Receiver { position, normal, depth: depth.0.saturating_sub(1) };
                         let asked = (paths.pdf[row], area_light_pdf(&lights, light as usize, &receiver, at));
                         ask.at((tile, samples, Some(paths)), row, asked).unwrap_or_default()
                     } as f32;

@@ -255,7 +255,7 @@ fn both_strategies_know_one_pdf() {
                 (0..lights.lights()).min_by(|a, b| excess(a).total_cmp(&excess(b))).expect("a light")
             };
             let light = nearest.unwrap_or_else(triangle);
-            let receiver = Receiver { position: from, normal: DVec3::Y };
+            let receiver = Receiver { position: from, normal: DVec3::Y, depth: 0 };
             let off = (area_light_pdf(&lights, light, &receiver, at) / pdfs.pdf[ray] - 1.0).abs();
             // The direction is rounded to f32 in between, which at a disk's ends, where its pdf grows without end,
             // is much; from afar a pdf goes with the square of the distance, and t_max ends short of the light.

@@ -5,7 +5,7 @@ use super::frusta::ground_and_ball;
 use super::*;
 use crate::scenes::Setup;
 use crate::scenes::many::many_lights;
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use pinhole::scene::*;
 use pinhole_lab::measure::draws::Draws;
 use pinhole_lab::measure::torus_knot::torus_knot;
@@ -41,6 +41,31 @@ fn light_paths_that_start_on_a_mesh_bring_what_the_camera_s_paths_bring() {
 fn light_strategies_agree_on_many_lights_of_every_kind() {
     let make = || many_lights(Setup { size: [32, 24], ..Setup::default() });
     strategies_agree("many lights", &make, ALL, 24, 8);
+}
+
+/// From what the camera sees each light is sampled, deeper one that is chosen: the weights must know which of both the
+/// last surface did, behind a mirror and in front of it.
+#[test]
+fn light_strategies_agree_on_a_few_lights_at_every_depth() {
+    let make = |by_mirror: bool| {
+        let mut world = ground_and_ball(Metal { roughness: 0.3, ..Metal::default() }, Placement::at(0.1, 0.5, 0.4));
+        let upright = |z| Placement { orientation: DQuat::from_rotation_x(1.57), ..Placement::at(0.0, 1.0, z) };
+        let metal = Metal { roughness: 0.5, ..Metal::default() };
+        world.spawn((Rectangle { width: 4.0, depth: 2.0 }, upright(-1.2), metal));
+        for (x, y, radius, radiance) in [(-0.9, 1.1, 0.3, 1.0), (0.9, 0.5, 0.2, 8.0), (0.5, 1.4, 0.35, 3.0)] {
+            let radiance = Rgb::new(radiance, 0.9 * radiance, 0.7 * radiance);
+            world.spawn((Sphere { radius }, Placement::at(x, y, -0.5), Emissive { radiance, ..Emissive::default() }));
+        }
+        if by_mirror {
+            let camera = named(&mut world, "camera");
+            let (eye, target) = (DVec3::new(0.1, 1.2, 2.6), DVec3::new(0.1, 1.0, 3.6));
+            world.entity_mut(camera).insert(LookAt { eye, target, ..LookAt::default() });
+            world.spawn((Rectangle { width: 9.0, depth: 9.0 }, upright(3.5), Mirror::default()));
+        }
+        world
+    };
+    strategies_agree("three lamps", &|| make(false), ALL, 24, 8);
+    strategies_agree("three lamps by a mirror", &|| make(true), ALL, 24, 8);
 }
 
 /// The light of many lights is the sum of what parts of them bring, each so few that all are summed or that they are

@@ -114,7 +114,7 @@ fn receivers(draws: &mut Draws, places: &[DVec3]) -> Vec<Receiver> {
     // As stages have them: offset origins in f32.
     positions
         .into_iter()
-        .map(|position| Receiver { position: position.as_vec3().as_dvec3(), normal: draws.unit_vector() })
+        .map(|position| Receiver { position: position.as_vec3().as_dvec3(), normal: draws.unit_vector(), depth: 0 })
         .collect()
 }
 
@@ -323,7 +323,8 @@ fn triangles_without_an_area_are_never_chosen() {
         let lights = of(one);
         assert!(!lights.is_empty());
         for step in 0..FRACTIONS {
-            let receiver = Receiver { position: DVec3::new(0.2, 0.1, f64::from(step % 7)), normal: DVec3::NEG_Z };
+            let position = DVec3::new(0.2, 0.1, f64::from(step % 7));
+            let receiver = Receiver { position, normal: DVec3::NEG_Z, depth: 0 };
             assert_eq!(lights.choose(&receiver, step * 524_287), (triangles, 1.0));
             assert!((0..triangles).all(|light| lights.probability_of(light, &receiver) == 0.0));
             tried += 1;

@@ -156,7 +156,7 @@ pub static METHODS: [NaiveMethod; 23] = [
     method(
         "light-refracted-as-radiance",
         27,
-        "light from lamps is refracted as radiance is, divided by the square of the index",
+        "light from lamps is refracted as radiance is, divided by the square of the index: only what stands in glass shows it",
         (Instead, refract_as_radiance),
     ),
     method(

@@ -4,7 +4,7 @@ use super::check::{kind_and_name, light_colour};
 use super::material::material_kind_evidence;
 use super::non_opaque::is_non_opaque;
 use super::shapes::{is_shape, listed_kind, one_shape};
-use super::{MeshTable, NO_ROW, ShapeTable, moves_while_open, shape_entities};
+use super::{MeshTable, NO_ROW, ShapeTable, bidirectional_evidence, moves_while_open, shape_entities};
 use crate::lights::{LightBounds, LightHierarchy, Receiver, luminance};
 use crate::plan::{Census, Evidence, Table, counted};
 use crate::scene::{
@@ -18,8 +18,8 @@ use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Up to this many lights, one is chosen alike for all surfaces, which costs next to nothing; of more, a hierarchy leaves
-/// less noise.
+/// Up to this many lights, each is sampled from the surfaces that the camera sees, and deeper one that is chosen alike for
+/// all surfaces; of more, a hierarchy chooses one everywhere.
 const FEW: usize = 8;
 
 /// Area lights that can be sampled, in spawn order of their shapes; after them the triangles of emitting meshes, each
@@ -42,6 +42,11 @@ pub struct AreaLightTable {
     ///
     /// Empty where there is a hierarchy.
     pub until: Vec<u64>,
+    /// Whether each light is sampled from the surfaces that the camera sees; deeper, one is chosen.
+    ///
+    /// What a choice among lights leaves of error there is often most of it. Paths from the lights have one light each, so
+    /// bidirectional path tracing chooses everywhere.
+    pub each_at_first: bool,
     /// The probability of choosing it: a quarter in proportion to its power, the rest uniform, and at least 2⁻³².
     pub probability: Vec<f64>,
     /// The meshes that emit.
@@ -144,10 +149,17 @@ impl AreaLightTable {
         }
     }
 
-    /// The probability with which a light is chosen for a surface.
+    /// Whether each light is sampled from surfaces that so many bounces lead to, and none is chosen.
+    #[inline(always)]
+    pub fn samples_each(&self, depth: u32) -> bool {
+        self.each_at_first & (depth == 0) || self.until.len() == 1
+    }
+
+    /// The probability with which a light is sampled from a surface.
     #[inline(always)]
     pub fn probability_of(&self, light: usize, receiver: &Receiver) -> f64 {
         match &self.hierarchy {
+            None if self.samples_each(receiver.depth) => f64::from(u8::from(self.probability[light] > 0.0)),
             None => self.probability[light],
             Some(hierarchy) => hierarchy.probability(receiver, light),
         }
@@ -244,6 +256,7 @@ impl Table for AreaLightTable {
         } else {
             let powers: Vec<f64> = (0..table.lights()).map(|light| table.power(light)).collect();
             (table.until, table.probability) = light_distribution(&powers, EVEN);
+            table.each_at_first = !bidirectional_evidence(scene).needed;
         }
         Ok(table)
     }
@@ -267,7 +280,11 @@ pub fn many_area_lights_evidence(scene: &Census<'_>) -> Evidence {
     if lights > FEW || lights == 0 {
         return found;
     }
-    let reason = format!("{}, chosen alike for all surfaces", counted(lights, "light with area"));
+    let reason = match (lights, bidirectional_evidence(scene).needed) {
+        (0 | 1, _) => counted(lights, "light with area"),
+        (_, true) => format!("{lights} lights with area, chosen alike for all surfaces"),
+        (_, false) => format!("{lights} lights with area, each sampled from what the camera sees, deeper chosen alike"),
+    };
     Evidence { needed: false, reason, count: 0 }
 }
 

@@ -137,6 +137,15 @@ pub struct IntegratorTable {
     pub distance: f32,
 }
 
+impl IntegratorTable {
+    /// The throughput below which Russian roulette may terminate a path.
+    ///
+    /// Least variance for the time is left where a path survives with the probability of its throughput, over the noise of
+    /// one sample as a fraction of the light (Bolin and Meyer 1997): over a quarter where lights are sampled well, and more
+    /// where they are not.
+    pub const AT_RISK: f64 = 0.25;
+}
+
 impl Table for IntegratorTable {
     const NAME: &'static str = "integrator";
 

@@ -28,6 +28,13 @@ impl SamplingTable {
         Self { seed: self.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x50_494C_4F54, ..self }
     }
 
+    /// The random numbers for one of several lights that are all sampled from one surface.
+    ///
+    /// Points on two lights would otherwise be the same of their unit squares, and what they err by would add up.
+    pub fn for_light(self, light: usize) -> Self {
+        Self { seed: self.seed ^ (light as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15), ..self }
+    }
+
     /// The random numbers of light paths, from another seed.
     ///
     /// Stratification counts the samples of a pixel, which a light path does not have, so its numbers are independent.

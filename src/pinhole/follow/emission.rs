@@ -77,7 +77,7 @@ pub fn add_mis_emission(
             } else if let Some(light) = light.filter(|_| !by_mirror && integrator.samples_lights) {
                 if integrator.mis {
                     let normal = previous.map_or(DVec3::ZERO, |previous| previous.normal(row).as_dvec3());
-                    let receiver = Receiver { position: rays.origin_of(row), normal };
+                    let receiver = Receiver { position: rays.origin_of(row), normal, depth: depth.0.saturating_sub(1) };
                     let at = rays.point_at(row, hits.t[row]);
                     power_heuristic(paths.pdf[row], area_light_pdf(&lights, light, &receiver, at))
                 } else {

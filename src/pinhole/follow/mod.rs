@@ -11,7 +11,7 @@
 //! ```
 //! use pinhole::follow::survival_probability;
 //!
-//! // A path that carries a quarter of its light survives Russian roulette one time in four.
+//! // A path that carries a quarter of what puts it at risk survives Russian roulette one time in four.
 //! assert_eq!(survival_probability([0.25, 0.1, 0.0]), 0.25);
 //! ```
 

@@ -176,7 +176,7 @@ fn first_from_light(
     };
     // From where a light sample would start, which is off the surface.
     let from = offset_origin(surface.position, surface.normal, surface.bound);
-    let receiver = Receiver { position: from.as_dvec3(), normal: surface.normal.as_dvec3() };
+    let receiver = Receiver { position: from.as_dvec3(), normal: surface.normal.as_dvec3(), depth: 0 };
     let paths = radiance * cosine / starts.power;
     [area_light_pdf(areas, own, &receiver, origin) / paths, 1.0 / paths]
 }
@@ -478,7 +478,7 @@ pub fn add_found_emission(
             let weight = match light.filter(|_| depth.0 > 0) {
                 Some(light) => {
                     let normal = previous.map_or(DVec3::ZERO, |previous| previous.normal(row).as_dvec3());
-                    let receiver = Receiver { position: rays.origin_of(row), normal };
+                    let receiver = Receiver { position: rays.origin_of(row), normal, depth: 0 };
                     let by_light = area_light_pdf(&lights, light, &receiver, rays.point_at(row, hits.t[row]));
                     let cosine = surfaces.normal(row).as_dvec3().dot(rays.direction_of(row));
                     let share = luminance(emitted.map(f64::from)) * cosine / starts.power;

@@ -17,12 +17,14 @@ const NEAREST: f64 = 1e-290;
 const GRAZING: f64 = 0.125;
 
 /// A surface for which a light is chosen.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Receiver {
     /// A point on it, relative to the eye.
     pub position: DVec3,
     /// Its geometric normal, on the side that is lit.
     pub normal: DVec3,
+    /// The number of bounces that lead to it; 0 for what the camera sees.
+    pub depth: u32,
 }
 
 /// A light chosen for a surface.
@@ -55,7 +57,7 @@ impl LightHierarchy {
 /// An angle is made smaller by another with the formula for the cosine of a difference, and never below 0.
 #[inline(always)]
 fn importance(node: &LightNode, receiver: &Receiver) -> [f64; WIDTH] {
-    let Receiver { position, normal } = *receiver;
+    let Receiver { position, normal, .. } = *receiver;
     let position = position - DVec3::from(node.origin);
     let mut importance = [0.0; WIDTH];
     for (place, importance) in importance.iter_mut().enumerate() {

@@ -8,7 +8,7 @@ use crate::extract::{AreaLightTable, SamplingTable, area_light_evidence, light_s
 use crate::intersect::Surface;
 use crate::lights::Receiver;
 use crate::plan::{Shared, Stage, StageKind, TileSystems, VectorRows};
-use crate::rays::{DrawsView, Paths, draws_of_two, fractions_of_one};
+use crate::rays::{Draws, DrawsView, Paths, draws_of_two, fractions_of_one};
 use crate::sample::{Draw, PixelKey, Purpose, unit, with_sampler};
 use crate::shapes::emitter::{ANY_WAY, Emitting, WAYS, WayVisitor};
 use crate::shapes::{EmitterVisitor, offset_origin, pdf_towards, visit_emitter};
@@ -73,7 +73,8 @@ fn sample_light<E: Emitting, const WAY: usize>(
 
 /// Appends, for each row, a shadow ray to a point sampled on one of the area lights.
 ///
-/// Of few lights each is sampled for all rows that have chosen it; of many, one row at a time.
+/// Of few lights each is sampled for all rows at once: from what the camera sees for every row, deeper for those that have
+/// chosen it. Of many, one is chosen row by row.
 pub fn sample_area_lights(
     lights: Res<Shared<AreaLightTable>>,
     sampling: Res<Shared<SamplingTable>>,
@@ -96,24 +97,33 @@ pub fn sample_area_lights(
             });
             continue;
         }
-        for (rows, fractions) in receivers.rows().into_iter().zip(fractions.iter_mut()) {
-            fractions_of_one(&draws, Purpose::LightChoice, rows, fractions);
+        let samples_each = lights.samples_each(draws.depth.0);
+        if !samples_each {
+            for (rows, fractions) in receivers.rows().into_iter().zip(fractions.iter_mut()) {
+                fractions_of_one(&draws, Purpose::LightChoice, rows, fractions);
+            }
         }
-        for light in 0..lights.lights() {
-            for ((rows, fractions), chosen) in receivers.rows().into_iter().zip(&*fractions).zip(lists.iter_mut()) {
-                chosen.clear();
+        for light in (0..lights.lights()).filter(|&light| lights.probability[light] > 0.0) {
+            let mut chosen = receivers.rows();
+            if !samples_each {
                 let has_chosen = lights.fractions_of(light);
-                let with_fractions =
-                    rows.iter().zip(fractions).filter(|(_, fraction)| has_chosen.contains(&u64::from(**fraction)));
-                chosen.extend(with_fractions.map(|(row, _)| *row));
+                for ((rows, fractions), list) in receivers.rows().into_iter().zip(&*fractions).zip(lists.iter_mut()) {
+                    list.clear();
+                    let with_fractions =
+                        rows.iter().zip(fractions).filter(|(_, fraction)| has_chosen.contains(&u64::from(**fraction)));
+                    list.extend(with_fractions.map(|(row, _)| *row));
+                }
+                chosen = [&lists[0], &lists[1]];
             }
-            for (chosen, points) in lists.iter().zip(points.iter_mut()) {
-                draws_of_two(&draws, Purpose::LightPoint, chosen, points);
+            let (of_light, probability) =
+                if samples_each { (sampling.for_light(light), 1.0) } else { (**sampling, lights.probability[light]) };
+            let of_light = Draws { sampling: &of_light, ..draws };
+            for (chosen, points) in chosen.into_iter().zip(points.iter_mut()) {
+                draws_of_two(&of_light, Purpose::LightPoint, chosen, points);
             }
-            let probability = lights.probability[light];
             lights.with_light(light, |emitter, radiance, one_sided| {
                 let light = (radiance, one_sided, probability);
-                let receivers = receivers.part(&lists[0], &lists[1]);
+                let receivers = receivers.part(chosen[0], chosen[1]);
                 let to = (&mut *rays, pdfs.as_deref_mut());
                 let (draws, by_way) = ([&points[0][..], &points[1][..]], &mut *by_way);
                 visit_emitter(emitter, OneLight { light, receivers, draws, to, by_way });
@@ -249,7 +259,7 @@ fn sample_one_of_many<D: Draw>(
 ) {
     append_sampled(receivers, to, |row, surface, normal| {
         let (key, origin) = (key(row), offset_origin(surface.position, surface.normal, surface.bound));
-        let receiver = Receiver { position: origin.as_dvec3(), normal: surface.normal.as_dvec3() };
+        let receiver = Receiver { position: origin.as_dvec3(), normal: surface.normal.as_dvec3(), depth: 0 };
         let (light, probability) = lights.choose(&receiver, choice.one(key));
         let mut ray = LightRay::default();
         lights.with_light(light, |emitter, radiance, one_sided| {

@@ -77,7 +77,7 @@ fn chosen_ray<L: ListedLight>(
     normal: DVec3,
 ) -> LightRay {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
-    let receiver = Receiver { position: origin.as_dvec3(), normal: surface.normal.as_dvec3() };
+    let receiver = Receiver { position: origin.as_dvec3(), normal: surface.normal.as_dvec3(), depth: 0 };
     let (light, probability) = choice.choose(&receiver, fraction);
     let mut light_ray = lights.row[light].ray_from(surface, normal, [0.0; 2]);
     light_ray.irradiance = light_ray.irradiance.map(|part| part / probability);

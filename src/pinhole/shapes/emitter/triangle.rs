@@ -27,6 +27,9 @@ pub struct EmittingTriangle {
     pub normal: DVec3,
 }
 
+/// 2⁻⁵⁰: eight times f64's unit roundoff, of which the height of a point above a triangle's plane needs six.
+const HEIGHT_ERROR: f64 = 1.0 / (1_u64 << 50) as f64;
+
 impl Emitting for EmittingTriangle {
     const IS_CLOSED: bool = false;
     const IN_BLOCKS: bool = true;
@@ -57,7 +60,12 @@ impl Emitting for EmittingTriangle {
 
     #[inline(always)]
     fn distance(&self, from: DVec3, direction: DVec3) -> f64 {
-        self.normal.dot(self.corners[0] - from) / self.normal.dot(direction)
+        let [corner, ..] = self.corners;
+        let slope = self.normal.dot(direction);
+        let (t, error) =
+            (self.normal.dot(corner - from) / slope, HEIGHT_ERROR * (l1_norm(corner) + l1_norm(from)) / slope);
+        // Less by what rounding may do, such that another triangle of the same plane does not hide this one.
+        t - error.abs()
     }
 
     #[inline(always)]
