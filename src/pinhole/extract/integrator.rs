@@ -140,9 +140,8 @@ pub struct IntegratorTable {
 impl IntegratorTable {
     /// The throughput below which Russian roulette may terminate a path.
     ///
-    /// Least variance for the time is left where a path survives with the probability of its throughput, over the noise of
-    /// one sample as a fraction of the light (Bolin and Meyer 1997): over a quarter where lights are sampled well, and more
-    /// where they are not.
+    /// Variance for the time is least where a path survives with the probability of what it may bring, over the noise of one
+    /// sample (Bolin and Meyer 1997); in a Cornell box that noise is about a quarter of the light.
     pub const AT_RISK: f64 = 0.25;
 }
 
