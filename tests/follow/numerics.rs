@@ -2,6 +2,7 @@
 
 use super::*;
 use glam::DVec3;
+use pinhole::extract::IntegratorTable;
 use pinhole::follow::power_heuristic;
 use pinhole::look::{Preflight, preflight};
 use pinhole::plan::Census;
@@ -61,8 +62,9 @@ fn a_point_behind_glass_lights_nothing_and_that_is_said() {
     eprintln!("points behind glass: {tried} integrators, no light at all");
 }
 
-/// In a closed room of albedo a whose paths end by Russian roulette alone, a path has 2 + a² / (1 − a) segments on average: two before
-/// the first roulette, a² for surviving it, and a each time after.
+/// In a closed room of albedo a whose paths end by Russian roulette alone, a path has n segments before it is at risk,
+/// where aⁿ is below a quarter, and aⁿ over a quarter for surviving the first roulette, and a each time after: n + 4aⁿ / (1 − a)
+/// on average.
 #[test]
 fn paths_in_a_closed_room_are_as_long_as_they_must_be() {
     for albedo in [0.5, 0.8, 0.99] {
@@ -78,9 +80,11 @@ fn paths_in_a_closed_room_are_as_long_as_they_must_be() {
         let rendered = render(&world, &offer(), &Execution::default(), &()).expect("renders");
         let slot = rendered.plan.stages.iter().position(|stage| stage.name == "Intersect spheres").expect("runs");
         let paths = f64::from(rendered.film.width * rendered.film.height * 8);
-        let (length, truth) = (rendered.laps[slot].rows as f64 / paths, 2.0 + albedo * albedo / (1.0 - albedo));
+        let left = |segments: i32| (0..segments).map(|_| albedo).product::<f64>() / IntegratorTable::AT_RISK;
+        let sure = (2..).find(|&segments| left(segments) < 1.0).expect("an end");
+        let (on, end) = (left(sure), 1.0 - albedo);
+        let (length, truth) = (rendered.laps[slot].rows as f64 / paths, f64::from(sure) + on / end);
         // What comes after the first roulette is a geometric number of segments, or none.
-        let (on, end) = (albedo * albedo, 1.0 - albedo);
         let variance = on * (2.0 - end) / (end * end) - on * on / (end * end);
         let error = (variance / paths).sqrt();
         let off = (length - truth) / error;
