@@ -199,10 +199,10 @@ fn mine(ask: Ask<Input, [f64; 3]>, setting: &Setting<'_>) -> StandIn {
                 draws_of_one(&draws, Purpose::Roulette, &scattered.row, &mut numbers);
                 for (ray, &u) in numbers.iter().enumerate() {
                     // In units of what is at risk, as pinhole asks.
-                    let left = scattered.throughput.at(ray).map(|part| part / IntegratorTable::AT_RISK);
+                    let left = scattered.throughput.at(ray).map(|part| part / integrator.at_risk);
                     let row = scattered.row[ray] as usize;
                     if let Some(left) = ask.at((tile, samples, Some(paths)), row, (left, u)) {
-                        scattered.throughput.put(ray, left.map(|part| part * IntegratorTable::AT_RISK));
+                        scattered.throughput.put(ray, left.map(|part| part * integrator.at_risk));
                     }
                 }
             }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use pinhole::extract::IntegratorTable;
 use pinhole::follow::power_heuristic;
 use pinhole::look::{Preflight, preflight};
-use pinhole::plan::Census;
+use pinhole::plan::{Census, Table};
 use pinhole::render::prepare;
 use pinhole::scene::*;
 use scenes::followed::INTEGRATORS;
@@ -80,7 +80,8 @@ fn paths_in_a_closed_room_are_as_long_as_they_must_be() {
         let rendered = render(&world, &offer(), &Execution::default(), &()).expect("renders");
         let slot = rendered.plan.stages.iter().position(|stage| stage.name == "Intersect spheres").expect("runs");
         let paths = f64::from(rendered.film.width * rendered.film.height * 8);
-        let left = |segments: i32| (0..segments).map(|_| albedo).product::<f64>() / IntegratorTable::AT_RISK;
+        let at_risk = IntegratorTable::extract(&Census::of(&world)).expect("a table").at_risk;
+        let left = |segments: i32| (0..segments).map(|_| albedo).product::<f64>() / at_risk;
         let sure = (2..).find(|&segments| left(segments) < 1.0).expect("an end");
         let (on, end) = (left(sure), 1.0 - albedo);
         let (length, truth) = (rendered.laps[slot].rows as f64 / paths, f64::from(sure) + on / end);

@@ -1,7 +1,7 @@
 //! The naive methods that a render may run in place of pinhole's, by name: `render 10 --naive shadow-rays-from-the-hit`.
 
 use super::boxes::{enters_by_min_and_max, meshes_in_boxes};
-use super::caustics::{join_without_area, join_without_cosine, refract_as_radiance};
+use super::caustics::{join_without_area, join_without_cosine};
 use super::lens::radius_at_random;
 use super::mesh::directions_normalised_in_object_space;
 use super::mistake::{
@@ -56,7 +56,7 @@ const fn method(
 use Place::{After, Instead, InsteadOfAll};
 
 /// All of them, in the order of the book.
-pub static METHODS: [NaiveMethod; 23] = [
+pub static METHODS: [NaiveMethod; 22] = [
     method(
         "spheres-in-f32",
         3,
@@ -152,12 +152,6 @@ pub static METHODS: [NaiveMethod; 23] = [
         27,
         "light paths are connected with the camera without the pixel's area",
         (Instead, join_without_area),
-    ),
-    method(
-        "light-refracted-as-radiance",
-        27,
-        "light from lamps is refracted as radiance is, divided by the square of the index: only what stands in glass shows it",
-        (Instead, refract_as_radiance),
     ),
     method(
         "directions-normalised",

@@ -127,6 +127,12 @@ pub struct IntegratorTable {
     pub max_depth: u32,
     /// The depth from which Russian roulette terminates paths.
     pub roulette: u32,
+    /// The throughput below which it may do so.
+    ///
+    /// Variance for the time is least where a path survives with the probability of what it may bring, over the noise of one
+    /// sample (Bolin and Meyer 1997); in a Cornell box that noise is about a quarter of the light.
+    /// Where each vertex is joined with all of another path, one more costs more than it brings.
+    pub at_risk: f64,
     /// Whether area lights are sampled (next-event estimation).
     pub samples_lights: bool,
     /// The factor by which radiance is scaled in the densest glass: its index of refraction squared, at least 1.
@@ -135,14 +141,6 @@ pub struct IntegratorTable {
     pub mis: bool,
     /// The distance within which a shape occludes the sky, in scene units.
     pub distance: f32,
-}
-
-impl IntegratorTable {
-    /// The throughput below which Russian roulette may terminate a path.
-    ///
-    /// Variance for the time is least where a path survives with the probability of what it may bring, over the noise of one
-    /// sample (Bolin and Meyer 1997); in a Cornell box that noise is about a quarter of the light.
-    pub const AT_RISK: f64 = 0.25;
 }
 
 impl Table for IntegratorTable {
@@ -166,6 +164,7 @@ impl Table for IntegratorTable {
         let table = Self {
             max_depth: does.max_depth,
             roulette: does.roulette,
+            at_risk: if bidirectional_evidence(scene).needed { 1.0 } else { 0.25 },
             samples_lights: does.samples_lights(),
             eta_scale: eta_scale_in_glass(scene)?,
             mis: does.is_mis(),

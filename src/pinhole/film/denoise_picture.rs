@@ -14,7 +14,7 @@ const SPLINE: [f64; 3] = [3.0 / 8.0, 1.0 / 4.0, 1.0 / 16.0];
 /// The levels; the last mixes pixels 16 apart.
 const LEVELS: u32 = 5;
 /// How far apart two pixels may be and count half, in standard errors of one of them, squared.
-const APART: f64 = 10.0;
+const APART: f64 = 6.0;
 /// The sine of the angle to the tangent plane at which a neighbour counts half.
 const OFF_PLANE: f64 = 0.1;
 /// A surface of less albedo only emits.

@@ -330,7 +330,7 @@ pub fn survival_probability(throughput: [f64; 3]) -> f64 {
 /// Terminates paths at random from a given depth on, and divides the throughput of the others by their survival
 /// probability.
 ///
-/// A path is at risk once it carries less than [`IntegratorTable::AT_RISK`] of the light.
+/// A path is at risk once it carries less than [`IntegratorTable::at_risk`] of the light.
 ///
 /// Inside glass of index n the throughput is 1/n² of what it will be outside again, which is no reason to terminate a
 /// path; after a specular bounce it is therefore multiplied by n² (PBRT's `etaScale`).
@@ -349,7 +349,7 @@ pub fn play_roulette(
         let mut kept = 0;
         for row in 0..scattered.rows() {
             let scale = if scattered.pdf[row] == f64::INFINITY { integrator.eta_scale } else { 1.0 };
-            let left = scattered.throughput(row).map(|part| part * scale / IntegratorTable::AT_RISK);
+            let left = scattered.throughput(row).map(|part| part * scale / integrator.at_risk);
             // The weight of a wavelength may be negative.
             let probability = survival_probability(left.map(f64::abs));
             if numbers[row] < probability {
