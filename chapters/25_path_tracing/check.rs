@@ -65,6 +65,8 @@ fn question() -> Question<Input, [f64; 3]> {
                 sorted.sort_by(f64::total_cmp);
                 by(input, sorted[1])
             })
+            .say("the probability is four times the largest of the three; asked is the largest, and pinhole asks of four times the throughput")
+            .when(|input| by(input, 4.0 * largest(input.0)))
             .say("the probability is kept above a smallest one; asked is the largest of the three, however small")
             .when(|input| by(input, largest(input.0).max(0.05)))
             .when(|input| by(input, largest(input.0).max(0.1)))
