@@ -1,5 +1,6 @@
 //! Which of a few triangles a ray may hit first, in f32 with error bounds: f64 then has one or two to test, not all.
 //!
+//! Two that follow each other and make up a convex quadrilateral, as those of most walls do, are tested at once.
 //! It decides nothing: whatever a bound leaves open is tested in f64, so that the result is to the last bit that of testing
 //! all of them.
 
@@ -25,18 +26,26 @@ const MAX_ERROR: f64 = 1.0 / (1 << 10) as f64;
 /// The relative error of a t, and more than the 2⁻²⁴ within which f64 may take two triangles in another order.
 const OF_T: f32 = 1.0 / (1 << 20) as f32;
 
-/// The plane of a triangle in f64, for rays that start so close to it that f32 cannot say on which side.
+/// 2⁻²³: by how much two planes may differ that are taken for one; twice that is a quarter of the error of a slope.
+const OF_PLANE: f64 = 1.0 / (1 << 23) as f64;
+/// What a height may be off by if it is less than f32 represents.
+const UNDERFLOW: f64 = 1e-37;
+
+/// The plane of a polygon in f64, since most rays start so close to one that f32 cannot say on which side, and those of
+/// shadows end close before one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Plane {
     /// The normal, whose |N|₁ is 1.
     normal: DVec3,
     /// N·A.
     height: f64,
-    /// The error of N·(A − O) as a multiple of |O|₁ and alone, and of N·R as one of |R|₁.
+    /// The error of N·(A − O) as a multiple of |O|₁ plus a size, and of N·R as one of |R|₁.
     error: f64,
     size: f64,
     /// The square of the longest edge over |(B − A) × (C − A)|₁: how thin the triangle is, and so how large the error of N.
     thinness: f64,
+    /// How far from it the other triangle of a quadrilateral may lie, and by how much of |R|₁ that has another slope.
+    apart: [f64; 2],
 }
 
 impl Plane {
@@ -47,87 +56,184 @@ impl Plane {
         let longest = [b - a, c - a, c - b].map(l1_norm).into_iter().fold(0.0, f64::max);
         let normal = cross / l1_norm(cross);
         let thinness = longest * longest / l1_norm(cross);
-        Self { normal, height: normal.dot(a), error: ROUNDING * (1.0 + thinness), size: l1_norm(a), thinness }
+        let (height, error) = (normal.dot(a), ROUNDING * (1.0 + thinness));
+        Self { normal, height, error, size: l1_norm(a), thinness, apart: [0.0; 2] }
     }
 
-    /// Whether it is certain that a ray has the plane behind it: that its t is negative.
+    /// Whether it is certain that a ray reaches the plane beyond a t, or not at all.
     #[inline(always)]
-    fn is_behind(&self, [origin, direction]: [DVec3; 2]) -> bool {
+    fn is_beyond(&self, [origin, direction]: [DVec3; 2], until: f64) -> bool {
         let (height, slope) = (self.height - self.normal.dot(origin), self.normal.dot(direction));
-        let is_certain = (height.abs() > self.error * (self.size + l1_norm(origin)))
-            & (slope.abs() > self.error * l1_norm(direction));
-        is_certain & ((height < 0.0) != (slope < 0.0))
+        let height_error = self.error * (self.size + l1_norm(origin)) + self.apart[0];
+        let slope_error = (self.error + self.apart[1]) * l1_norm(direction);
+        // Twice the errors, for the rounding of the product.
+        height.abs() - 2.0 * height_error > until * (slope.abs() + 2.0 * slope_error)
     }
 }
 
-/// A triangle as the test in f32 reads it, with coefficients of its error bounds.
+/// U and V of a triangle: a point of its plane has the barycentric coordinates u = U·(P − A) and v = V·(P − A).
+fn gradients([a, b, c]: [DVec3; 3], normal: DVec3) -> [DVec3; 2] {
+    let (along, across) = (b - a, c - a);
+    // U·(B − A) and V·(C − A) are 1, U·(C − A) and V·(B − A) are 0.
+    let scale = 1.0 / along.cross(across).dot(normal);
+    [across.cross(normal) * scale, normal.cross(along) * scale]
+}
+
+fn steepest(gradients: [DVec3; 2]) -> f64 {
+    gradients.map(|of| of.abs().max_element()).into_iter().fold(0.0, f64::max)
+}
+
+/// A triangle, or two that make up a convex quadrilateral, as the test in f32 reads it, with coefficients of its error
+/// bounds.
 ///
 /// A point of its plane has the barycentric coordinates u = U·P + u₀ and v = V·P + v₀ (as in Havel and Herout 2010), of
-/// which the smallest of u, v and 1 − u − v is negative outside.
+/// which the smallest of u, v and w = 1 − u − v is negative outside. A second triangle lies where w is negative, and its
+/// other two edges are where a sum of u, v and 1 is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct TriangleInF32 {
+struct PolygonInF32 {
+    /// The places of the triangles where w is positive and where it is negative.
+    places: [u32; 2],
     /// The normal of its plane, whose |N|₁ is 1.
     normal: [f32; 3],
-    /// N·A.
-    height: f32,
+    /// The error of N·(A − O) in f64 as a multiple of |O|₁, and alone.
+    height_error: [f32; 2],
     /// U, V, u₀ and v₀.
     gradients: [[f32; 3]; 2],
     at_origin: [f32; 2],
+    /// Factors of u, v and 1; those of u and v add up to 1 or, for w itself, to 2.
+    edges: [[f32; 3]; 2],
     /// The largest |P|₁ of its corners.
     size: f32,
-    /// Three times the relative error s of products with N: 1 over what is left of a divisor that is off by a third is at
-    /// most 1.5 times what it seems.
+    /// Three times the relative error s of N·R: 1 over what is left of a divisor that is off by a third is at most 1.5 times
+    /// what it seems, and by another twelfth, of two planes that are taken for one, less than twice.
     slope_error: f32,
-    /// The errors of the three coordinates: 2 s G, where G is the largest part of a gradient, as a multiple of |O|₁ + |P|₁ +
-    /// |t||R|₁; and 2 G, as one of |R|₁ and the error of t. The third coordinate has those of the other two.
+    /// The errors of the coordinates: 2 s G, where G is the largest part of a gradient, as a multiple of |O|₁ + |P|₁ +
+    /// |t||R|₁; and 2 G, as one of |R|₁ and the error of t. w has those of u and v; sums of those, half as much again.
     coordinate_error: [f32; 2],
 }
 
-impl TriangleInF32 {
-    fn new(triangle: &TriangleRow, plane: &Plane) -> Self {
-        let ([a, b, c], size, normal) = (triangle.corners, triangle.size, plane.normal);
-        let (along, across) = (b - a, c - a);
-        // U·(B − A) and V·(C − A) are 1, U·(C − A) and V·(B − A) are 0.
-        let scale = 1.0 / along.cross(across).dot(normal);
-        let gradients = [across.cross(normal) * scale, normal.cross(along) * scale];
-        let steepest = gradients.map(|of| of.abs().max_element()).into_iter().fold(0.0, f64::max);
+/// The two triangles of a convex quadrilateral.
+struct Quadrilateral {
+    /// The corners of the first: A, and the edge that both have.
+    corners: [DVec3; 3],
+    /// The coordinates u and v of the other's third corner D.
+    of_d: [f64; 2],
+    /// How far D lies from the plane of A, and by how much of |R|₁ its triangle has another slope.
+    apart: [f64; 2],
+    size: f64,
+}
+
+impl Quadrilateral {
+    /// None where no edge is common, or the planes are apart by more than an error of f32, or a corner is not convex.
+    fn of(first: &TriangleRow, second: &TriangleRow) -> Option<Self> {
+        let lone = |of: &TriangleRow, other: &TriangleRow| {
+            let mut alone = (0..3).filter(|corner| !other.corners.contains(&of.corners[*corner]));
+            alone.next().filter(|_| alone.next().is_none())
+        };
+        let (at_a, at_d) = (lone(first, second)?, lone(second, first)?);
+        let turned = |of: &TriangleRow, from: usize| [0, 1, 2].map(|corner| of.corners[(from + corner) % 3]);
+        let (corners, others) = (turned(first, at_a), turned(second, at_d));
+        let (plane, d) = (Plane::new(corners), others[0]);
+        let gradients_of = gradients(corners, plane.normal);
+        let [u, v] = gradients_of.map(|of| of.dot(d - corners[0]));
+        let height = (plane.normal.dot(d) - plane.height).abs();
+        let size = first.size.max(second.size);
+        let steepest = steepest(gradients_of).max(steepest(gradients(others, Plane::new(others).normal)));
+        let is_flat = height <= f64::from(OF_T) / 16.0 * size && height * steepest <= OF_PLANE;
+        let is_convex = u > 0.0 && v > 0.0 && u + v > 1.0 && size < USABLE && steepest < USABLE;
+        // Twice, since the normals differ by the height over that of D's triangle, part by part.
+        (is_flat && is_convex).then_some(Self { corners, of_d: [u, v], apart: [height, 2.0 * height * steepest], size })
+    }
+
+    /// Its edges from B to D and from C to D, as functions that are 0 on them and positive inside.
+    fn edges(&self) -> [[f64; 3]; 2] {
+        let [u, v] = self.of_d;
+        let of_unit = |of: [f64; 3]| of.map(|factor| factor / (of[0].abs() + of[1].abs()));
+        [of_unit([-v, u - 1.0, v]), of_unit([v - 1.0, -u, u])]
+    }
+}
+
+impl PolygonInF32 {
+    /// The triangle at a place, or with that at the next the quadrilateral that they make up.
+    fn at(place: usize, triangles: &[TriangleRow]) -> (Self, Plane) {
+        let first = &triangles[place];
+        let quadrilateral = triangles.get(place + 1).and_then(|second| Quadrilateral::of(first, second));
+        let (corners, size) = quadrilateral.as_ref().map_or((first.corners, first.size), |of| (of.corners, of.size));
+        let mut plane = Plane::new(corners);
+        let normal = plane.normal;
+        let gradients = gradients(corners, normal);
+        let steepest = steepest(gradients);
         let error = OF_SUM * (1.0 + OF_CROSS * plane.thinness);
         // A gradient is at least 1 over an edge, so that none is shorter than the least length.
         let is_usable = size < USABLE && steepest < USABLE && error < MAX_ERROR;
         let of = |error: f64| if is_usable { error as f32 } else { f32::INFINITY };
         let in_f32 = |v: DVec3| v.as_vec3().to_array();
-        Self {
+        let mut edges = [[-1.0, -1.0, 1.0]; 2];
+        let (mut places, mut of_coordinates) = ([place as u32; 2], 2.0);
+        if let Some(quadrilateral) = &quadrilateral {
+            edges = quadrilateral.edges();
+            (places[1], plane.apart, of_coordinates) = (place as u32 + 1, quadrilateral.apart, 3.0);
+        }
+        let polygon = Self {
+            places,
             normal: in_f32(normal),
-            height: plane.height as f32,
+            height_error: [of(plane.error), of(plane.error * plane.size + plane.apart[0] + UNDERFLOW)],
             gradients: gradients.map(in_f32),
-            at_origin: gradients.map(|of| -of.dot(a) as f32),
+            at_origin: gradients.map(|of| -of.dot(corners[0]) as f32),
+            edges: edges.map(|edge| edge.map(|factor| factor as f32)),
             size: size as f32,
             slope_error: of(3.0 * error),
-            coordinate_error: [of(2.0 * error * steepest), of(2.0 * steepest)],
+            coordinate_error: [of(of_coordinates * error * steepest), of(2.0 * steepest)],
+        };
+        (polygon, plane)
+    }
+
+    /// Those of all triangles, and their planes.
+    fn all(triangles: &[TriangleRow]) -> (Vec<Self>, Vec<Plane>) {
+        let (mut polygons, mut planes) = (Vec::with_capacity(triangles.len()), Vec::with_capacity(triangles.len()));
+        let mut place = 0;
+        while place < triangles.len() {
+            let (polygon, plane) = Self::at(place, triangles);
+            place = polygon.places[1] as usize + 1;
+            polygons.push(polygon);
+            planes.push(plane);
         }
+        (polygons, planes)
     }
 }
 
 /// No triangle.
 const NONE: u32 = u32::MAX;
-/// How many triangles f64 tests a ray against besides the one that it certainly hits: that which it starts on and, at a
-/// corner, its neighbours, and those of a lamp at its end.
+/// How many polygons f64 tests a ray against besides the triangle that it certainly hits: that which it starts on and, at
+/// a corner, its neighbours, and a lamp at its end.
 const SUSPECTS: u32 = 6;
-/// The triangles whose suspicion is kept in one number.
+/// The polygons whose suspicion is kept in one number.
 const IN_ONE: usize = u32::BITS as usize;
 /// How many such numbers there are.
 const NUMBERS: usize = TriangleRow::HIERARCHY_FROM.div_ceil(IN_ONE);
 
-/// The places of the triangles that a block of rays may hit first.
+/// What a block of rays may hit first.
 struct Candidates {
-    /// That which each ray certainly hits before all others that it certainly hits.
+    /// The place of the triangle that each ray certainly hits before all others that it certainly hits.
     found: [u32; LANES],
-    /// Those of which the bounds leave open whether they are hit before it, a bit for each.
+    /// The polygons of which the bounds leave open whether they are hit before it, a bit for each.
     suspects: [[u32; LANES]; NUMBERS],
 }
 
 impl Candidates {
-    /// How many of so many numbers' triangles a ray is suspected of hitting first.
+    /// 0 for each ray that is suspected of nothing in so many numbers.
+    #[inline(always)]
+    fn in_doubt(&self, numbers: usize) -> [u32; LANES] {
+        let mut any = [0; LANES];
+        for suspects in &self.suspects[..numbers] {
+            for lane in 0..LANES {
+                any[lane] |= suspects[lane];
+            }
+        }
+        any
+    }
+
+    /// How many of so many numbers' polygons a ray is suspected of hitting first.
     #[inline(always)]
     fn count(&self, numbers: usize, lane: usize) -> u32 {
         self.suspects[..numbers].iter().map(|suspects| suspects[lane].count_ones()).sum()
@@ -137,13 +243,18 @@ impl Candidates {
 /// A block of rays in f32, component by component.
 type Rays = [[[f32; LANES]; 3]; 2];
 
-/// The triangles that each ray may hit first, before a t that is given.
+/// What each ray may hit first, before a t that is given.
 ///
 /// A miss is certain where a coordinate is negative by more than its error, or where all of the interval about t is
-/// behind the ray or beyond the nearest hit; a hit, where all coordinates are positive by more than their error.
+/// behind the ray or beyond the nearest hit; a hit, where all coordinates are positive by more than their error, and w is
+/// not 0 within it, so that it is of one triangle.
 /// Whatever is neither is suspected. A bound that is not a number answers no comparison, and so leaves a suspect.
 #[inline(always)]
-fn first_hits<const FUSED: bool>(triangles: &[TriangleInF32], [o, d]: &Rays, until: &[f32; LANES]) -> Candidates {
+fn first_hits<const FUSED: bool>(
+    (polygons, planes): (&[PolygonInF32], &[Plane]),
+    [o, d]: &Rays,
+    until: &[f32; LANES],
+) -> Candidates {
     let (mut size, mut length) = ([0.0_f32; LANES], [0.0_f32; LANES]);
     let (mut low, mut high) = ([0.0_f32; LANES], [0.0_f32; LANES]);
     for lane in 0..LANES {
@@ -156,38 +267,53 @@ fn first_hits<const FUSED: bool>(triangles: &[TriangleInF32], [o, d]: &Rays, unt
         (size[lane], length[lane]) = (if is_usable { from } else { f32::INFINITY }, along);
         (low[lane], high[lane]) = (until[lane] * (1.0 - OF_T), until[lane] * (1.0 + OF_T));
     }
+    let origin = o.map(|axis| axis.map(f64::from));
     let (mut found, mut suspects) = ([NONE; LANES], [[0; LANES]; NUMBERS]);
-    for (number, triangles) in triangles.chunks(IN_ONE).enumerate() {
+    for (number, (polygons, planes)) in polygons.chunks(IN_ONE).zip(planes.chunks(IN_ONE)).enumerate() {
         let suspects = &mut suspects[number];
-        for (bit, triangle) in triangles.iter().enumerate() {
-            let place = (number * IN_ONE + bit) as u32;
-            let ([nx, ny, nz], [[ux, uy, uz], [vx, vy, vz]]) = (triangle.normal, triangle.gradients);
+        for (bit, (polygon, plane)) in polygons.iter().zip(planes).enumerate() {
+            let mut heights = [0.0_f32; LANES];
+            for lane in 0..LANES {
+                let at = DVec3::new(origin[0][lane], origin[1][lane], origin[2][lane]);
+                heights[lane] = (plane.height - plane.normal.dot(at)) as f32;
+            }
+            let ([nx, ny, nz], [[ux, uy, uz], [vx, vy, vz]]) = (polygon.normal, polygon.gradients);
+            let ([[eu, ev, e1], [fu, fv, f1]], places) = (polygon.edges, polygon.places);
             for lane in 0..LANES {
                 let ([ox, oy, oz], [dx, dy, dz]) =
                     ([o[0][lane], o[1][lane], o[2][lane]], [d[0][lane], d[1][lane], d[2][lane]]);
                 let slope = fma::<FUSED>(nz, dz, fma::<FUSED>(ny, dy, nx * dx));
-                let height = triangle.height - fma::<FUSED>(nz, oz, fma::<FUSED>(ny, oy, nx * ox));
                 let inverse = 1.0 / slope;
-                let t = height * inverse;
+                let t = heights[lane] * inverse;
                 let (x, y, z) = (fma::<FUSED>(t, dx, ox), fma::<FUSED>(t, dy, oy), fma::<FUSED>(t, dz, oz));
-                let u = fma::<FUSED>(z, uz, fma::<FUSED>(y, uy, fma::<FUSED>(x, ux, triangle.at_origin[0])));
-                let v = fma::<FUSED>(z, vz, fma::<FUSED>(y, vy, fma::<FUSED>(x, vx, triangle.at_origin[1])));
-                let inside = smaller(smaller(u, v), 1.0 - u - v);
+                let u = fma::<FUSED>(z, uz, fma::<FUSED>(y, uy, fma::<FUSED>(x, ux, polygon.at_origin[0])));
+                let v = fma::<FUSED>(z, vz, fma::<FUSED>(y, vy, fma::<FUSED>(x, vx, polygon.at_origin[1])));
+                let (w, e, f) = (
+                    1.0 - u - v,
+                    fma::<FUSED>(u, eu, fma::<FUSED>(v, ev, e1)),
+                    fma::<FUSED>(u, fu, fma::<FUSED>(v, fv, f1)),
+                );
+                let inside = smaller(smaller(u, v), smaller(e, f));
 
-                let reach = fma::<FUSED>(t.abs(), length[lane], size[lane] + triangle.size);
-                let t_error = fma::<FUSED>(reach * triangle.slope_error, inverse.abs(), t.abs() * OF_T);
-                let of_t = triangle.coordinate_error[1] * length[lane];
-                let error = fma::<FUSED>(reach, triangle.coordinate_error[0], of_t * t_error);
+                let reach = fma::<FUSED>(t.abs(), length[lane], size[lane] + polygon.size);
+                let height_error = fma::<FUSED>(size[lane], polygon.height_error[0], polygon.height_error[1]);
+                let of_slope = fma::<FUSED>(polygon.slope_error * length[lane], inverse.abs(), OF_T);
+                let t_error = fma::<FUSED>(2.0 * height_error, inverse.abs(), t.abs() * of_slope);
+                let of_t = polygon.coordinate_error[1] * length[lane];
+                let error = fma::<FUSED>(reach, polygon.coordinate_error[0], of_t * t_error);
                 let (t_low, t_high) = (t - t_error, t + t_error);
 
-                let is_steep = slope.abs() > triangle.slope_error * length[lane];
+                let is_steep = slope.abs() > polygon.slope_error * length[lane];
                 let misses = is_steep & ((inside + error < 0.0) | (t_high < 0.0) | (t_low > high[lane]));
-                let is_sure = is_steep & (t_low > 0.0) & (inside > error);
+                let is_sure = is_steep & (t_low > 0.0) & (smaller(inside, w.abs()) > error);
                 let is_closer = !misses & is_sure & (t_high < low[lane]);
                 suspects[lane] |= if misses | is_closer { 0 } else { 1 << bit };
-                low[lane] = if is_closer { t_low } else { low[lane] };
-                high[lane] = if is_closer { t_high } else { high[lane] };
-                found[lane] = if is_closer { place } else { found[lane] };
+                // All bounds of a closer hit are less: a minimum is stored for every ray, where a choice would be for some.
+                low[lane] = smaller(if is_closer { t_low } else { f32::INFINITY }, low[lane]);
+                high[lane] = smaller(if is_closer { t_high } else { f32::INFINITY }, high[lane]);
+                let place = if w > 0.0 { places[0] } else { places[1] };
+                let closer = u32::from(is_closer).wrapping_neg();
+                found[lane] = (place & closer) | (found[lane] & !closer);
             }
         }
     }
@@ -259,11 +385,9 @@ fn filtered_rows<const FUSED: bool>(
         let all: Vec<u32> = (0..t.len() as u32).collect();
         return rows_by_axis(triangles, numbers, rays, &all, t, shape);
     }
-    let planes: Vec<Plane> = triangles.iter().map(|triangle| Plane::new(triangle.corners)).collect();
-    let in_f32: Vec<TriangleInF32> =
-        triangles.iter().zip(&planes).map(|(own, plane)| TriangleInF32::new(own, plane)).collect();
+    let (polygons, planes) = PolygonInF32::all(triangles);
     let (mut pairs, mut against_all) = (Vec::with_capacity(2 * t.len()), Vec::new());
-    let numbers_used = triangles.len().div_ceil(IN_ONE).min(NUMBERS);
+    let numbers_used = polygons.len().div_ceil(IN_ONE).min(NUMBERS);
     for start in (0..t.len()).step_by(LANES) {
         let count = LANES.min(t.len() - start);
         let mut block: Rays = [[[0.0; LANES]; 3], [[1.0; LANES]; 3]];
@@ -275,22 +399,26 @@ fn filtered_rows<const FUSED: bool>(
         for (until, t) in until.iter_mut().zip(&t[start..start + count]) {
             *until = *t as f32;
         }
-        let candidates = first_hits::<FUSED>(&in_f32, &block, &until);
+        let candidates = first_hits::<FUSED>((&polygons, &planes), &block, &until);
+        let in_doubt = candidates.in_doubt(numbers_used);
         for (row, lane) in (start as u32..).zip(0..count) {
-            if candidates.count(numbers_used, lane) > SUSPECTS {
-                against_all.push(row);
-                continue;
-            }
-            // Most rays start on a triangle, which is then behind them.
-            let ray = rays.ray(row as usize);
-            for (before, suspects) in (0_u32..).step_by(IN_ONE).zip(&candidates.suspects[..numbers_used]) {
-                let mut left = suspects[lane];
-                while left != 0 {
-                    let place = before + left.trailing_zeros();
-                    if !planes[place as usize].is_behind(ray) {
-                        pairs.push((row, place));
+            // Few rays are, near edges, and those of shadows before a polygon that is the light.
+            if in_doubt[lane] != 0 {
+                if candidates.count(numbers_used, lane) > SUSPECTS {
+                    against_all.push(row);
+                    continue;
+                }
+                let (ray, until) = (rays.ray(row as usize), t[row as usize]);
+                for (before, suspects) in (0_u32..).step_by(IN_ONE).zip(&candidates.suspects[..numbers_used]) {
+                    let mut left = suspects[lane];
+                    while left != 0 {
+                        let suspect = (before + left.trailing_zeros()) as usize;
+                        if !planes[suspect].is_beyond(ray, until) {
+                            let [first, last] = polygons[suspect].places;
+                            pairs.extend((first..=last).map(|place| (row, place)));
+                        }
+                        left &= left - 1;
                     }
-                    left &= left - 1;
                 }
             }
             if candidates.found[lane] != NONE {
@@ -349,7 +477,7 @@ mod tests {
         let mut draws = Draws::new(2713, 0);
         const SCALES: [f64; 12] = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1e-42, 3e-30, 1e-12, 0.1, 10.0, 1e25];
         const DISTANCES: [f64; 4] = [1e4, 1e11, 1e20, 1e36];
-        let (mut rows_tried, mut in_doubt) = (0_usize, 0_usize);
+        let (mut rows_tried, mut in_doubt, mut of_two) = (0_usize, 0_usize, 0_usize);
         let scales =
             [(1.0, 0.0), (300.0, 900.0), (1e-3, 1.0), (1.0, 1e6), (1e-9, 0.0), (1e9, 0.0), (1e-16, 0.0), (1e20, 0.0)];
         for (scale, away) in scales {
@@ -362,6 +490,17 @@ mod tests {
                 triangles.push(triangles[0]);
                 let [a, b, _] = triangles[0].corners;
                 triangles.push(TriangleRow::new([a, b, point()]));
+                // Quadrilaterals: parallelograms and others, some not convex, as flat as f64 can say, as f32, and less.
+                for number in 0..count {
+                    let [a, b, c] = [point(), point(), point()];
+                    let [across, along] =
+                        [[1.0, 1.0], [0.6, 0.9], [1.7, 2.4], [0.3, 0.8], [1e-4, 1.0], [-0.4, 1.9], [2.2, -0.3]]
+                            [number % 7];
+                    let height = [0.0, 0.0, 1e-9, 3e-8, 3e-6, 0.01][number % 6] * (b - a).length();
+                    let d = a + (b - a) * across + (c - a) * along + (b - a).cross(c - a).normalize_or_zero() * height;
+                    let d = if number % 3 == 0 { d.as_vec3().as_dvec3() } else { d };
+                    triangles.extend([[a, b, c], [b, d, c]].map(TriangleRow::new));
+                }
                 let (mut origins, mut directions) = (Vec::new(), Vec::new());
                 for row in 0..333_usize {
                     let [a, b, c] = triangles[row % triangles.len()].corners;
@@ -406,18 +545,18 @@ mod tests {
                     }
                     rows_tried += 2 * rows.len();
                 }
-                let in_f32: Vec<TriangleInF32> =
-                    triangles.iter().map(|own| TriangleInF32::new(own, &Plane::new(own.corners))).collect();
+                let (polygons, planes) = PolygonInF32::all(&triangles);
+                of_two += triangles.len() - polygons.len();
                 for start in (0..origins.len() - LANES).step_by(LANES) {
                     let part = |own: usize, axis: usize| std::array::from_fn(|lane| columns[own][axis][start + lane]);
                     let block = [0, 1].map(|own| [0, 1, 2].map(|axis| part(own, axis)));
-                    let found = first_hits::<false>(&in_f32, &block, &[f32::INFINITY; LANES]);
+                    let found = first_hits::<false>((&polygons, &planes), &block, &[f32::INFINITY; LANES]);
                     in_doubt += (0..LANES).filter(|lane| found.count(NUMBERS, *lane) > SUSPECTS).count();
                 }
             }
         }
         eprintln!(
-            "first hits: {rows_tried} rays, all bits as from f64; {in_doubt} tested against all, of rays mostly aimed at edges"
+            "first hits: {rows_tried} rays, all bits as from f64; {in_doubt} tested against all, of rays mostly aimed at edges; {of_two} quadrilaterals"
         );
     }
 }
