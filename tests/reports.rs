@@ -1,7 +1,7 @@
 //! Each chapter's kept report has the errors of today's film, says when it was measured, and is small.
 
 use pinhole::scene::{Background, PerspectiveCamera, Rgb};
-use pinhole_cli::command::{has_report, outdated_report};
+use pinhole_cli::command::{has_report, outdated_methods, outdated_report};
 use pinhole_lab::report::kept::{LARGEST, kept, place};
 use std::fs;
 use std::path::Path;
@@ -19,6 +19,7 @@ fn reports_are_of_the_film_that_chapters_make() {
         assert!(report.name == chapter.name && bytes <= LARGEST as u64, "{short}: {bytes} bytes");
         assert!(report.provenance.profile == "release" && !report.provenance.date.is_empty(), "{short}: when?");
     }
+    wrong.extend(outdated_methods(&all).expect("they render"));
     let anew = "cargo run --release -- measure";
     assert!(wrong.is_empty(), "{};\nto measure anew, on a quiet machine: {anew}", wrong.join(",\n"));
     eprintln!("reports: the errors of {looked} kept reports are of today's film");

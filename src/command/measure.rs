@@ -75,17 +75,34 @@ pub fn outdated_report(chapters: &[Chapter], chapter: &Chapter) -> Result<Option
     Ok(None)
 }
 
-/// All that asks for a chapter to be measured anew, in a few words each.
-fn reasons(chapters: &[Chapter], chapter: &Chapter) -> Result<Vec<String>> {
-    let mut reasons: Vec<String> = outdated_costs(chapter)?.into_iter().collect();
-    let film = film_of(chapter)?;
-    if kept_costs(chapter.name).is_ok_and(|text| kept_film(&text) != Some(&film)) {
-        reasons.push("the errors of its stages are of another film".into());
+/// What asks for a chapter to be measured anew, of each kind that is kept in a few words each.
+#[derive(Default)]
+struct Reasons {
+    costs: Vec<String>,
+    report: Vec<String>,
+    methods: Vec<String>,
+}
+
+impl Reasons {
+    fn of(chapters: &[Chapter], chapter: &Chapter) -> Result<Self> {
+        let mut costs: Vec<String> = outdated_costs(chapter)?.into_iter().collect();
+        let film = film_of(chapter)?;
+        if kept_costs(chapter.name).is_ok_and(|text| kept_film(&text) != Some(&film)) {
+            costs.push("the errors of its stages are of another film".into());
+        }
+        let report = if has_report(chapter) { outdated_report(chapters, chapter)? } else { None };
+        let methods = if keeps_methods(chapter) { methods::outdated_methods(chapters)? } else { None };
+        Ok(Self { costs, report: report.into_iter().collect(), methods: methods.into_iter().collect() })
     }
-    if has_report(chapter) {
-        reasons.extend(outdated_report(chapters, chapter)?);
+
+    fn all(&self) -> Vec<&str> {
+        [&self.costs, &self.report, &self.methods].into_iter().flatten().map(String::as_str).collect()
     }
-    Ok(reasons)
+}
+
+/// Whether the curves of all methods are kept beside a chapter.
+fn keeps_methods(chapter: &Chapter) -> bool {
+    methods::KEPT.starts_with(&format!("chapters/{}/", chapter.name))
 }
 
 /// Measures what asks for it, or what it is told to, and keeps it beside the chapters.
@@ -94,10 +111,10 @@ pub fn measure_anew(chapters: &[Chapter], asked: &MeasureAnew, format: Format, s
         None | Some("all") => chapters.iter().collect(),
         Some(name) => vec![find::chapter(chapters, name)?],
     };
-    let mut chosen = Vec::new();
+    let (mut chosen, named) = (Vec::new(), asked.chapter.is_some());
     for chapter in told {
-        let reasons = reasons(chapters, chapter)?;
-        if asked.chapter.is_some() || !reasons.is_empty() {
+        let reasons = Reasons::of(chapters, chapter)?;
+        if named || !reasons.all().is_empty() {
             chosen.push((chapter, reasons));
         }
     }
@@ -109,16 +126,18 @@ pub fn measure_anew(chapters: &[Chapter], asked: &MeasureAnew, format: Format, s
     let (began, mut all) = (Instant::now(), Vec::new());
     for (chapter, reasons) in &chosen {
         if !format.is_json() {
-            let why = if reasons.is_empty() { "as asked".into() } else { reasons.join("; ") };
+            let why = reasons.all().join("; ");
+            let why = if why.is_empty() { "as asked" } else { &why };
             writeln!(streams.out, "{}: {why}", chapter.name)?;
         }
         let began = Instant::now();
-        let files = if asked.dry_run { Vec::new() } else { measure_chapter(chapters, chapter)? };
+        let files =
+            if asked.dry_run { Vec::new() } else { measure_chapter(chapters, chapter, (!named).then_some(reasons))? };
         let seconds = began.elapsed().as_secs_f64();
         if !format.is_json() && !asked.dry_run {
             writeln!(streams.out, "  wrote {} in {seconds:.0} s", files.join(", "))?;
         }
-        all.push(json!({ "chapter": chapter.name, "reasons": reasons, "files": files, "seconds": seconds }));
+        all.push(json!({ "chapter": chapter.name, "reasons": reasons.all(), "files": files, "seconds": seconds }));
     }
     if format.is_json() {
         return print_json(&all, streams.out);
@@ -132,19 +151,25 @@ pub fn measure_anew(chapters: &[Chapter], asked: &MeasureAnew, format: Format, s
     Ok(())
 }
 
-/// Measures all that is kept beside a chapter, and gives the files.
-fn measure_chapter(chapters: &[Chapter], chapter: &Chapter) -> Result<Vec<String>> {
-    let mut files = vec![shown(&measure_and_keep(chapter)?)];
-    if has_report(chapter) {
+/// Measures what there are reasons for, or where none are given all that is kept beside a chapter; gives the files.
+fn measure_chapter(chapters: &[Chapter], chapter: &Chapter, reasons: Option<&Reasons>) -> Result<Vec<String>> {
+    let asks = |of: fn(&Reasons) -> &Vec<String>| reasons.is_none_or(|reasons| !of(reasons).is_empty());
+    let mut files = Vec::new();
+    if asks(|of| &of.costs) {
+        files.push(shown(&measure_and_keep(chapter)?));
+    }
+    if has_report(chapter) && asks(|of| &of.report) {
         let asked = again(chapter, &ReportErrors { write: true, ..ReportErrors::default() });
         let report = measure_one(chapters, &asked, Format::Json, &mut std::io::sink())?;
         files.extend(report.files.into_iter().filter(|file| file.starts_with("chapters")));
     }
-    if methods::KEPT.starts_with(&format!("chapters/{}/", chapter.name)) {
+    if keeps_methods(chapter) && asks(|of| &of.methods) {
         methods::measure_methods(chapters)?;
         files.push(methods::KEPT.into());
     }
-    for (_, file, words) in BENCHES.iter().filter(|(name, ..)| *name == chapter.name) {
+    // A bench's own stages are those of the chapter.
+    let benches = BENCHES.iter().filter(|(name, ..)| *name == chapter.name && asks(|of| &of.costs));
+    for (_, file, words) in benches {
         let bench = process::Command::new("cargo")
             .args(["bench", "--quiet", "--bench"])
             .args(*words)

@@ -4,7 +4,7 @@ use super::error::{Error, Result};
 use super::format::{Format, print_json};
 use super::interrupt::EndsByItself;
 use super::own_file::write_file;
-use super::report::{Bar, METHODS, Rival, measure_one, size, variants};
+use super::report::{Bar, METHODS, Rival, measure_one, rivals, size, variants};
 use super::report_arguments::{ReportErrors, TryMethods};
 use super::subject::Subject;
 use bevy_ecs::prelude::*;
@@ -36,18 +36,40 @@ const SCENES: [(&str, &str, &[&str]); 4] = [
     ("Veach's plates", "tests/methods/veach.ron", &["path_tracing", "bidirectional_path_tracing"]),
 ];
 
+/// What stands before the digests of a scene's films, one for each method.
+const FILMS: &str = "films ";
+
+fn asked_of(scene: &str, methods: &[&str]) -> ReportErrors {
+    let against = methods[1..].iter().map(|method| format!("method={method}")).collect();
+    ReportErrors { subject: scene.into(), against, quick: true, ..ReportErrors::default() }
+}
+
+/// Why what is kept is not of today's films, in a few words; none where it is.
+///
+/// Errors: what a render would be refused for.
+pub fn outdated_methods(chapters: &[Chapter]) -> Result<Option<String>> {
+    let kept = std::fs::read_to_string(repository().join(KEPT)).unwrap_or_default();
+    for (title, scene, methods) in SCENES {
+        let kept = kept.lines().skip_while(|line| !line.starts_with(title)).find_map(|line| line.strip_prefix(FILMS));
+        let kept: Vec<&str> = kept.into_iter().flat_map(str::split_whitespace).collect();
+        let asked = asked_of(scene, methods);
+        let (subject, rivals) = (Subject::find(chapters, scene)?, rivals(chapters, &asked.against)?);
+        for (at, variant) in variants(&subject, &rivals, size(&subject, None)?)?.iter().enumerate() {
+            if kept.get(at) != Some(&variant.film()?.as_str()) {
+                return Ok(Some(format!("the curve of {} in {title} is of another film", methods[at])));
+            }
+        }
+    }
+    Ok(None)
+}
+
 /// Measures error against run time by each method on each scene, and what the pilot says, and keeps both.
 pub(super) fn measure_methods(chapters: &[Chapter]) -> Result {
     let mut text = String::from("error against run time: relMSE, and milliseconds of processor time a picture\n");
     let mut pilots = Vec::new();
     let mut measured = String::new();
     for (title, scene, methods) in SCENES {
-        let asked = ReportErrors {
-            subject: scene.into(),
-            against: methods[1..].iter().map(|method| format!("method={method}")).collect(),
-            quick: true,
-            ..ReportErrors::default()
-        };
+        let asked = asked_of(scene, methods);
         let report = measure_one(chapters, &asked, Format::Json, &mut std::io::sink())?.report;
         let _ = write!(text, "\n{title}, by {}\nsamples", asked.command_line());
         for method in methods {
@@ -62,7 +84,8 @@ pub(super) fn measure_methods(chapters: &[Chapter]) -> Result {
                     write!(text, "  {:>w$}  {:>m$}", numbers[0], numbers[1], w = method.len(), m = method.len() + 3);
             }
         }
-        text.push('\n');
+        let films: Vec<&str> = report.variants.iter().map(|variant| variant.film.as_str()).collect();
+        let _ = writeln!(text, "\n{FILMS}{}", films.join(" "));
         measured = report.provenance.measured();
         let pilot = TryMethods { subject: scene.into(), samples: None, seeds: None, size: None, quick: false };
         print_methods(chapters, &pilot, Format::Text, &mut pilots)?;

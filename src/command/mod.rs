@@ -60,6 +60,7 @@ mod yours;
 pub use error::{Error, Result};
 pub use interrupt::{Waiting, stop_on_interrupt};
 pub use measure::{outdated_costs, outdated_report};
+pub use methods::outdated_methods;
 pub use progress::Progress;
 pub use report::has_report;
 
