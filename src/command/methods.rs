@@ -10,7 +10,7 @@ use super::subject::Subject;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{camera_entity, integrator_of};
 use pinhole::plan::Census;
-use pinhole::scene::{BidirectionalPathTracing, LightTracing, PhotonMapping};
+use pinhole::scene::{BidirectionalPathTracing, FileKind, LightTracing, PhotonMapping, read_file};
 use pinhole::{Chapter, Overrides};
 use pinhole_lab::report::pilot::{Choice, Found, choose, pilot, table};
 use pinhole_lab::report::provenance::processor_and_caches;
@@ -36,6 +36,7 @@ const SCENES: [(&str, &str, &[&str]); 4] = [
     ("Veach's plates", "tests/methods/veach.ron", &["path_tracing", "bidirectional_path_tracing"]),
 ];
 
+const KEPT_CURVES: FileKind = FileKind { name: "kept curves", max: 1 << 20 };
 /// What stands before the digests of a scene's films, one for each method.
 const FILMS: &str = "films ";
 
@@ -48,7 +49,8 @@ fn asked_of(scene: &str, methods: &[&str]) -> ReportErrors {
 ///
 /// Errors: what a render would be refused for.
 pub fn outdated_methods(chapters: &[Chapter]) -> Result<Option<String>> {
-    let kept = std::fs::read_to_string(repository().join(KEPT)).unwrap_or_default();
+    let kept = read_file(&repository().join(KEPT), KEPT_CURVES).unwrap_or_default();
+    let kept = String::from_utf8_lossy(&kept);
     for (title, scene, methods) in SCENES {
         let kept = kept.lines().skip_while(|line| !line.starts_with(title)).find_map(|line| line.strip_prefix(FILMS));
         let kept: Vec<&str> = kept.into_iter().flat_map(str::split_whitespace).collect();
