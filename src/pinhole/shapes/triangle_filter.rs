@@ -79,10 +79,6 @@ fn gradients([a, b, c]: [DVec3; 3], normal: DVec3) -> [DVec3; 2] {
     [across.cross(normal) * scale, normal.cross(along) * scale]
 }
 
-fn steepest(gradients: [DVec3; 2]) -> f64 {
-    gradients.map(|of| of.abs().max_element()).into_iter().fold(0.0, f64::max)
-}
-
 /// A triangle, or two that make up a convex quadrilateral, as the test in f32 reads it, with coefficients of its error
 /// bounds.
 ///
@@ -112,10 +108,30 @@ struct PolygonInF32 {
     coordinate_error: [f32; 2],
 }
 
+/// A triangle's plane, and its barycentric coordinates there.
+struct Barycentrics {
+    /// Its corners from A on.
+    corners: [DVec3; 3],
+    plane: Plane,
+    gradients: [DVec3; 2],
+    /// The largest part of a gradient.
+    steepest: f64,
+}
+
+impl Barycentrics {
+    fn new(triangle: &TriangleRow, from: usize) -> Self {
+        let corners = [0, 1, 2].map(|corner| triangle.corners[(from + corner) % 3]);
+        let plane = Plane::new(corners);
+        let gradients = gradients(corners, plane.normal);
+        let steepest = gradients.map(|of| of.abs().max_element()).into_iter().fold(0.0, f64::max);
+        Self { corners, plane, gradients, steepest }
+    }
+}
+
 /// The two triangles of a convex quadrilateral.
 struct Quadrilateral {
-    /// The corners of the first: A, and the edge that both have.
-    corners: [DVec3; 3],
+    /// The first, from A on, which the other has not.
+    first: Barycentrics,
     /// The coordinates u and v of the other's third corner D.
     of_d: [f64; 2],
     /// How far D lies from the plane of A, and by how much of |R|₁ its triangle has another slope.
@@ -131,18 +147,16 @@ impl Quadrilateral {
             alone.next().filter(|_| alone.next().is_none())
         };
         let (at_a, at_d) = (lone(first, second)?, lone(second, first)?);
-        let turned = |of: &TriangleRow, from: usize| [0, 1, 2].map(|corner| of.corners[(from + corner) % 3]);
-        let (corners, others) = (turned(first, at_a), turned(second, at_d));
-        let (plane, d) = (Plane::new(corners), others[0]);
-        let gradients_of = gradients(corners, plane.normal);
-        let [u, v] = gradients_of.map(|of| of.dot(d - corners[0]));
-        let height = (plane.normal.dot(d) - plane.height).abs();
-        let size = first.size.max(second.size);
-        let steepest = steepest(gradients_of).max(steepest(gradients(others, Plane::new(others).normal)));
+        let (own, other) = (Barycentrics::new(first, at_a), Barycentrics::new(second, at_d));
+        let d = other.corners[0];
+        let [u, v] = own.gradients.map(|of| of.dot(d - own.corners[0]));
+        let height = (own.plane.normal.dot(d) - own.plane.height).abs();
+        let (size, steepest) = (first.size.max(second.size), own.steepest.max(other.steepest));
         let is_flat = height <= f64::from(OF_T) / 16.0 * size && height * steepest <= OF_PLANE;
         let is_convex = u > 0.0 && v > 0.0 && u + v > 1.0 && size < USABLE && steepest < USABLE;
         // Twice, since the normals differ by the height over that of D's triangle, part by part.
-        (is_flat && is_convex).then_some(Self { corners, of_d: [u, v], apart: [height, 2.0 * height * steepest], size })
+        let apart = [height, 2.0 * height * steepest];
+        (is_flat && is_convex).then_some(Self { first: own, of_d: [u, v], apart, size })
     }
 
     /// Its edges from B to D and from C to D, as functions that are 0 on them and positive inside.
@@ -156,27 +170,27 @@ impl Quadrilateral {
 impl PolygonInF32 {
     /// The triangle at a place, or with that at the next the quadrilateral that they make up.
     fn at(place: usize, triangles: &[TriangleRow]) -> (Self, Plane) {
-        let first = &triangles[place];
-        let quadrilateral = triangles.get(place + 1).and_then(|second| Quadrilateral::of(first, second));
-        let (corners, size) = quadrilateral.as_ref().map_or((first.corners, first.size), |of| (of.corners, of.size));
-        let mut plane = Plane::new(corners);
-        let normal = plane.normal;
-        let gradients = gradients(corners, normal);
-        let steepest = steepest(gradients);
+        let own = &triangles[place];
+        let (mut edges, mut places, mut of_coordinates) = ([[-1.0, -1.0, 1.0]; 2], [place as u32; 2], 2.0);
+        let quadrilateral = triangles.get(place + 1).and_then(|next| Quadrilateral::of(own, next));
+        let (first, size) = match quadrilateral {
+            None => (Barycentrics::new(own, 0), own.size),
+            Some(quadrilateral) => {
+                (edges, places[1], of_coordinates) = (quadrilateral.edges(), place as u32 + 1, 3.0);
+                let Quadrilateral { mut first, apart, size, .. } = quadrilateral;
+                first.plane.apart = apart;
+                (first, size)
+            }
+        };
+        let Barycentrics { corners, plane, gradients, steepest } = first;
         let error = OF_SUM * (1.0 + OF_CROSS * plane.thinness);
         // A gradient is at least 1 over an edge, so that none is shorter than the least length.
         let is_usable = size < USABLE && steepest < USABLE && error < MAX_ERROR;
         let of = |error: f64| if is_usable { error as f32 } else { f32::INFINITY };
         let in_f32 = |v: DVec3| v.as_vec3().to_array();
-        let mut edges = [[-1.0, -1.0, 1.0]; 2];
-        let (mut places, mut of_coordinates) = ([place as u32; 2], 2.0);
-        if let Some(quadrilateral) = &quadrilateral {
-            edges = quadrilateral.edges();
-            (places[1], plane.apart, of_coordinates) = (place as u32 + 1, quadrilateral.apart, 3.0);
-        }
         let polygon = Self {
             places,
-            normal: in_f32(normal),
+            normal: in_f32(plane.normal),
             height_error: [of(plane.error), of(plane.error * plane.size + plane.apart[0] + UNDERFLOW)],
             gradients: gradients.map(in_f32),
             at_origin: gradients.map(|of| -of.dot(corners[0]) as f32),
