@@ -1,6 +1,6 @@
 //! Each chapter's kept report has the errors of today's film, says when it was measured, and is small.
 
-use pinhole::scene::{Background, PerspectiveCamera, Rgb};
+use pinhole::scene::{Background, Integrator, LightStrategy, PerspectiveCamera, Rgb};
 use pinhole_cli::command::{has_report, outdated_methods, outdated_report};
 use pinhole_lab::report::kept::{LARGEST, kept, place};
 use std::fs;
@@ -35,6 +35,19 @@ fn a_film_that_differs_asks_for_measuring() {
     });
     let why = outdated_report(&all, &all[at]).expect("it renders");
     assert_eq!(why.as_deref(), Some("the errors of 18_error_and_time are of another film"));
+}
+
+#[test]
+fn curves_of_another_film_ask_for_measuring() {
+    let mut all = chapters::all();
+    let at = all.iter().position(|own| own.name == "39_both_ends").expect("the chapter");
+    all[at] = all[at].clone().with_scene(|world| {
+        let integrator = Integrator::Path { max_depth: 4, lights: LightStrategy::default(), roulette: 5 };
+        world.spawn((PerspectiveCamera::default(), integrator));
+        world.spawn(Background { colour: Rgb::grey(0.5) });
+    });
+    let why = outdated_methods(&all).expect("it renders");
+    assert_eq!(why.as_deref(), Some("the curve of bidirectional_path_tracing in keyhole is of another film"));
 }
 
 /// A method without variance paints the same picture with every seed: one that is black, most likely.

@@ -75,29 +75,28 @@ pub fn outdated_report(chapters: &[Chapter], chapter: &Chapter) -> Result<Option
     Ok(None)
 }
 
-/// What asks for a chapter to be measured anew, of each kind that is kept in a few words each.
-#[derive(Default)]
-struct Reasons {
-    costs: Vec<String>,
-    report: Vec<String>,
-    methods: Vec<String>,
+/// What is kept beside a chapter, by what is measured at once.
+#[derive(Clone, Copy, PartialEq)]
+enum Kept {
+    Costs,
+    Report,
+    Methods,
 }
 
-impl Reasons {
-    fn of(chapters: &[Chapter], chapter: &Chapter) -> Result<Self> {
-        let mut costs: Vec<String> = outdated_costs(chapter)?.into_iter().collect();
-        let film = film_of(chapter)?;
-        if kept_costs(chapter.name).is_ok_and(|text| kept_film(&text) != Some(&film)) {
-            costs.push("the errors of its stages are of another film".into());
-        }
-        let report = if has_report(chapter) { outdated_report(chapters, chapter)? } else { None };
-        let methods = if keeps_methods(chapter) { methods::outdated_methods(chapters)? } else { None };
-        Ok(Self { costs, report: report.into_iter().collect(), methods: methods.into_iter().collect() })
+/// All that asks for a chapter to be measured anew, in a few words each.
+fn reasons(chapters: &[Chapter], chapter: &Chapter) -> Result<Vec<(Kept, String)>> {
+    let mut reasons: Vec<(Kept, String)> = outdated_costs(chapter)?.into_iter().map(|why| (Kept::Costs, why)).collect();
+    let film = film_of(chapter)?;
+    if kept_costs(chapter.name).is_ok_and(|text| kept_film(&text) != Some(&film)) {
+        reasons.push((Kept::Costs, "the errors of its stages are of another film".into()));
     }
-
-    fn all(&self) -> Vec<&str> {
-        [&self.costs, &self.report, &self.methods].into_iter().flatten().map(String::as_str).collect()
+    if has_report(chapter) {
+        reasons.extend(outdated_report(chapters, chapter)?.map(|why| (Kept::Report, why)));
     }
+    if keeps_methods(chapter) {
+        reasons.extend(methods::outdated_methods(chapters)?.map(|why| (Kept::Methods, why)));
+    }
+    Ok(reasons)
 }
 
 /// Whether the curves of all methods are kept beside a chapter.
@@ -113,8 +112,8 @@ pub fn measure_anew(chapters: &[Chapter], asked: &MeasureAnew, format: Format, s
     };
     let (mut chosen, named) = (Vec::new(), asked.chapter.is_some());
     for chapter in told {
-        let reasons = Reasons::of(chapters, chapter)?;
-        if named || !reasons.all().is_empty() {
+        let reasons = reasons(chapters, chapter)?;
+        if named || !reasons.is_empty() {
             chosen.push((chapter, reasons));
         }
     }
@@ -125,19 +124,19 @@ pub fn measure_anew(chapters: &[Chapter], asked: &MeasureAnew, format: Format, s
     }
     let (began, mut all) = (Instant::now(), Vec::new());
     for (chapter, reasons) in &chosen {
+        let told: Vec<&str> = reasons.iter().map(|(_, why)| why.as_str()).collect();
         if !format.is_json() {
-            let why = reasons.all().join("; ");
-            let why = if why.is_empty() { "as asked" } else { &why };
+            let why = if told.is_empty() { "as asked".into() } else { told.join("; ") };
             writeln!(streams.out, "{}: {why}", chapter.name)?;
         }
         let began = Instant::now();
-        let files =
-            if asked.dry_run { Vec::new() } else { measure_chapter(chapters, chapter, (!named).then_some(reasons))? };
+        let asks = |kept: Kept| named || reasons.iter().any(|(own, _)| *own == kept);
+        let files = if asked.dry_run { Vec::new() } else { measure_chapter(chapters, chapter, asks)? };
         let seconds = began.elapsed().as_secs_f64();
         if !format.is_json() && !asked.dry_run {
             writeln!(streams.out, "  wrote {} in {seconds:.0} s", files.join(", "))?;
         }
-        all.push(json!({ "chapter": chapter.name, "reasons": reasons.all(), "files": files, "seconds": seconds }));
+        all.push(json!({ "chapter": chapter.name, "reasons": told, "files": files, "seconds": seconds }));
     }
     if format.is_json() {
         return print_json(&all, streams.out);
@@ -151,24 +150,23 @@ pub fn measure_anew(chapters: &[Chapter], asked: &MeasureAnew, format: Format, s
     Ok(())
 }
 
-/// Measures what there are reasons for, or where none are given all that is kept beside a chapter; gives the files.
-fn measure_chapter(chapters: &[Chapter], chapter: &Chapter, reasons: Option<&Reasons>) -> Result<Vec<String>> {
-    let asks = |of: fn(&Reasons) -> &Vec<String>| reasons.is_none_or(|reasons| !of(reasons).is_empty());
+/// Measures what asks for it of all that is kept beside a chapter, and gives the files.
+fn measure_chapter(chapters: &[Chapter], chapter: &Chapter, asks: impl Fn(Kept) -> bool) -> Result<Vec<String>> {
     let mut files = Vec::new();
-    if asks(|of| &of.costs) {
+    if asks(Kept::Costs) {
         files.push(shown(&measure_and_keep(chapter)?));
     }
-    if has_report(chapter) && asks(|of| &of.report) {
+    if has_report(chapter) && asks(Kept::Report) {
         let asked = again(chapter, &ReportErrors { write: true, ..ReportErrors::default() });
         let report = measure_one(chapters, &asked, Format::Json, &mut std::io::sink())?;
         files.extend(report.files.into_iter().filter(|file| file.starts_with("chapters")));
     }
-    if keeps_methods(chapter) && asks(|of| &of.methods) {
+    if keeps_methods(chapter) && asks(Kept::Methods) {
         methods::measure_methods(chapters)?;
         files.push(methods::KEPT.into());
     }
     // A bench's own stages are those of the chapter.
-    let benches = BENCHES.iter().filter(|(name, ..)| *name == chapter.name && asks(|of| &of.costs));
+    let benches = BENCHES.iter().filter(|(name, ..)| *name == chapter.name && asks(Kept::Costs));
     for (_, file, words) in benches {
         let bench = process::Command::new("cargo")
             .args(["bench", "--quiet", "--bench"])
