@@ -8,8 +8,8 @@ use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-/// How long a program may run.
-const PATIENCE: Duration = Duration::from_secs(60);
+/// How long a program may run; those that end take up to half a minute, and several times that beside other work.
+const PATIENCE: Duration = Duration::from_secs(600);
 /// How long one with a known mistake may run.
 const LATE: Duration = Duration::from_secs(12);
 /// How long mistakes are tried, one after the other; a reader waits for it.
