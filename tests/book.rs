@@ -215,12 +215,13 @@ fn moved(page: &Page) -> Vec<(&str, Vec<Movement>)> {
 fn picture(command: &str, setting: &str) -> Vec<u8> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("figure.png").display().to_string();
-    let command = command.replace("--size 480x270", "--size 48x27");
     let mut words: Vec<String> = command.split_whitespace().map(str::to_owned).collect();
-    if let Some(own) = words.iter().position(|word| word == "--samples") {
-        words.drain(own..own + 2);
+    for option in ["--size", "--samples"] {
+        if let Some(own) = words.iter().position(|word| word == option) {
+            words.drain(own..own + 2);
+        }
     }
-    words.extend(["--quiet", "--set", setting, "-o", &file].map(str::to_owned));
+    words.extend(["--size", "48x27", "--quiet", "--set", setting, "-o", &file].map(str::to_owned));
     if !setting.contains(".sampling.samples=") {
         words.extend(["--samples", "4"].map(str::to_owned));
     }
