@@ -20,7 +20,7 @@ pub struct Sample;
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Bounce;
 
-/// The order of the stages: each set runs after the one above it.
+/// The order of the stages: the plan lists each set's after those of the set above it, and a schedule runs them so.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum TileSystems {
     /// Raster points, in pixels.
