@@ -37,7 +37,7 @@ fn main() -> std::io::Result<()> {
             fs::write(format!("out/mine/{number}_right.png"), sheet(pairs)?)?;
             println!("{name}: {seconds:.1} s; right: {}", told(pairs, seen));
         }
-        let all = mistakes_of(chapter, *answers, &Overrides::default(), Scenes::All);
+        let all = mistakes_of(chapter, *answers, &[Overrides::default()], Scenes::All);
         for (at, (what, shown)) in all.iter().enumerate() {
             let is = if shown.is_shown() { "shown" } else { "NOT SHOWN" };
             let told = match shown {

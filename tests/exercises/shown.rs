@@ -74,14 +74,24 @@ impl Shown {
     }
 }
 
-/// The mistakes of a chapter with their names, and what each one's picture shows.
+/// The mistakes of a chapter with their names, and what each one's picture shows: the first of these that shows it, or the
+/// last.
 pub fn mistakes_of(
     chapter: &Chapter,
     answers: fn() -> Answers,
-    asked: &Overrides,
+    asked: &[Overrides],
     scenes: Scenes,
 ) -> Vec<(&'static str, Shown)> {
-    let pinholes = Pinholes::default();
-    let of = |wrong: &Exercise| Shown::beside(&pinholes, chapter, wrong, asked, scenes);
+    let pinholes: Vec<Pinholes> = asked.iter().map(|_| Pinholes::default()).collect();
+    let of = |wrong: &Exercise| {
+        let mut shown = Shown::Pictures(Vec::new(), Vec::new());
+        for (asked, pinholes) in asked.iter().zip(&pinholes) {
+            shown = Shown::beside(pinholes, chapter, wrong, asked, scenes);
+            if shown.is_shown() {
+                break;
+            }
+        }
+        shown
+    };
     answers().wrong.iter().map(|(wrong, name)| (*name, of(wrong))).collect()
 }

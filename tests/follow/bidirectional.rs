@@ -61,7 +61,7 @@ fn closed_forms_of_caustics_hold() {
     let mut tried = 0;
     for (number, form) in (300..).zip(forms()) {
         let make = joined(&*form.make);
-        let found = mean_of(&make, &offer(), 3 * form.samples, number * SEEDS..(number + 1) * SEEDS);
+        let found = mean_of(&make, &offer(), form.samples, number * SEEDS..(number + 1) * SEEDS);
         let off = (found.mean - form.truth) / found.error;
         eprintln!("{:<36} {:.5} ± {:.5} for {:.5}: {off:+.1} SE", form.name, found.mean, found.error, form.truth);
         assert!(off.abs() <= 4.0, "{}", form.name);
@@ -169,7 +169,7 @@ fn every_light_brings_what_paths_from_the_camera_bring() {
     ];
     let tried = cases.len();
     for (name, lamps) in cases {
-        agrees(name, &|| room(&*lamps), [32, 8]);
+        agrees(name, &|| room(&*lamps), [8, 2]);
     }
     let many = |world: &mut World| {
         for number in 0..100 {
@@ -177,13 +177,13 @@ fn every_light_brings_what_paths_from_the_camera_bring() {
             world.spawn((Sphere { radius: 0.03 }, glow(1.0 + f64::from(number)), at));
         }
     };
-    agrees("many lamps of a hierarchy", &|| room(&many), [48, 12]);
+    agrees("many lamps of a hierarchy", &|| room(&many), [12, 3]);
     let metal = || under_a_knot(Metal { roughness: 0.4, ..Metal::default() });
-    agrees("metal under an emitting mesh", &metal, [48, 16]);
+    agrees("metal under an emitting mesh", &metal, [12, 4]);
     agrees(
         "frosted glass under an emitting mesh",
         &|| under_a_knot(RoughGlass { roughness: 0.5, ..Default::default() }),
-        [48, 16],
+        [12, 4],
     );
     eprintln!("bidirectional: {} kinds of light, 0 blocks apart", tried + 3);
 }
@@ -209,7 +209,7 @@ fn every_camera_and_glass_bring_what_paths_from_the_camera_bring() {
                 world.entity_mut(camera).insert(Lens { aperture, focus_distance: 3.0, blades: 5, ..Lens::default() });
             })
         },
-        [32, 8],
+        [8, 2],
     );
     agrees(
         "parallel rays",
@@ -218,7 +218,7 @@ fn every_camera_and_glass_bring_what_paths_from_the_camera_bring() {
                 world.entity_mut(camera).remove::<PerspectiveCamera>().insert(OrthographicCamera { view_height: 2.2 });
             })
         },
-        [32, 8],
+        [8, 2],
     );
     agrees(
         "a ball of glass and a mirror",
@@ -228,7 +228,7 @@ fn every_camera_and_glass_bring_what_paths_from_the_camera_bring() {
                 world.spawn((Rectangle { width: 0.6, depth: 0.6 }, Mirror::default(), Placement::at(0.5, 0.02, -0.4)));
             })
         },
-        [128, 32],
+        [32, 8],
     );
     agrees(
         "a lamp in frosted glass",
@@ -238,7 +238,7 @@ fn every_camera_and_glass_bring_what_paths_from_the_camera_bring() {
                 world.spawn((Sphere { radius: 0.4 }, rough, Placement::at(0.2, 1.5, 0.0)));
             })
         },
-        [96, 32],
+        [24, 8],
     );
     agrees(
         "a camera in glass",
@@ -248,9 +248,9 @@ fn every_camera_and_glass_bring_what_paths_from_the_camera_bring() {
                 world.spawn((Cuboid { size: DVec3::splat(2.0) }, glass, Placement::at(0.0, 1.0, 4.0)));
             })
         },
-        [96, 32],
+        [24, 8],
     );
-    agrees("caustics", &|| caustics(true), [96, 32]);
+    agrees("caustics", &|| caustics(true), [24, 8]);
     for name in ["cornell-glass", "veach-mis"] {
         let make = || {
             let mut world = public(name, LightStrategy::Mis);
@@ -258,7 +258,7 @@ fn every_camera_and_glass_bring_what_paths_from_the_camera_bring() {
             world.entity_mut(camera).insert(Resolution { width: 32, height: 32 });
             world
         };
-        agrees(name, &make, [96, 32]);
+        agrees(name, &make, [24, 8]);
     }
 }
 
@@ -384,8 +384,8 @@ fn a_sun_beside_lamps_brings_what_light_tracing_brings() {
         [("a sun like the lamps", 1.0), ("a faint sun", 0.02), ("a sun that outshines them", 50.0)]
     {
         let make = || in_the_sun(irradiance);
-        let traced = renders(&traced(&make), LightStrategy::Mis, 48, 0..SETS);
-        let both = renders(&joined(&make), LightStrategy::Mis, 24, SETS..2 * SETS);
+        let traced = renders(&traced(&make), LightStrategy::Mis, 12, 0..SETS);
+        let both = renders(&joined(&make), LightStrategy::Mis, 6, SETS..2 * SETS);
         assert_agree(name, &traced, &both, 8);
     }
 }

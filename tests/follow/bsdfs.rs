@@ -200,8 +200,8 @@ impl Cell {
         }
     }
 
-    fn holds(self, angle: f64, turn: f64) -> bool {
-        (self.angle[0]..self.angle[1]).contains(&angle) && (self.turn[0]..self.turn[1]).contains(&turn)
+    fn holds(self, (angle, turn): (f64, f64)) -> bool {
+        self.angle[0] <= angle && angle < self.angle[1] && self.turn[0] <= turn && turn < self.turn[1]
     }
 
     /// ∫ f dω over the cell, refined until halving it changes little.
@@ -231,18 +231,23 @@ fn place_of(light: DVec3) -> (f64, f64) {
 
 /// Cells that hold at most so many of these places each, of all directions to which light is sent, and how many of other
 /// places each holds.
-fn cells(places: Vec<(f64, f64)>, others: &[(f64, f64)], max: usize, either_side: bool) -> Vec<(Cell, usize)> {
+fn cells(places: &[(f64, f64)], others: &[(f64, f64)], max: usize, either_side: bool) -> Vec<(Cell, usize)> {
     let sides = if either_side { &[0.0, 0.5 * PI][..] } else { &[0.0] };
-    let whole =
-        |&low: &f64| (Cell { angle: [low, low + 0.5 * PI], turn: [0.0, TAU] }, [places.clone(), others.to_vec()], 0);
-    let mut open: Vec<(Cell, [Vec<(f64, f64)>; 2], u32)> = sides.iter().map(whole).collect();
+    let mut open: Vec<(Cell, [Vec<(f64, f64)>; 2], u32)> = Vec::new();
+    for &low in sides {
+        let cell = Cell { angle: [low, low + 0.5 * PI], turn: [0.0, TAU] };
+        let within = |of: &[(f64, f64)]| of.iter().copied().filter(|&place| cell.holds(place)).collect();
+        open.push((cell, [within(places), within(others)], 0));
+    }
     let mut found = Vec::new();
-    while let Some((cell, mut inside, depth)) = open.pop() {
-        inside.iter_mut().for_each(|inside| inside.retain(|&(angle, turn)| cell.holds(angle, turn)));
+    while let Some((cell, inside, depth)) = open.pop() {
         if inside[0].len() <= max || depth == 48 {
             found.push((cell, inside[1].len()));
         } else {
-            open.extend(cell.halves().map(|half| (half, inside.clone(), depth + 1)));
+            let halves = cell.halves();
+            let [(a, b), (c, d)] =
+                inside.map(|of| of.into_iter().partition::<Vec<_>, _>(|&place| halves[0].holds(place)));
+            open.extend([(halves[0], [a, c], depth + 1), (halves[1], [b, d], depth + 1)]);
         }
     }
     found
@@ -263,7 +268,7 @@ fn p_of(example: &Example, context: &ShadingContext, angle: f64, seed: u64) -> f
     };
     // The cells must not depend on the samples that are counted in them.
     let sampled = places(seed + 1);
-    let (cells, rule) = (cells(places(seed), &sampled, 150, example.transmits), Quadrature::default());
+    let (cells, rule) = (cells(&places(seed), &sampled, 150, example.transmits), Quadrature::default());
     let mut bins = Bins::new(cells.len() + 1);
     for (bin, (cell, count)) in cells.iter().enumerate() {
         (0..*count).for_each(|_| bins.count(bin));

@@ -163,10 +163,10 @@ fn a_sun_s_caustics_are_those_of_a_small_far_light() {
             world
         }
     };
-    let sun = renders(&make(false), LightStrategy::Mis, 64, 0..SETS);
-    let far = renders(&make(true), LightStrategy::Mis, 64, SETS..2 * SETS);
+    let sun = renders(&make(false), LightStrategy::Mis, 24, 0..SETS);
+    let far = renders(&make(true), LightStrategy::Mis, 24, SETS..2 * SETS);
     assert_agree("a sun and a far ball", &sun, &far, 4);
-    let from_both_ends = renders(&joined(&make(false)), LightStrategy::Mis, 32, 2 * SETS..3 * SETS);
+    let from_both_ends = renders(&joined(&make(false)), LightStrategy::Mis, 12, 2 * SETS..3 * SETS);
     assert_agree("a sun from both ends, and a far ball", &from_both_ends, &far, 4);
     let without = || {
         let mut world = make(false)();
@@ -174,7 +174,7 @@ fn a_sun_s_caustics_are_those_of_a_small_far_light() {
         world.entity_mut(camera).remove::<LightTracing>();
         world
     };
-    let without = renders(&without, LightStrategy::Mis, 64, 0..SETS);
+    let without = renders(&without, LightStrategy::Mis, 24, 0..SETS);
     let found = agreement(&without, &sun, 4).expect("one size");
     eprintln!("a sun's caustics are seen in {} of {} blocks", found.apart, found.tests);
     assert!(!found.agrees(), "without light tracing they are missing");

@@ -37,7 +37,7 @@ fn under_a_pipe_and_a_hat(ball: impl Bundle) -> World {
 #[test]
 fn light_strategies_agree_under_cylinders_and_cones() {
     let make = || under_a_pipe_and_a_hat(Matte { colour: Rgb::new(0.5, 0.7, 0.8) });
-    strategies_agree("a pipe and a hat", &make, ALL, 16, 8);
+    strategies_agree("a pipe and a hat", &make, ALL, 6, 8);
 }
 
 #[test]

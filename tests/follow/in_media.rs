@@ -78,7 +78,7 @@ fn joined_paths_bring_what_paths_from_the_camera_bring() {
         let all = 0..if times_samples() > 1 { lights.len() } else { 2 };
         for light in all.map(|step| lights[(filling + step) % lights.len()]) {
             let make = || room(&|world| (fill(world, filling), shine(world, light)).0);
-            agrees(&format!("filling {filling}, light {light}"), &make, [32, 8]);
+            agrees(&format!("filling {filling}, light {light}"), &make, [8, 2]);
             tried += 1;
         }
     }
@@ -104,8 +104,8 @@ fn light_tracing_brings_what_paths_from_the_camera_bring() {
             world.entity_mut(camera).insert(LightTracing::default());
             world
         };
-        let alone = renders(&make, LightStrategy::Mis, 16, 0..12);
-        let both = renders(&traced, LightStrategy::Mis, 8, 12..24);
+        let alone = renders(&make, LightStrategy::Mis, 8, 0..12);
+        let both = renders(&traced, LightStrategy::Mis, 4, 12..24);
         assert_agree(&format!("caustics, filling {filling}"), &alone, &both, 8);
         tried += 1;
     }

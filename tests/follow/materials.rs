@@ -126,7 +126,7 @@ fn light_strategies_agree_at_every_material() {
             let mean = film.mean(plate * SIDE + SIDE / 2, SIDE / 2);
             assert!(mean[0] > 1e-4, "plate {plate} of {name} is black");
         }
-        strategies_agree(name, &|| scene(lights, narrow), strategies, 12, SIDE);
+        strategies_agree(name, &|| scene(lights, narrow), strategies, 6, SIDE);
     }
 }
 
@@ -154,7 +154,7 @@ fn photons_agree_with_paths_at_every_material() {
             world
         }
     };
-    let alone = renders(&make(false), LightStrategy::Mis, 64, 0..SETS);
+    let alone = renders(&make(false), LightStrategy::Mis, 24, 0..SETS);
     let photons = renders(&make(true), LightStrategy::Mis, 8, SETS..2 * SETS);
     let found = assert_agree("photons and paths at every material", &alone, &photons, SIDE);
     assert_eq!(found.tests, 3 * plates(false).len(), "a block for each material and channel");
@@ -171,7 +171,7 @@ fn joined_paths_agree_with_paths_at_every_material() {
     let mut tried = 0;
     for narrow in [false, true] {
         let make = || scene(&lamp, narrow);
-        let alone = renders(&make, LightStrategy::Mis, 64, 0..SETS);
+        let alone = renders(&make, LightStrategy::Mis, 16, 0..SETS);
         let both = renders(&super::bidirectional::joined(&make), LightStrategy::Mis, 16, SETS..2 * SETS);
         let found = assert_agree("joined paths at every material", &alone, &both, SIDE);
         assert_eq!(found.tests, 3 * plates(narrow).len(), "a block for each material and channel");

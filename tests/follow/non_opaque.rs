@@ -131,7 +131,7 @@ fn light_through_gaps_is_found_alike_by_all_strategies() {
         ));
         world
     };
-    strategies_agree("gaps", &room, ALL, 32, 8);
+    strategies_agree("gaps", &room, ALL, 12, 8);
 }
 
 /// A mask leaves what a smaller shape is, to the last bit, on the screen and in shadows; traced and rasterised alike.

@@ -86,11 +86,11 @@ fn photons_bring_what_closed_forms_say() {
 #[test]
 fn photons_bring_what_other_methods_bring() {
     const SETS: u64 = 12;
-    let alone = renders(&|| caustics(true), LightStrategy::Mis, 96, 0..SETS);
+    let alone = renders(&|| caustics(true), LightStrategy::Mis, 32, 0..SETS);
     for (number, lights) in [LightStrategy::Bsdf, LightStrategy::Light, LightStrategy::Mis].into_iter().enumerate() {
         let first = SETS * (number as u64 + 1);
         // Means of few samples are skewed where few photons arrive.
-        let photons = renders(&mapped(|| caustics(true), 0.02), lights, 48, first..first + SETS);
+        let photons = renders(&mapped(|| caustics(true), 0.02), lights, 16, first..first + SETS);
         assert_agree(&format!("photons and paths, {lights:?}"), &alone, &photons, 8);
     }
     // Through water that the camera looks into, where light tracing finds nothing.

@@ -23,6 +23,8 @@ const BLOCKS: usize = 16;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     size: [usize; 3],
+    /// Those along x first, with the outermost once more on every side: a cell between eight centres that lies half outside
+    /// finds its corners as any other does.
     values: Vec<f32>,
     /// The voxels along a block's edges.
     block: usize,
@@ -167,7 +169,9 @@ fn read_vol(bytes: &[u8]) -> Result<Grid, String> {
     if (held as u64) < voxels {
         return Err(format!("it ends after {held} of {voxels} voxels"));
     }
-    check_memory(voxels * 5).map_err(|too_little| format!("it has {voxels} voxels, which {too_little}"))?;
+    let bordered: u64 = size.iter().map(|side| u64::from(side.unsigned_abs()) + 2).product();
+    check_memory(4 * (voxels + bordered))
+        .map_err(|too_little| format!("it has {voxels} voxels, which {too_little}"))?;
     let numbers = bytes[HEAD..].chunks_exact(4).take(voxels as usize);
     let mut values: Vec<f32> = numbers.map(|word| f32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect();
     if let Some(wrong) = values.iter().find(|value| !value.is_finite()) {
@@ -187,7 +191,15 @@ impl Grid {
     pub fn new(size: [usize; 3], values: Vec<f32>) -> Self {
         let block = size.into_iter().max().unwrap_or(1).div_ceil(BLOCKS);
         let blocks = size.map(|side| side.div_ceil(block));
-        let mut own = Self { size, values, block, blocks, max: Vec::new(), remarks: Vec::new() };
+        let mut bordered = Vec::with_capacity(size.iter().map(|side| side + 2).product());
+        let places = |side: usize| (0..side + 2).map(move |place| place.saturating_sub(1).min(side - 1));
+        for z in places(size[2]) {
+            for y in places(size[1]) {
+                let row = (z * size[1] + y) * size[0];
+                bordered.extend(places(size[0]).map(|x| values[row + x]));
+            }
+        }
+        let mut own = Self { size, values: bordered, block, blocks, max: Vec::new(), remarks: Vec::new() };
         let mut max = Vec::with_capacity(blocks.iter().product());
         for z in 0..blocks[2] {
             for y in 0..blocks[1] {
@@ -206,10 +218,10 @@ impl Grid {
     /// The greatest value that the density within a block is interpolated between: the block's own voxels, and those around.
     fn max_within(&self, at: [usize; 3]) -> f32 {
         let [x, y, z] = [0, 1, 2].map(|axis| {
-            let first = (at[axis] * self.block).saturating_sub(1);
-            first..((at[axis] + 1) * self.block + 1).min(self.size[axis])
+            let first = at[axis] * self.block;
+            first..(first + self.block + 2).min(self.size[axis] + 2)
         });
-        let rows = z.flat_map(|z| y.clone().map(move |y| (z * self.size[1] + y) * self.size[0]));
+        let rows = z.flat_map(|z| y.clone().map(move |y| (z * (self.size[1] + 2) + y) * (self.size[0] + 2)));
         rows.flat_map(|row| &self.values[row + x.start..row + x.end]).fold(0.0, |max, &value| max.max(value))
     }
 
@@ -232,25 +244,24 @@ impl Grid {
             return 0.0;
         }
         let from_centres = point - 0.5;
-        let cell = from_centres.floor();
-        interpolated(&self.corners([cell.x as i64, cell.y as i64, cell.z as i64]), from_centres - cell)
+        // Rounded down, which a conversion to a whole number does for what is not below 0.
+        let floor = |at: f64| at as i64 - i64::from(at < 0.0);
+        let cell = [floor(from_centres.x), floor(from_centres.y), floor(from_centres.z)];
+        interpolated(&self.corners(cell), from_centres - at_cell(cell))
     }
 
     /// The densities at the corners of a cell between eight centres, which may lie half outside; those along x first.
     #[inline(always)]
-    fn corners(&self, cell: [i64; 3]) -> [f64; 8] {
-        let [x, y, z] = [0, 1, 2].map(|axis| {
-            let last = self.size[axis] as i64 - 1;
-            [cell[axis], cell[axis] + 1].map(|place| place.clamp(0, last) as usize)
-        });
-        let row = |y: usize, z: usize| (z * self.size[1] + y) * self.size[0];
-        let rows = [row(y[0], z[0]), row(y[1], z[0]), row(y[0], z[1]), row(y[1], z[1])];
-        let mut corners = [0.0; 8];
-        for (pair, row) in rows.into_iter().enumerate() {
-            corners[2 * pair] = f64::from(self.values[row + x[0]]);
-            corners[2 * pair + 1] = f64::from(self.values[row + x[1]]);
-        }
-        corners
+    fn corners(&self, [x, y, z]: [i64; 3]) -> [f64; 8] {
+        // Rounding may say that a ray along a face of the box is outside.
+        let bordered = |place: i64, side: usize| (place + 1).clamp(0, side as i64) as usize;
+        let [along_y, along_z] = [self.size[0] + 2, (self.size[0] + 2) * (self.size[1] + 2)];
+        let first =
+            bordered(x, self.size[0]) + bordered(y, self.size[1]) * along_y + bordered(z, self.size[2]) * along_z;
+        let [near, far] = [first, first + along_z];
+        let [a, b, c, d] =
+            [near, near + along_y, far, far + along_y].map(|row| [self.values[row], self.values[row + 1]]);
+        [a[0], a[1], b[0], b[1], c[0], c[1], d[0], d[1]].map(f64::from)
     }
 
     /// The integral of the density along a ray of index space, from one distance to another.
@@ -264,7 +275,7 @@ impl Grid {
         self.blocks_along(ray, range, |of_block, _| {
             cells_along([origin, direction], of_block, |cell, [from, to]| {
                 let corners = self.corners(cell);
-                let base = origin - DVec3::from_array(cell.map(|place| place as f64));
+                let base = origin - at_cell(cell);
                 let at = |node: f64| interpolated(&corners, base + (from + node * (to - from)) * direction);
                 sum += 0.5 * (to - from) * (at(NODES[0]) + at(NODES[1]));
             });
@@ -311,14 +322,16 @@ impl Grid {
 ///
 /// Where it enters a cell is computed from the ray anew and not added up, so that no error grows along the way.
 #[inline(always)]
-fn cells_along([origin, direction]: [DVec3; 2], [from, to]: [f64; 2], mut visit: impl FnMut([i64; 3], [f64; 2])) {
-    let mut cell = (origin + from * direction).floor().to_array().map(|place| place as i64);
+fn cells_along(ray: [DVec3; 2], [from, to]: [f64; 2], mut visit: impl FnMut([i64; 3], [f64; 2])) {
+    let [x, y, z] = (ray[0] + from * ray[1]).floor().to_array();
+    let mut cell = [x as i64, y as i64, z as i64];
+    let [origin, direction] = ray.map(|of| of.to_array());
     let leaves = |axis: usize, place: i64| match direction[axis] {
         along if along > 0.0 => ((place + 1) as f64 - origin[axis]) / along,
         along if along < 0.0 => (place as f64 - origin[axis]) / along,
         _ => f64::INFINITY,
     };
-    let mut next = [0, 1, 2].map(|axis| leaves(axis, cell[axis]));
+    let mut next = [leaves(0, cell[0]), leaves(1, cell[1]), leaves(2, cell[2])];
     let mut at = from;
     loop {
         let axis = if next[0] <= next[1] && next[0] <= next[2] {
@@ -339,6 +352,12 @@ fn cells_along([origin, direction]: [DVec3; 2], [from, to]: [f64; 2], mut visit:
         cell[axis] += if direction[axis] > 0.0 { 1 } else { -1 };
         next[axis] = leaves(axis, cell[axis]);
     }
+}
+
+/// The corner of a cell from which it is counted.
+#[inline(always)]
+fn at_cell([x, y, z]: [i64; 3]) -> DVec3 {
+    DVec3::new(x as f64, y as f64, z as f64)
 }
 
 /// The trilinear interpolation of eight corners, by fractions of the cell's edges.
@@ -441,7 +460,9 @@ mod tests {
         (0..6).for_each(|_| file.extend(0.0_f32.to_le_bytes()));
         [0.0_f32, 1.0, 2.0, -3.0, 4.0, 5.0].iter().for_each(|value| file.extend(value.to_le_bytes()));
         let grid = read_vol(&file).expect("read");
-        assert_eq!((grid.size, &grid.values[..]), ([2, 3, 1], &[0.0, 1.0, 2.0, 0.0, 4.0, 5.0][..]));
+        assert_eq!((grid.size, grid.values.len()), ([2, 3, 1], 4 * 5 * 3));
+        let centres = (0..6).map(|at| grid.density(DVec3::new((at % 2) as f64 + 0.5, (at / 2) as f64 + 0.5, 0.5)));
+        assert_eq!(centres.collect::<Vec<f64>>(), [0.0, 1.0, 2.0, 0.0, 4.0, 5.0]);
         assert_eq!(grid.remarks.len(), 1, "{:?}", grid.remarks);
         let mut refused = 0;
         for length in 0..file.len() {

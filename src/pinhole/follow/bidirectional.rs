@@ -25,6 +25,8 @@ use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::{DVec3, Vec3};
+use rayon::ThreadPool;
+use rayon::prelude::*;
 
 column! {
     /// The vertices of a batch of light paths on surfaces that are not specular, in the order of bounces and paths.
@@ -147,61 +149,45 @@ pub fn store_vertices(
     for (view, columns, interface) in &mut tiles {
         let interface = Interface::new(interface, glass.as_deref());
         let StoreVerticesViewItem { depth, rays, paths, surfaces, shading, power, list, mis, mut vertices } = view;
-        for &row in &list.row {
+        let first = vertices.rows();
+        let (
+            of_path,
+            mut position,
+            mut normal,
+            mut shaded,
+            mut to_light,
+            bound,
+            of_material,
+            mut colour,
+            metallic,
+            roughness,
+            eta,
+            mut carries,
+            arrival,
+            earlier,
+            segments,
+        ) = vertices.slices_mut(first + list.row.len());
+        for (at, &row) in (first..).zip(&list.row) {
             let row = row as usize;
             let (surface, path) = (surfaces.get(row), paths.first[row] as usize);
             let material = surface.material as usize;
+            let parameters = columns.get(&materials, row, material);
             let (whole, carried) = (power.rgb(path), paths.throughput(row));
-            vertices.append(
-                path as u32,
-                &LightVertex {
-                    position: surface.position,
-                    normal: surface.normal,
-                    shading: shading.map_or(surface.normal, |shading| shading.normal(row)),
-                    to_light: -rays.direction_of(row).as_vec3(),
-                    bound: surface.bound,
-                    material: surface.material,
-                    parameters: columns.get(&materials, row, material),
-                    eta: interface.eta(materials.interior[material], row),
-                    power: [0, 1, 2].map(|part| whole[part] * carried[part]),
-                    arrival: mis.arrival[path],
-                    earlier: mis.earlier[path],
-                    segments: depth.0 + 1,
-                },
-            );
+            (of_path[at], of_material[at], segments[at]) = (path as u32, surface.material, depth.0 + 1);
+            position.put(at, surface.position);
+            normal.put(at, surface.normal);
+            shaded.put(at, shading.map_or(surface.normal, |shading| shading.normal(row)));
+            to_light.put(at, -rays.direction_of(row).as_vec3());
+            bound[at] = surface.bound;
+            colour.put(at, parameters.colour);
+            (metallic[at], roughness[at]) = (parameters.metallic, parameters.roughness);
+            eta[at] = interface.eta(materials.interior[material], row);
+            carries.put(at, [whole[0] * carried[0], whole[1] * carried[1], whole[2] * carried[2]]);
+            (arrival[at], earlier[at]) = (mis.arrival[path], mis.earlier[path]);
         }
     }
 }
 // ANCHOR_END: store_vertices
-
-impl LightVertices {
-    /// Appends a vertex of a path.
-    fn append(&mut self, path: u32, own: &LightVertex) {
-        let vectors = [
-            (&mut self.position, own.position),
-            (&mut self.normal, own.normal),
-            (&mut self.shading, own.shading),
-            (&mut self.to_light, own.to_light),
-        ];
-        for (columns, vector) in vectors {
-            columns.iter_mut().zip(vector.to_array()).for_each(|(column, part)| column.push(part));
-        }
-        for (columns, colour) in [(&mut self.colour, own.parameters.colour), (&mut self.power, own.power)] {
-            columns.iter_mut().zip(colour).for_each(|(column, part)| column.push(part));
-        }
-        let numbers = [
-            (&mut self.metallic, own.parameters.metallic),
-            (&mut self.roughness, own.parameters.roughness),
-            (&mut self.eta, own.eta),
-            (&mut self.arrival, own.arrival),
-            (&mut self.earlier, own.earlier),
-        ];
-        numbers.into_iter().for_each(|(column, number)| column.push(number));
-        let counts = [(&mut self.path, path), (&mut self.material, own.material), (&mut self.segments, own.segments)];
-        counts.into_iter().for_each(|(column, number)| column.push(number));
-        self.bound.push(own.bound);
-    }
-}
 
 /// The stage that runs [`store_vertices`].
 pub fn store_vertices_stage() -> Stage {
@@ -239,25 +225,44 @@ impl Table for LightVertexMap {
 }
 
 impl LightVertexMap {
-    /// The map of the vertices that batches of so many paths have left, for an image of this size.
-    pub fn new(batches: &[LightVertices], paths_each: u32, [width, height]: [u32; 2]) -> Self {
-        let paths = batches.len() * paths_each as usize;
-        let mut first = vec![0_u32; paths + 1];
-        let path_of = |batch: usize, path: u32| batch * paths_each as usize + path as usize;
-        for (batch, own) in batches.iter().enumerate() {
-            own.path.iter().for_each(|&path| first[path_of(batch, path) + 1] += 1);
+    /// The map of the vertices that batches of so many paths have left, for an image of this size; made by these threads.
+    pub fn new(
+        batches: &[&LightVertices],
+        paths_each: u32,
+        [width, height]: [u32; 2],
+        threads: Option<&ThreadPool>,
+    ) -> Self {
+        let (each, mut first) = (paths_each as usize, vec![0_u32]);
+        for own in batches {
+            // How many there are of each path, and then of all paths before it.
+            let (before, start) = (first[first.len() - 1], first.len());
+            first.resize(start + each, 0);
+            own.path.iter().for_each(|&path| first[start + path as usize] += 1);
+            first[start..].iter_mut().fold(before, |sum, own| {
+                *own += sum;
+                *own
+            });
         }
-        for path in 0..paths {
-            first[path + 1] += first[path];
+        let mut vertices = vec![LightVertex::default(); first[first.len() - 1] as usize];
+        let (mut rest, mut parts) = (&mut vertices[..], Vec::with_capacity(batches.len()));
+        for (batch, &own) in batches.iter().enumerate() {
+            let (part, after) = rest.split_at_mut(own.rows());
+            parts.push((own, &first[batch * each..(batch + 1) * each], part));
+            rest = after;
         }
-        let (mut next, mut vertices) = (first.clone(), vec![LightVertex::default(); first[paths] as usize]);
-        for (batch, own) in batches.iter().enumerate() {
+        let sort = |(own, first, part): (&LightVertices, &[u32], &mut [LightVertex])| {
+            let mut next: Vec<u32> = first.iter().map(|own| own - first[0]).collect();
             for (row, &path) in own.path.iter().enumerate() {
-                let place = &mut next[path_of(batch, path)];
-                vertices[*place as usize] = own.get(row);
+                let place = &mut next[path as usize];
+                part[*place as usize] = own.get(row);
                 *place += 1;
             }
+        };
+        match threads {
+            Some(threads) => threads.install(|| parts.into_par_iter().for_each(sort)),
+            None => parts.into_iter().for_each(sort),
         }
+        let paths = batches.len() * each;
         let pixels = f64::from(width) * f64::from(height);
         Self { vertices, first, width, paths_a_pixel: paths as f64 / pixels }
     }

@@ -69,6 +69,17 @@ impl MediaAlong {
         sum
     }
 
+    /// The extinction alone.
+    #[inline]
+    fn extinction(&self, media: &MediumTable, stretch: &Stretch, t: f64) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for own in self.within(stretch) {
+            let (density, of) = (self.density(media, own, t), &media.medium[own.medium].extinction);
+            (0..3).for_each(|part| sum[part] += density * of[part]);
+        }
+        sum
+    }
+
     /// Divides each span whose density varies into the blocks of its grid, of which each knows its majorant.
     pub(super) fn divide_into_blocks(&mut self, media: &MediumTable) {
         let Self { spans, whole, grids, .. } = self;
@@ -221,12 +232,14 @@ impl MediaAlong {
                 return None;
             }
             at += step;
-            let own = self.coefficients(media, stretch, at).extinction;
+            let own = self.extinction(media, stretch, at);
             if stream.next_unit() * majorants[colour] < own[colour] {
                 return Some(at);
             }
             // Over the majorant, which changes no weight either, they remain within range.
-            (0..3).for_each(|part| path_pdfs[part] *= (majorants[part] - own[part]).max(0.0) / majorants[colour]);
+            for part in 0..3 {
+                path_pdfs[part] *= (majorants[part] - own[part]).max(0.0) / majorants[colour];
+            }
             *left = -libm::log1p(-stream.next_unit());
         }
     }
@@ -256,7 +269,7 @@ impl MediaAlong {
         for _ in 0..TRIALS {
             let rest = *left - depths_to(t)[colour];
             (before, after) = if rest > 0.0 { (t, after) } else { (before, t) };
-            let newton = t + rest / self.coefficients(media, stretch, t).extinction[colour];
+            let newton = t + rest / self.extinction(media, stretch, t)[colour];
             let next = if newton > before && newton < after { newton } else { 0.5 * (before + after) };
             if (next - t).abs() <= f64::EPSILON * next {
                 break;

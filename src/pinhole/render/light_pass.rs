@@ -189,6 +189,17 @@ impl<C: Left> LightPass<C> {
     }
 }
 
+impl LightPass<VerticesAndSplats> {
+    /// Takes back what batches have left, once it is used: the next ones write where these did.
+    fn take_back(&self, used: Vec<VerticesAndSplats>) {
+        for (list, mut own) in self.lists.iter().zip(used) {
+            own.vertices.clear();
+            own.splats.clear();
+            *list.lock().unwrap_or_else(PoisonError::into_inner) = own;
+        }
+    }
+}
+
 impl LightPass<Splats> {
     /// Whether the film has the light paths that correspond to so many pixel samples.
     pub fn is_done(&self, film: &Film, samples: u64) -> bool {
@@ -321,8 +332,10 @@ impl SamplePass {
                     lists.iter().for_each(|list| add_splats(film, &pass.filter, &list.splats));
                     film.paths += self.batches * paths;
                 }
-                let vertices: Vec<LightVertices> = lists.into_iter().map(|list| list.vertices).collect();
-                Some(SampleMap::Vertices(Arc::new(LightVertexMap::new(&vertices, LIGHT_PATHS, *size))))
+                let vertices: Vec<&LightVertices> = lists.iter().map(|list| &list.vertices).collect();
+                let map = LightVertexMap::new(&vertices, LIGHT_PATHS, *size, means.pool);
+                pass.take_back(lists);
+                Some(SampleMap::Vertices(Arc::new(map)))
             }
         }
     }

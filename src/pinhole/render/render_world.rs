@@ -68,7 +68,10 @@ impl RenderWorld {
             world.insert_resource(Stop::default());
             world.add_schedule(schedule_of(Bounce, plan, &hooks, |stage| stage.runs_in(row) && stage.on_every_bounce));
         }
-        let schedule = schedule_of(Sample, plan, &hooks, |stage| stage.runs_first_in(row));
+        let mut schedule = schedule_of(Sample, plan, &hooks, |stage| stage.runs_first_in(row));
+        if follows {
+            schedule.configure_sets((TileSystems::Moments.run_if(is_whole), TileSystems::Film.run_if(is_whole)));
+        }
         Self { world, schedule, tiles }
     }
 
@@ -151,22 +154,17 @@ fn spawn_tile(world: &mut World, plan: &Plan, row: RowKind) -> Entity {
 fn schedule_of(label: impl ScheduleLabel, plan: &Plan, hooks: &[Hook], holds: impl Fn(&Stage) -> bool) -> Schedule {
     let mut schedule = Schedule::new(label);
     schedule.set_executor(SingleThreadedExecutor::new());
-    let follows = plan.stages.iter().any(|stage| stage.set == TileSystems::RemainingBounces);
     let held: Vec<(usize, &Stage)> = plan.stages.iter().enumerate().filter(|(_, stage)| holds(stage)).collect();
     for (at, &(slot, stage)) in held.iter().enumerate() {
-        schedule.add_systems((stage.system)().in_set(Slot(slot)));
+        schedule.add_systems((stage.system)().in_set(stage.set).in_set(Slot(slot)));
         let next = held.get(at + 1);
         for (turn, hook) in hooks.iter().enumerate() {
-            let hook = hook(slot, stage, plan).in_set(HookTurn(slot, turn));
+            let hook = hook(slot, stage, plan).in_set(stage.set).in_set(HookTurn(slot, turn));
             let before = next.map_or(slot + 1, |(next, _)| *next);
             schedule.add_systems(hook.after(Slot(slot)).before(Slot(before)).before(HookTurn(slot, turn + 1)));
         }
         if let Some(&(next, _)) = next {
             schedule.configure_sets(Slot(slot).before(Slot(next)));
-        }
-        // A run that is given up while bounces are traced leaves the film as it was.
-        if follows && matches!(stage.set, TileSystems::Moments | TileSystems::Film) {
-            schedule.configure_sets(Slot(slot).run_if(is_whole));
         }
     }
     schedule

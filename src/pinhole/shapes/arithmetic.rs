@@ -344,30 +344,15 @@ impl ExactSum {
         self
     }
 
-    /// The difference of both.
-    pub fn less(mut self, other: &Self) -> Self {
-        other.terms().iter().for_each(|&part| self.add(-part));
-        self
-    }
-
-    /// The product of both.
-    pub fn by(&self, other: &Self) -> Self {
-        let mut product = Self::ZERO;
-        for &a in self.terms() {
-            for &b in other.terms() {
-                let (high, low) = two_product(a, b);
-                product.add(low);
-                product.add(high);
+    /// Adds the product of two others; with the sign −1 takes it away.
+    pub fn add_product(&mut self, a: &Self, b: &Self, sign: f64) {
+        for &a in a.terms() {
+            for &b in b.terms() {
+                let (high, low) = two_product(sign * a, b);
+                self.add(low);
+                self.add(high);
             }
         }
-        product
-    }
-
-    /// The product with one f64.
-    pub fn times(&self, factor: f64) -> Self {
-        let mut one = Self::ZERO;
-        one.push(factor);
-        self.by(&one)
     }
 
     fn terms(&self) -> &[f64] {
@@ -427,12 +412,19 @@ pub fn exact_difference(a: DVec3, b: DVec3) -> ExactVector {
 
 /// a × b.
 pub fn exact_cross(a: &ExactVector, b: &ExactVector) -> ExactVector {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| a[i].by(&b[j]).less(&a[j].by(&b[i])))
+    let mut cross = [ExactSum::ZERO; 3];
+    for (part, (i, j)) in cross.iter_mut().zip([(1, 2), (2, 0), (0, 1)]) {
+        part.add_product(&a[i], &b[j], 1.0);
+        part.add_product(&a[j], &b[i], -1.0);
+    }
+    cross
 }
 
 /// a · b.
 pub fn exact_dot(a: &ExactVector, b: &ExactVector) -> ExactSum {
-    a[0].by(&b[0]).plus(&a[1].by(&b[1])).plus(&a[2].by(&b[2]))
+    let mut sum = ExactSum::ZERO;
+    a.iter().zip(b).for_each(|(a, b)| sum.add_product(a, b, 1.0));
+    sum
 }
 
 #[cfg(test)]
@@ -506,8 +498,9 @@ mod exact_sum_tests {
     fn a_product_of_neighbours_differs_from_the_square_by_one_digit() {
         // (x + d)(x − d) = x² − d².
         let (x, d) = (1.0 + f64::EPSILON, libm::ldexp(1.0, -80));
-        let by = |a: f64, b: f64| ExactSum::difference(x, -a).by(&ExactSum::difference(x, -b));
-        let left = by(0.0, 0.0).less(&by(d, -d));
+        let mut left = ExactSum::ZERO;
+        left.add_product(&ExactSum::difference(x, 0.0), &ExactSum::difference(x, 0.0), 1.0);
+        left.add_product(&ExactSum::difference(x, -d), &ExactSum::difference(x, d), -1.0);
         assert_eq!((left.sign(), left.rounded()), (1, d * d));
     }
 }

@@ -3,7 +3,7 @@ use super::bounds::{Bounds, l1_norm};
 use super::double_double::double_double_cuboid_t;
 use super::emitter::EmittingCuboid;
 use super::planar::unit_in_f32;
-use super::ray_block::{Intersection, RayHit, SurfacePoint};
+use super::ray_block::{BlockVectors, Intersection, LANES, RayHit, SurfacePoint, vector};
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::{Pose, normal_world_from_object};
 use super::uv::{UvSlope, face_axes, within_unit};
@@ -30,6 +30,8 @@ pub struct Slabs {
     pub half: [f64; 3],
     /// The radius of a bounding sphere about the centre.
     pub bounding_radius: f64,
+    /// Whether the normals are the axes, so that two of three products in every dot product are 0.
+    pub is_upright: bool,
 }
 
 impl Slabs {
@@ -38,7 +40,7 @@ impl Slabs {
         let normal = normals.map(unit_in_f32);
         let half = [0, 1, 2].map(|axis| normal[axis].dot(half_edges[axis]));
         let bounding_radius = half_edges.iter().map(|edge| edge.length()).sum::<f64>() * RADIUS_MARGIN;
-        Self { centre, normal, half, bounding_radius }
+        Self { centre, normal, half, bounding_radius, is_upright: normal == DVec3::AXES }
     }
 
     /// The offsets from the centre to the midpoints of the faces at the ends of the three edges.
@@ -102,6 +104,21 @@ impl Shape for Slabs {
         cuboid_intersection(origin, direction, self)
     }
 
+    #[inline(always)]
+    fn intersections(&self, [o, d]: [&BlockVectors; 2], t: &mut [f64; LANES], uncertain: &mut [bool; LANES]) {
+        if self.is_upright {
+            for lane in 0..LANES {
+                let intersection = upright_intersection(vector(o, lane), vector(d, lane), self);
+                (t[lane], uncertain[lane]) = (intersection.t, intersection.uncertain);
+            }
+        } else {
+            for lane in 0..LANES {
+                let intersection = cuboid_intersection(vector(o, lane), vector(d, lane), self);
+                (t[lane], uncertain[lane]) = (intersection.t, intersection.uncertain);
+            }
+        }
+    }
+
     fn precise_t(&self, origin: DVec3, direction: DVec3) -> f64 {
         double_double_cuboid_t(origin, direction, self).0
     }
@@ -148,30 +165,69 @@ const EPSILON: f64 = 1.0 / (1_u64 << 53) as f64;
 /// Half of u: the largest relative error of a t that counts as certain.
 const SMALL: f64 = 1.0 / (1_u64 << 25) as f64;
 
+/// Where a ray crosses a face: between which t, and the quotient that t is.
+#[derive(Clone, Copy)]
+struct Crossing {
+    at: Interval,
+    over: f64,
+    speed: f64,
+}
+
+impl Crossing {
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        let [over, speed] = self.quotient_or(other, other.at.t > self.at.t);
+        Self { at: self.at.max(other.at), over, speed }
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        let [over, speed] = self.quotient_or(other, other.at.t < self.at.t);
+        Self { at: self.at.min(other.at), over, speed }
+    }
+
+    #[inline(always)]
+    fn quotient_or(self, other: Self, is_other: bool) -> [f64; 2] {
+        if is_other { [other.over, other.speed] } else { [self.over, self.speed] }
+    }
+}
+
 // ANCHOR: slab
 /// Where a ray enters and leaves the slab |n · (x − C)| ≤ h: at t = (n·f ∓ h) / (n·R) with f = C − O, for n·R > 0.
 ///
 /// A ray parallel to the slab divides by 0 and gets −∞ to ∞ inside and ∞ to ∞, or −∞ to −∞, outside, which is correct.
 /// If rounding leaves the sign of n·R uncertain, or whether the ray lies in a face, the interval is all of ℝ.
+/// One division serves for both faces and their bounds, and only the t that is kept is divided exactly, later.
 #[inline(always)]
-fn slab(f: DVec3, direction: DVec3, normal: DVec3, half: f64) -> [Interval; 2] {
+fn slab(f: DVec3, direction: DVec3, normal: DVec3, half: f64) -> [Crossing; 2] {
     let (of_f, of_direction) = (normal * f, normal * direction);
     let (middle, approach) = (of_f.x + of_f.y + of_f.z, of_direction.x + of_direction.y + of_direction.z);
-    let (sum, sum_of_approach) = (l1_norm(of_f), l1_norm(of_direction));
+    crossings([middle, l1_norm(of_f)], [approach, l1_norm(of_direction)], half)
+}
+
+/// The same across an axis, by the components of f and R along it.
+#[inline(always)]
+fn upright_slab(f: f64, direction: f64, half: f64) -> [Crossing; 2] {
+    crossings([f, f.abs()], [direction, direction.abs()], half)
+}
+
+/// The same by n·f and n·R, each with the sum of the magnitudes of its three products.
+#[inline(always)]
+fn crossings([middle, sum]: [f64; 2], [approach, sum_of_approach]: [f64; 2], half: f64) -> [Crossing; 2] {
     // The magnitude, not the negative: −0 and 0 must both give speed 0.
     let (towards, speed) = (if approach < 0.0 { -middle } else { middle }, approach.abs());
-    let (over_near, over_far) = (towards - half, towards + half);
-    let (near, far) = (over_near / speed, over_far / speed);
+    let (over_near, over_far, inverse) = (towards - half, towards + half, 1.0 / speed);
 
     let lost = 8.0 * EPSILON * (sum + half);
-    let relative = EPSILON * (4.0 * sum_of_approach / speed + 4.0);
+    let relative = EPSILON * (4.0 * sum_of_approach * inverse + 6.0);
     let (along, in_a_face) = (sum_of_approach == 0.0, (over_near.abs() <= lost) | (over_far.abs() <= lost));
     let unsure = if along { in_a_face } else { relative.is_nan() | (relative >= 0.25) };
-    let error = |t: f64| if along { 0.0 } else { 2.0 * (lost / speed + relative * t.abs()) };
+    let error = |t: f64| if along { 0.0 } else { 2.0 * (lost * inverse + relative * t.abs()) };
     let bounds = |t: f64| {
         if unsure { Interval { t, min: f64::NEG_INFINITY, max: f64::INFINITY } } else { Interval::new(t, error(t)) }
     };
-    [bounds(near), bounds(far)]
+    let crossing = |over: f64| Crossing { at: bounds(over * inverse), over, speed };
+    [crossing(over_near), crossing(over_far)]
 }
 // ANCHOR_END: slab
 
@@ -180,18 +236,34 @@ fn slab(f: DVec3, direction: DVec3, normal: DVec3, half: f64) -> [Interval; 2] {
 #[inline(always)]
 pub fn cuboid_intersection(origin: DVec3, direction: DVec3, slabs: &Slabs) -> Intersection {
     let f = slabs.centre - origin;
-    let [near_x, far_x] = slab(f, direction, slabs.normal[0], slabs.half[0]);
-    let [near_y, far_y] = slab(f, direction, slabs.normal[1], slabs.half[1]);
-    let [near_z, far_z] = slab(f, direction, slabs.normal[2], slabs.half[2]);
-    let enters = near_x.max(near_y).max(near_z);
-    let leaves = far_x.min(far_y).min(far_z);
+    let x = slab(f, direction, slabs.normal[0], slabs.half[0]);
+    let y = slab(f, direction, slabs.normal[1], slabs.half[1]);
+    let z = slab(f, direction, slabs.normal[2], slabs.half[2]);
+    between([x, y, z])
+}
+
+/// The same of a cuboid whose faces lie across the axes.
+#[inline(always)]
+fn upright_intersection(origin: DVec3, direction: DVec3, slabs: &Slabs) -> Intersection {
+    let f = slabs.centre - origin;
+    let x = upright_slab(f.x, direction.x, slabs.half[0]);
+    let y = upright_slab(f.y, direction.y, slabs.half[1]);
+    let z = upright_slab(f.z, direction.z, slabs.half[2]);
+    between([x, y, z])
+}
+
+/// The same by where the ray enters and leaves each slab.
+#[inline(always)]
+fn between([[near_x, far_x], [near_y, far_y], [near_z, far_z]]: [[Crossing; 2]; 3]) -> Intersection {
+    let (entry, exit) = (near_x.max(near_y).max(near_z), far_x.min(far_y).min(far_z));
+    let (enters, leaves) = (entry.at, exit.at);
 
     let surely_not = (enters.min > leaves.max) | (leaves.max < 0.0);
     let surely_inside = enters.max <= leaves.min;
     let from_outside = enters.min > 0.0;
     let from_inside = (enters.max < 0.0) & (leaves.min > 0.0);
-    let (t, open) =
-        if from_outside { (enters.t, enters.max - enters.min) } else { (leaves.t, leaves.max - leaves.min) };
+    let (first, open) = if from_outside { (entry, enters.max - enters.min) } else { (exit, leaves.max - leaves.min) };
+    let t = first.over / first.speed;
     let sure = surely_inside & (from_outside | from_inside) & (open <= SMALL * t);
     Intersection { t: if surely_not { f64::INFINITY } else { t }, uncertain: !surely_not & !sure }
 }
@@ -208,7 +280,14 @@ pub fn cuboid_t(origin: DVec3, direction: DVec3, slabs: &Slabs) -> f64 {
 /// The axis of the face that O + tR hits first; at an edge or a vertex, the first of the axes.
 pub fn cuboid_face(origin: DVec3, direction: DVec3, slabs: &Slabs) -> usize {
     let f = slabs.centre - origin;
-    let along = |axis: usize| slab(f, direction, slabs.normal[axis], slabs.half[axis]);
+    let along = |axis: usize| {
+        let [near, far] = if slabs.is_upright {
+            upright_slab(f[axis], direction[axis], slabs.half[axis])
+        } else {
+            slab(f, direction, slabs.normal[axis], slabs.half[axis])
+        };
+        [near.at, far.at]
+    };
     let all = [along(0), along(1), along(2)];
     let from_outside = all.iter().any(|[near, _]| near.min > 0.0);
     let from_inside = all.iter().all(|[near, _]| near.max < 0.0);

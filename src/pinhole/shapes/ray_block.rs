@@ -112,10 +112,13 @@ pub struct Intersection {
     pub uncertain: bool,
 }
 
+/// The vectors of a block of rays: x, y and z of each.
+pub(crate) type BlockVectors = [[f64; LANES]; 3];
+
 /// A block of rays in f64, one per lane: origins, directions and 1 / R·R; lanes beyond the last row hold dummy rays.
 pub(crate) struct RayBlock {
-    pub o: [[f64; LANES]; 3],
-    pub d: [[f64; LANES]; 3],
+    pub o: BlockVectors,
+    pub d: BlockVectors,
     pub inverse: [f64; LANES],
 }
 
@@ -172,25 +175,52 @@ pub fn nearness(f: DVec3, direction: DVec3, inverse: f64, radius: f64) -> f64 {
     rr - across.dot(across) + SLACK * (ff + rr)
 }
 
+/// The closest hits of a block of rays so far.
+pub(crate) struct BlockHits {
+    t: [f64; LANES],
+    shape: [u32; LANES],
+}
+
+impl BlockHits {
+    /// Those of some rows, at most one per lane.
+    #[inline(always)]
+    pub fn of(t: &[f64], shape: &[u32]) -> Self {
+        // Nothing is closer to a lane without a row.
+        let mut own = Self { t: [f64::NEG_INFINITY; LANES], shape: [0; LANES] };
+        own.t[..t.len()].copy_from_slice(t);
+        own.shape[..shape.len()].copy_from_slice(shape);
+        own
+    }
+
+    /// Writes them to the rows.
+    #[inline(always)]
+    pub fn write(&self, t: &mut [f64], shape: &mut [u32]) {
+        t.copy_from_slice(&self.t[..t.len()]);
+        shape.copy_from_slice(&self.shape[..shape.len()]);
+    }
+}
+
 // ANCHOR: keep_closest
 /// Intersects a block of rays with one shape and keeps the closest hits: all rays in f64, and the uncertain ones again
 /// with more precision.
 ///
 /// At equal distances the lower shape number wins.
 #[inline(always)]
-pub(crate) fn keep_closest_block(rays: &RayBlock, one: &impl Shape, number: u32, t: &mut [f64], shape: &mut [u32]) {
+pub(crate) fn keep_closest_block(rays: &RayBlock, one: &impl Shape, number: u32, closest: &mut BlockHits) {
     let (mut found, mut uncertain) = ([f64::INFINITY; LANES], [false; LANES]);
-    for lane in 0..LANES {
-        let intersection = one.intersection(vector(&rays.o, lane), vector(&rays.d, lane));
-        (found[lane], uncertain[lane]) = (intersection.t, intersection.uncertain);
-    }
-    for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
-        if uncertain[lane] {
+    one.intersections([&rays.o, &rays.d], &mut found, &mut uncertain);
+    if uncertain.contains(&true) {
+        for lane in (0..LANES).filter(|&lane| uncertain[lane]) {
             found[lane] = one.precise_t(vector(&rays.o, lane), vector(&rays.d, lane));
         }
-        if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
-            (*t, *shape) = (found[lane], number);
-        }
+    }
+    // Both are chosen, not branched to: which of sixteen rays hit is as hard to foretell as a coin.
+    for lane in 0..LANES {
+        let (own, before) = (found[lane], closest.t[lane]);
+        let is_first = (own == before) & (number < closest.shape[lane]) & (own < f64::INFINITY);
+        let is_closer = (own < before) | is_first;
+        closest.t[lane] = if is_closer { own } else { before };
+        closest.shape[lane] = if is_closer { number } else { closest.shape[lane] };
     }
 }
 // ANCHOR_END: keep_closest
@@ -209,19 +239,21 @@ pub(super) fn keep_closest_rows<S: Shape>(
     while start < rows {
         let end = rows.min(start + LANES);
         let block = RayBlock::of(rays, start, end);
+        let mut closest = BlockHits::of(&t[start..end], &shape[start..end]);
         for (one, &number) in shapes.iter().zip(numbers) {
             if let Some((centre, radius)) = one.culling_sphere() {
-                let mut nearest = [f64::NEG_INFINITY; LANES];
-                for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
+                let mut is_near = false;
+                for lane in 0..LANES {
                     let f = centre - vector(&block.o, lane);
-                    *nearness_of_lane = nearness(f, vector(&block.d, lane), block.inverse[lane], radius);
+                    is_near |= nearness(f, vector(&block.d, lane), block.inverse[lane], radius) >= 0.0;
                 }
-                if !nearest.iter().any(|&nearness| nearness >= 0.0) {
+                if !is_near {
                     continue;
                 }
             }
-            keep_closest_block(&block, one, number, &mut t[start..end], &mut shape[start..end]);
+            keep_closest_block(&block, one, number, &mut closest);
         }
+        closest.write(&mut t[start..end], &mut shape[start..end]);
         start = end;
     }
 }

@@ -3,7 +3,9 @@
 use super::bounds::Bounds;
 use super::emitter::{Emitting, LightPoint};
 use super::kind::ShapeKind;
-use super::ray_block::{ClosestHit, ClosestHits, RayBlock, RayHit, SurfacePoint, keep_closest_block, vector};
+use super::ray_block::{
+    BlockHits, ClosestHit, ClosestHits, RayBlock, RayHit, SurfacePoint, keep_closest_block, vector,
+};
 use super::shape::{Shape, ShapeNames};
 use super::uv::{UvSlope, face_axes, most_of, round_step};
 use crate::bvh::{Stack, TestCounts};
@@ -355,7 +357,9 @@ impl<S: Shape> ErasedShape for (S, S::SurfaceData) {
 #[inline(always)]
 fn keep_closest_of_one<S: Shape>(rays: &RayBlock, one: &S, number: u32, mut hits: ClosestHits<'_>) {
     if !S::HAS_PRIMITIVES {
-        return keep_closest_block(rays, one, number, hits.t, hits.shape);
+        let mut closest = BlockHits::of(hits.t, hits.shape);
+        keep_closest_block(rays, one, number, &mut closest);
+        return closest.write(hits.t, hits.shape);
     }
     let mut stack = Stack::default();
     for lane in 0..hits.t.len() {

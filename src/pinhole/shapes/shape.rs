@@ -1,7 +1,8 @@
 use super::bounds::Bounds;
 use super::emitter::{Emitting, NeverSampled};
 use super::ray_block::{
-    ClosestHit, ClosestHits, HitBlock, Intersection, RayHit, RaySlices, SurfacePoint, keep_closest_rows,
+    BlockVectors, ClosestHit, ClosestHits, HitBlock, Intersection, LANES, RayHit, RaySlices, SurfacePoint,
+    keep_closest_rows, vector,
 };
 use super::space::Pose;
 use super::uv::UvSlope;
@@ -87,6 +88,15 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
 
     /// The smallest t > 0 at which O + tR intersects it, in f64, and whether rounding leaves that uncertain.
     fn intersection(&self, origin: DVec3, direction: DVec3) -> Intersection;
+
+    /// The same of a block of sixteen rays, given component by component: the t of each, and whether it is uncertain.
+    #[inline(always)]
+    fn intersections(&self, [o, d]: [&BlockVectors; 2], t: &mut [f64; LANES], uncertain: &mut [bool; LANES]) {
+        for lane in 0..LANES {
+            let intersection = self.intersection(vector(o, lane), vector(d, lane));
+            (t[lane], uncertain[lane]) = (intersection.t, intersection.uncertain);
+        }
+    }
 
     /// The same t with more precision, or infinity; only asked where f64 is uncertain.
     fn precise_t(&self, origin: DVec3, direction: DVec3) -> f64;
