@@ -75,7 +75,7 @@ fn samples_hold() {
 
 #[test]
 fn films_hold() {
-    holds(Group::Film, 1024);
+    holds(Group::Film, 256);
 }
 
 #[test]

@@ -334,7 +334,7 @@ fn light_is_absorbed_by_all_that_it_passes_through() {
                 // What paths from the camera do not find is for those from the lights.
                 if can_trace
                     && !by_paths
-                    && (times_samples() > 1 || (number + light as usize + height as usize).is_multiple_of(8))
+                    && (times_samples() > 1 || (number + light as usize + height as usize).is_multiple_of(16))
                 {
                     let traced: Ask = |camera| _ = camera.insert(LightTracing { paths: 8.0 });
                     methods.push((straight(LightStrategy::Mis), "light tracing", traced, (64, 6)));

@@ -135,7 +135,9 @@ pub fn crossing(origin: DVec3, direction: DVec3, planar: &Planar) -> Crossing {
     let at = [planar.along[0].dot(v), planar.along[1].dot(v)];
 
     let (sum, sum_of_approach) = (l1_norm(of_f), l1_norm(of_direction));
-    let relative = EPSILON * (8.0 * sum / distance.abs() + 4.0 * sum_of_approach / approach.abs() + 2.0);
+    // Σ|nᵢfᵢ| / |n·f| and Σ|nᵢRᵢ| / |n·R| over one denominator, since a division costs as much as ten products.
+    let (far, fast) = (distance.abs(), approach.abs());
+    let relative = EPSILON * ((8.0 * sum * fast + 4.0 * sum_of_approach * far) / (far * fast) + 2.0);
     let (length, offset) = (l1_norm(along_ray), l1_norm(f));
     let error = 2.0 * planar.norm * (relative * length + 8.0 * EPSILON * (length + offset));
     // Sums of zeros are exact: the ray is parallel to the plane, or starts on it.
