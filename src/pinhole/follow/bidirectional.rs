@@ -150,44 +150,53 @@ pub fn store_vertices(
         let interface = Interface::new(interface, glass.as_deref());
         let StoreVerticesViewItem { depth, rays, paths, surfaces, shading, power, list, mis, mut vertices } = view;
         let first = vertices.rows();
-        let (
-            of_path,
-            mut position,
-            mut normal,
-            mut shaded,
-            mut to_light,
-            bound,
-            of_material,
-            mut colour,
-            metallic,
-            roughness,
-            eta,
-            mut carries,
-            arrival,
-            earlier,
-            segments,
-        ) = vertices.slices_mut(first + list.row.len());
-        for (at, &row) in (first..).zip(&list.row) {
+        vertices.slices_mut(first + list.row.len());
+        for (place, &row) in (first..).zip(&list.row) {
             let row = row as usize;
             let (surface, path) = (surfaces.get(row), paths.first[row] as usize);
             let material = surface.material as usize;
-            let parameters = columns.get(&materials, row, material);
             let (whole, carried) = (power.rgb(path), paths.throughput(row));
-            (of_path[at], of_material[at], segments[at]) = (path as u32, surface.material, depth.0 + 1);
-            position.put(at, surface.position);
-            normal.put(at, surface.normal);
-            shaded.put(at, shading.map_or(surface.normal, |shading| shading.normal(row)));
-            to_light.put(at, -rays.direction_of(row).as_vec3());
-            bound[at] = surface.bound;
-            colour.put(at, parameters.colour);
-            (metallic[at], roughness[at]) = (parameters.metallic, parameters.roughness);
-            eta[at] = interface.eta(materials.interior[material], row);
-            carries.put(at, [whole[0] * carried[0], whole[1] * carried[1], whole[2] * carried[2]]);
-            (arrival[at], earlier[at]) = (mis.arrival[path], mis.earlier[path]);
+            let vertex = LightVertex {
+                position: surface.position,
+                normal: surface.normal,
+                shading: shading.map_or(surface.normal, |shading| shading.normal(row)),
+                to_light: -rays.direction_of(row).as_vec3(),
+                bound: surface.bound,
+                material: surface.material,
+                parameters: columns.get(&materials, row, material),
+                eta: interface.eta(materials.interior[material], row),
+                power: [whole[0] * carried[0], whole[1] * carried[1], whole[2] * carried[2]],
+                arrival: mis.arrival[path],
+                earlier: mis.earlier[path],
+                segments: depth.0 + 1,
+            };
+            vertices.put(place, path as u32, &vertex);
         }
     }
 }
 // ANCHOR_END: store_vertices
+
+impl LightVertices {
+    /// Replaces a row by a vertex of a path.
+    #[inline(always)]
+    fn put(&mut self, row: usize, path: u32, own: &LightVertex) {
+        self.path[row] = path;
+        self.position.put(row, own.position);
+        self.normal.put(row, own.normal);
+        self.shading.put(row, own.shading);
+        self.to_light.put(row, own.to_light);
+        self.bound[row] = own.bound;
+        self.material[row] = own.material;
+        self.colour.put(row, own.parameters.colour);
+        self.metallic[row] = own.parameters.metallic;
+        self.roughness[row] = own.parameters.roughness;
+        self.eta[row] = own.eta;
+        self.power.put(row, own.power);
+        self.arrival[row] = own.arrival;
+        self.earlier[row] = own.earlier;
+        self.segments[row] = own.segments;
+    }
+}
 
 /// The stage that runs [`store_vertices`].
 pub fn store_vertices_stage() -> Stage {

@@ -30,8 +30,6 @@ pub struct Slabs {
     pub half: [f64; 3],
     /// The radius of a bounding sphere about the centre.
     pub bounding_radius: f64,
-    /// Whether the normals are the axes, so that two of three products in every dot product are 0.
-    pub is_upright: bool,
 }
 
 impl Slabs {
@@ -40,7 +38,13 @@ impl Slabs {
         let normal = normals.map(unit_in_f32);
         let half = [0, 1, 2].map(|axis| normal[axis].dot(half_edges[axis]));
         let bounding_radius = half_edges.iter().map(|edge| edge.length()).sum::<f64>() * RADIUS_MARGIN;
-        Self { centre, normal, half, bounding_radius, is_upright: normal == DVec3::AXES }
+        Self { centre, normal, half, bounding_radius }
+    }
+
+    /// Whether the normals are the axes, so that two of three products in every dot product are 0.
+    #[inline(always)]
+    fn is_upright(&self) -> bool {
+        self.normal == DVec3::AXES
     }
 
     /// The offsets from the centre to the midpoints of the faces at the ends of the three edges.
@@ -106,7 +110,7 @@ impl Shape for Slabs {
 
     #[inline(always)]
     fn intersections(&self, [o, d]: [&BlockVectors; 2], t: &mut [f64; LANES], uncertain: &mut [bool; LANES]) {
-        if self.is_upright {
+        if self.is_upright() {
             for lane in 0..LANES {
                 let intersection = upright_intersection(vector(o, lane), vector(d, lane), self);
                 (t[lane], uncertain[lane]) = (intersection.t, intersection.uncertain);
@@ -280,8 +284,9 @@ pub fn cuboid_t(origin: DVec3, direction: DVec3, slabs: &Slabs) -> f64 {
 /// The axis of the face that O + tR hits first; at an edge or a vertex, the first of the axes.
 pub fn cuboid_face(origin: DVec3, direction: DVec3, slabs: &Slabs) -> usize {
     let f = slabs.centre - origin;
+    let is_upright = slabs.is_upright();
     let along = |axis: usize| {
-        let [near, far] = if slabs.is_upright {
+        let [near, far] = if is_upright {
             upright_slab(f[axis], direction[axis], slabs.half[axis])
         } else {
             slab(f, direction, slabs.normal[axis], slabs.half[axis])
