@@ -347,6 +347,41 @@ pub fn cuboid_uv(slabs: &Slabs, axis: usize, from_centre: DVec3) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::draws::Draws;
+
+    /// What is left out of an upright cuboid's products are zeros, which change no bit: from anywhere, from its faces and
+    /// along them.
+    #[test]
+    fn an_upright_cuboid_is_hit_as_any_other_is() {
+        let (centre, half) = (DVec3::new(0.25, -0.5, 3.0), DVec3::new(0.75, 1.25, 0.001));
+        let slabs = Slabs::new(centre, DVec3::AXES, [DVec3::X * half.x, DVec3::Y * half.y, DVec3::Z * half.z]);
+        assert!(slabs.is_upright());
+        let (mut tried, mut hit, mut uncertain) = (0, 0, 0);
+        for index in 0..50_000 {
+            let mut draws = Draws::new(1302, index);
+            let mut number = |max: f64| f64::from(draws.between(-max, max) as f32);
+            let mut origin = DVec3::new(number(2.0), number(2.0), number(6.0));
+            let aim = centre + half * DVec3::new(number(1.5), number(1.5), number(1.5));
+            let mut direction = (aim - origin).normalize().as_vec3().as_dvec3();
+            for axis in 0..3 {
+                if number(1.0) > 0.7 {
+                    direction[axis] = 0.0 * number(1.0);
+                }
+                if number(1.0) > 0.8 {
+                    origin[axis] = centre[axis] + half[axis] * number(1.0).signum();
+                }
+            }
+            let [own, other] =
+                [upright_intersection(origin, direction, &slabs), cuboid_intersection(origin, direction, &slabs)];
+            let is_same = own.t.to_bits() == other.t.to_bits() || (own.t.is_nan() && other.t.is_nan());
+            assert!(is_same && own.uncertain == other.uncertain, "{origin} {direction}: {own:?} for {other:?}");
+            tried += 1;
+            hit += u32::from(own.t < f64::INFINITY);
+            uncertain += u32::from(own.uncertain);
+        }
+        eprintln!("upright cuboid: {tried} rays, {hit} hit, {uncertain} uncertain, 0 apart");
+        assert!(hit > 5_000 && uncertain > 500, "{hit}, {uncertain}");
+    }
 
     #[test]
     fn faces_of_a_cuboid_read_from_left_to_right_and_down() {
