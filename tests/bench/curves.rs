@@ -16,7 +16,9 @@ use glam::DVec3;
 use pinhole::bvh::BoundingBox;
 use pinhole::intersect::NO_SHAPE;
 use pinhole::scene::{MeshGeometry, MeshInstance, Placement};
-use pinhole::shapes::{ClosestHits, Ellipsoid, MeshHierarchy, PlacedCylinder, PlacedDisk, PlacedMesh, PlacedRectangle};
+use pinhole::shapes::{
+    ClosestHits, Ellipsoid, HierarchyRoom, MeshHierarchy, PlacedCylinder, PlacedDisk, PlacedMesh, PlacedRectangle,
+};
 use pinhole::shapes::{PlacedSphere, PlacedTorus, RaySlices, Shape, Slabs, TriangleRow};
 use pinhole::shapes::{hierarchy_of, keep_closest_of, triangle_t};
 use pinhole_lab::measure::draws::Draws;
@@ -154,11 +156,12 @@ fn shape_curve<S: Oracle>(plural: &str, counts: &[usize]) {
         let numbers: Vec<u32> = (0..count as u32).collect();
         let bvh = hierarchy_of(&shapes).expect("bounded shapes");
         let row = sets.iter().flat_map(|rays| {
-            let all = SIDE * SIDE;
-            let (tree, hits) = rays.time(all, BATCH, |rays, hits| {
-                keep_closest_of((&shapes, &numbers, &bvh), rays, hits, &mut Default::default())
+            let (all, mut room) = (SIDE * SIDE, HierarchyRoom::default());
+            let (tree, hits) =
+                rays.time(all, BATCH, |rays, hits| keep_closest_of((&shapes, &numbers, &bvh), rays, hits, &mut room));
+            let (one_by_one, same) = rays.time(all, BATCH, |rays, hits| {
+                S::keep_closest(&shapes, &numbers, rays, hits);
             });
-            let (one_by_one, same) = rays.time(all, BATCH, |rays, hits| S::keep_closest(&shapes, &numbers, rays, hits));
             assert_eq!(hits, same, "{count} {plural}");
             [Some(tree), Some(one_by_one)]
         });
@@ -195,10 +198,8 @@ fn sphere_curve(counts: &[usize]) -> Curve {
         let bvh = hierarchy_of(&shapes).expect("bounded shapes");
         let build = 1e3 * start.elapsed().as_secs_f64();
         let wide = |rays: &Rays| {
-            rays.time(whole, BATCH, |rays, hits| {
-                keep_closest_of((&shapes, &numbers, &bvh), rays, hits, &mut Default::default())
-            })
-            .0
+            let mut room = HierarchyRoom::default();
+            rays.time(whole, BATCH, |rays, hits| keep_closest_of((&shapes, &numbers, &bvh), rays, hits, &mut room)).0
         };
         let all = |rays: &Rays| {
             let few = rays_for(count);

@@ -21,7 +21,7 @@ pub type PerRay<T> = [[T; ROW]; ROWS];
 #[derive(Clone, Debug, Default)]
 pub struct BoxPacket {
     /// Which planes all of them enter slabs by, by axis: 0 for the lower ones, 1 for the upper ones.
-    first: [usize; 3],
+    first: [u32; 3],
     /// O and 1/R for the planes at which they enter, by axis.
     enter: [[PerRay<f32>; 2]; 3],
     /// O and 1/R for the planes at which they leave, by axis.
@@ -73,7 +73,7 @@ impl BoxPacket {
                 }
             }
             let first = usize::from(direction[axis][0][0].is_sign_negative());
-            self.first[axis] = first;
+            self.first[axis] = first as u32;
             let [enter, leave] = [&self.enter[axis], &self.leave[axis]];
             self.all_enter[axis] = (bounds(&enter[0])[1 - first], bounds(&enter[1]));
             // The larger magnitude comes last: where it is infinite, 0 · ∞ = NaN must be the last operand in `enters`.
@@ -119,8 +119,8 @@ impl BoxPacket {
     /// Whether any ray of a row enters the box of one child before its own limit.
     #[inline(always)]
     pub fn row_enters(&self, node: &WideNode, child: usize, row: usize, limits: &[f32; ROW]) -> bool {
-        let near = by_axis(|axis| node.planes[self.first[axis]][axis][child]);
-        let far = by_axis(|axis| node.planes[1 - self.first[axis]][axis][child]);
+        let [near, far] = node.enter_and_leave(self.first);
+        let (near, far) = (by_axis(|axis| near[axis][child]), by_axis(|axis| far[axis][child]));
         let mut enters = [0_u8; ROW];
         for i in 0..ROW {
             let (mut from, mut until) = (0.0, limits[i]);

@@ -1,7 +1,7 @@
 //! Bounding volume hierarchies: boxes around boxes around primitives, so that a ray looks at few of them.
 //!
 //! Reads: a box of each primitive, and rays.
-//! Gives: the leaves that a ray has to look into, the nearest first.
+//! Gives: the leaves that a ray has to look into, the nearest first; for rays alone, in packets and as streams.
 //! Space: that of the boxes, in f32; every rounding enlarges a box or an interval, so that nothing that a ray hits in
 //! f64 is left out.
 //!
@@ -13,6 +13,7 @@ mod build;
 mod count;
 mod entry;
 mod slab_test;
+mod stream;
 mod traverse;
 mod wide_node;
 
@@ -20,7 +21,8 @@ pub use bounding_box::{BoundingBox, rounded_down, rounded_up};
 pub use box_packet::{BoxPacket, PACKET, PerRay, ROW, ROWS};
 pub use count::{TestCounts, traverse_counted};
 pub use slab_test::{BoxRay, take_first};
-pub use traverse::{LeafTest, Stack, Traversal, traverse};
+pub use stream::{RayStream, STREAM, StreamLeaves};
+pub use traverse::{LeafTest, Stack, Traversal};
 pub use wide_node::{Child, ChildKind, WIDTH, WideNode};
 
 /// The most levels of nodes.

@@ -50,11 +50,30 @@ impl AxisRay {
     }
 }
 
+/// The same for several rays, component by component.
+#[derive(Clone, Copy)]
+struct AxisRays<const N: usize> {
+    enter: [[f32; N]; 2],
+    leave: [[f32; N]; 2],
+    first: [u32; N],
+}
+
+impl<const N: usize> AxisRays<N> {
+    const NONE: Self = Self { enter: [[0.0; N]; 2], leave: [[0.0; N]; 2], first: [0; N] };
+
+    #[inline(always)]
+    fn set(&mut self, i: usize, ray: &AxisRay) {
+        (self.enter[0][i], self.enter[1][i]) = (ray.enter[0], ray.enter[1]);
+        (self.leave[0][i], self.leave[1][i]) = (ray.leave[0], ray.leave[1]);
+        self.first[i] = u32::from(ray.backwards);
+    }
+}
+
 /// A ray as the boxes see it, such that no box is missed that the ray in f64 hits.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct BoxRay {
     /// Which planes it enters slabs by, by axis: 0 for the lower ones, 1 for the upper ones.
-    first: [usize; 3],
+    first: [u32; 3],
     /// O and 1/R for the planes at which it enters, by axis.
     enter: [[f32; 3]; 2],
     /// O and 1/R for the planes at which it leaves, by axis.
@@ -66,42 +85,68 @@ pub struct BoxRay {
 
 impl BoxRay {
     /// A ray O + tR, for a hierarchy with this box.
+    #[inline(always)]
+    pub fn new(origin: DVec3, direction: DVec3, around: &BoundingBox) -> Self {
+        let mut ray = [Self::default()];
+        Self::fill([&by_axis(|axis| [origin[axis]]), &by_axis(|axis| [direction[axis]])], around, &mut ray);
+        ray[0]
+    }
+
+    /// The same for `N` rays, which are given component by component, so that one instruction works on several.
     ///
     /// An origin that is far away is moved on along the ray, or f32 would not resolve the boxes from there.
     /// The direction may have any length: τ is t in units in which its largest component lies in [1, 2).
+    /// A ray that is not finite has a unit that is none, so that it enters nothing.
     #[inline(always)]
-    pub fn new(origin: DVec3, direction: DVec3, around: &BoundingBox) -> Self {
-        const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
-        let unit = power_of_two_below(direction.abs().max_element());
-        let direction = direction * (1.0 / unit);
+    pub fn fill<const N: usize>([o, d]: [&[[f64; N]; 3]; 2], around: &BoundingBox, rays: &mut [Self]) {
         let extent = (0..3).map(|axis| f64::from(around.high[axis] - around.low[axis]));
         let extent = extent.fold(0.0, |max, extent| if extent > max { extent } else { max });
-        let centre = DVec3::from(by_axis(|axis| 0.5 * f64::from(around.doubled_centre(axis))));
-        let apart = centre - origin;
-        let (mut moved, mut error) = (0.0, 0.0);
-        if apart.abs().max_element() > FAR_AWAY * extent {
-            // One extent before the centre: more than half the diagonal, so that every box lies ahead.
-            let along = apart.dot(direction) / direction.length_squared() - extent;
-            if along.is_finite() && along > 0.0 {
-                moved = along;
-                error = ROUNDING * (origin.abs().element_sum() + along * direction.abs().element_sum());
+        let centre = by_axis(|axis| 0.5 * f64::from(around.doubled_centre(axis)));
+        let (mut unit, mut far_away) = ([1.0; N], [false; N]);
+        for i in 0..N {
+            let [x, y, z] = by_axis(|axis| d[axis][i].abs());
+            let largest = if x > y { x } else { y };
+            // 0 for numbers, and otherwise none.
+            let finite = by_axis(|axis| 0.0 * d[axis][i] + 0.0 * o[axis][i]);
+            unit[i] = power_of_two_below(if largest > z { largest } else { z }) + (finite[0] + finite[1] + finite[2]);
+            let far = by_axis(|axis| (centre[axis] - o[axis][i]).abs() > FAR_AWAY * extent);
+            far_away[i] = far[0] | far[1] | far[2];
+        }
+        let (mut moved, mut error) = ([0.0; N], [0.0; N]);
+        if far_away.contains(&true) {
+            for i in (0..N).filter(|&i| far_away[i]) {
+                let [origin, direction] = [o, d].map(|of| DVec3::from(by_axis(|axis| of[axis][i])));
+                (moved[i], error[i]) = moved_towards(DVec3::from(centre), extent, origin, direction / unit[i]);
             }
         }
-        let origin = origin + moved * direction;
-        let mut ray = Self { first: [0; 3], enter: [[0.0; 3]; 2], leave: [[0.0; 3]; 2], start: moved / unit, unit };
+        let mut axes = [AxisRays::<N>::NONE; 3];
         for axis in 0..3 {
-            let AxisRay { enter, leave, backwards } = AxisRay::new(origin[axis], error, direction[axis]);
-            ray.first[axis] = usize::from(backwards);
-            (ray.enter[0][axis], ray.enter[1][axis]) = (enter[0], enter[1]);
-            (ray.leave[0][axis], ray.leave[1][axis]) = (leave[0], leave[1]);
+            for i in 0..N {
+                let direction = d[axis][i] * (1.0 / unit[i]);
+                axes[axis].set(i, &AxisRay::new(o[axis][i] + moved[i] * direction, error[i], direction));
+            }
         }
-        ray
+        for (i, ray) in rays.iter_mut().enumerate().take(N) {
+            *ray = Self {
+                first: by_axis(|axis| axes[axis].first[i]),
+                enter: [by_axis(|axis| axes[axis].enter[0][i]), by_axis(|axis| axes[axis].enter[1][i])],
+                leave: [by_axis(|axis| axes[axis].leave[0][i]), by_axis(|axis| axes[axis].leave[1][i])],
+                start: moved[i] / unit[i],
+                unit: unit[i],
+            };
+        }
     }
 
     /// A t_max in units of τ, rounded up by more than the error of both.
     #[inline(always)]
     pub fn limit(&self, t_max: f64) -> f32 {
         padded_limit(t_max - self.start, self.unit)
+    }
+
+    /// The same of the smallest t so far, which is negative if there is nothing more to find: then no box is entered.
+    #[inline(always)]
+    pub(super) fn limit_so_far(&self, t: f64) -> f32 {
+        if t < 0.0 { -1.0 } else { self.limit(t) }
     }
 
     // ANCHOR: enters_eight
@@ -129,6 +174,48 @@ impl BoxRay {
         u64::from_le_bytes(enters)
     }
     // ANCHOR_END: enters_eight
+
+    // ANCHOR: entries_of_eight
+    /// Where the ray enters the boxes of a node, up to `limit`; infinite for those that it does not enter.
+    ///
+    /// The numbers of [`Self::enters`], for loops over many rays: each step is a loop of its own over the eight boxes,
+    /// which is one instruction there. Where one ray goes on by a mask, the other form takes less time.
+    #[inline(always)]
+    pub(super) fn entries(&self, node: &WideNode, limit: f32, entry: &mut [f32; WIDTH]) {
+        let [near, far] = node.enter_and_leave(self.first);
+        let (mut from, mut until) = ([0.0; WIDTH], [limit; WIDTH]);
+        for axis in 0..3 {
+            let (origin, inverse) = (self.enter[0][axis], self.enter[1][axis]);
+            for child in 0..WIDTH {
+                let t = (near[axis][child] - origin) * inverse;
+                from[child] = if t > from[child] { t } else { from[child] };
+            }
+            let (origin, inverse) = (self.leave[0][axis], self.leave[1][axis]);
+            for child in 0..WIDTH {
+                let t = (far[axis][child] - origin) * inverse;
+                until[child] = if t < until[child] { t } else { until[child] };
+            }
+        }
+        for child in 0..WIDTH {
+            // A box that is entered beyond all numbers of f32 is entered.
+            let finite = if from[child] < f32::MAX { from[child] } else { f32::MAX };
+            entry[child] = if from[child] <= until[child] { finite } else { f32::INFINITY };
+        }
+    }
+    // ANCHOR_END: entries_of_eight
+}
+
+/// How far an origin is moved on along a ray, in τ, and what the rounding of that may add to it.
+#[cold]
+#[inline(never)]
+fn moved_towards(centre: DVec3, extent: f64, origin: DVec3, direction: DVec3) -> (f64, f64) {
+    const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
+    // One extent before the centre: more than half the diagonal, so that every box lies ahead.
+    let along = (centre - origin).dot(direction) / direction.length_squared() - extent;
+    if !(along.is_finite() && along > 0.0) {
+        return (0.0, 0.0);
+    }
+    (along, ROUNDING * (origin.abs().element_sum() + along * direction.abs().element_sum()))
 }
 
 /// Takes the first child off a mask of bytes, which must not be 0.

@@ -157,11 +157,3 @@ impl Traversal {
     }
     // ANCHOR_END: step
 }
-
-/// Visits the leaves whose boxes a ray hits, the nearest first, until none can hold anything closer.
-#[inline(always)]
-pub fn traverse(any: bool, bvh: &Bvh, ray: [DVec3; 2], t_max: f64, stack: &mut Stack, leaves: &mut impl LeafTest) {
-    if let Some(mut traversal) = Traversal::new(bvh, ray, t_max) {
-        while traversal.step(any, bvh, stack, leaves) {}
-    }
-}

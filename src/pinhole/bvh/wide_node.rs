@@ -1,4 +1,5 @@
 use super::bounding_box::BoundingBox;
+use super::by_axis;
 
 /// The children of a node.
 pub const WIDTH: usize = 8;
@@ -79,8 +80,8 @@ impl WideNode {
     /// The planes by which a ray enters the slabs of all children, and those by which it leaves them, by axis; `first`
     /// says for each axis whether it enters by the lower ones, 0, or by the upper ones, 1.
     #[inline(always)]
-    pub fn enter_and_leave(&self, [x, y, z]: [usize; 3]) -> [[&[f32; WIDTH]; 3]; 2] {
-        let planes = &self.planes;
+    pub fn enter_and_leave(&self, first: [u32; 3]) -> [[&[f32; WIDTH]; 3]; 2] {
+        let (planes, [x, y, z]) = (&self.planes, by_axis(|axis| first[axis] as usize & 1));
         [[&planes[x][0], &planes[y][1], &planes[z][2]], [&planes[1 - x][0], &planes[1 - y][1], &planes[1 - z][2]]]
     }
 

@@ -3,7 +3,6 @@
 use super::hits::ShapeRows;
 use super::surface::{SurfaceUvs, SurfaceView, SurfaceViewItem};
 use super::{HitColumn, HitPrimitives, Hits, RayColumn};
-use crate::bvh::Stack;
 use crate::extract::{
     HierarchyOf, ShapeTable, ShapesOf, UvSpaceTable, hierarchy_evidence, kind_evidence, primitive_evidence,
     rasterising_camera,
@@ -11,7 +10,7 @@ use crate::extract::{
 use crate::plan::{Column, Shared, Stage, TileSystems, VectorRowsMut};
 use crate::rays::WorldRays;
 use crate::shapes::{
-    ClosestHits, HITS, HitBlock, Listed, RayHit, RaySlices, ShapeVisitor, keep_closest_of, visit_shapes,
+    ClosestHits, HITS, HierarchyRoom, HitBlock, Listed, RayHit, RaySlices, ShapeVisitor, keep_closest_of, visit_shapes,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -20,11 +19,11 @@ use glam::DVec3;
 pub fn intersect_shapes<S: Listed, R: RayColumn, H: HitColumn>(
     shapes: Res<Shared<ShapesOf<S>>>,
     hierarchy: Option<Res<Shared<HierarchyOf<S>>>>,
-    mut stacks: Local<[Stack; 2]>,
+    mut room: Local<HierarchyRoom>,
     mut tiles: Query<(&R, &mut H)>,
 ) {
     for (rays, mut hits) in &mut tiles {
-        keep_closest(&shapes, hierarchy.as_deref(), rays.ray_components(), hits.closest_hits(), &mut stacks);
+        keep_closest(&shapes, hierarchy.as_deref(), rays.ray_components(), hits.closest_hits(), &mut room);
     }
 }
 
@@ -32,13 +31,13 @@ pub fn intersect_shapes<S: Listed, R: RayColumn, H: HitColumn>(
 fn intersect_primitives<S: Listed>(
     shapes: Res<Shared<ShapesOf<S>>>,
     hierarchy: Option<Res<Shared<HierarchyOf<S>>>>,
-    mut stacks: Local<[Stack; 2]>,
+    mut room: Local<HierarchyRoom>,
     mut tiles: Query<(&WorldRays, &mut Hits, &mut HitPrimitives)>,
 ) {
     for (rays, mut hits, mut primitives) in &mut tiles {
         let primitive = Some(primitives.slices_mut(rays.rows()));
         let hits = ClosestHits { primitive, ..hits.closest_hits() };
-        keep_closest(&shapes, hierarchy.as_deref(), rays.ray_components(), hits, &mut stacks);
+        keep_closest(&shapes, hierarchy.as_deref(), rays.ray_components(), hits, &mut room);
     }
 }
 
@@ -47,11 +46,11 @@ fn keep_closest<S: Listed>(
     hierarchy: Option<&Shared<HierarchyOf<S>>>,
     rays: RaySlices<'_>,
     hits: ClosestHits<'_>,
-    stacks: &mut [Stack; 2],
+    room: &mut HierarchyRoom,
 ) {
     let (row, shape) = shapes.opaque();
     match hierarchy.and_then(|hierarchy| hierarchy.bvh.as_ref()) {
-        Some(bvh) => keep_closest_of((row, shape, bvh), rays, hits, stacks),
+        Some(bvh) => keep_closest_of((row, shape, bvh), rays, hits, room),
         None => S::keep_closest(row, shape, rays, hits),
     }
 }

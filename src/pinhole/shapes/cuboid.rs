@@ -70,7 +70,7 @@ impl Shape for Slabs {
     type SurfaceData = ();
     type Emitter = EmittingCuboid;
 
-    const HIERARCHY_FROM: usize = 64;
+    const HIERARCHY_FROM: usize = 24;
 
     fn has_inside(_: &Cuboid) -> bool {
         true

@@ -29,7 +29,7 @@ impl Shape for PlacedDisk {
     type SurfaceData = ();
     type Emitter = EmittingDisk;
 
-    const HIERARCHY_FROM: usize = 24;
+    const HIERARCHY_FROM: usize = 12;
 
     fn has_inside(_: &Disk) -> bool {
         false

@@ -218,7 +218,7 @@ impl<C: FrustumShape> Shape for PlacedFrustum<C> {
     type SurfaceData = ();
     type Emitter = EmittingFrustum;
 
-    const HIERARCHY_FROM: usize = 48;
+    const HIERARCHY_FROM: usize = 8;
 
     fn has_inside(component: &C) -> bool {
         component.is_capped()

@@ -1,11 +1,15 @@
-use super::ray_block::{ClosestHit, ClosestHits, RaySlices, nearness};
+use super::ray_block::{
+    BlockHits, ClosestHit, ClosestHits, LANES, RayBlock, RaySlices, is_near_any, keep_closest_block, nearness,
+};
 use super::shape::Shape;
-use crate::bvh::{BoundingBox, Bvh, LeafTest, Stack, TestCounts, Traversal, traverse, traverse_counted};
+use crate::bvh::{BoundingBox, Bvh, RayStream, STREAM, Stack, StreamLeaves, TestCounts, Traversal, traverse_counted};
 use glam::DVec3;
 use multiversion::multiversion;
 
 /// The most shapes of a leaf.
 const LEAF: usize = 4;
+/// Fewer rays than this are tested one by one: a block takes as long with one as with sixteen.
+const FEW: usize = 4;
 
 /// The hierarchy over shapes of one kind; none where one of them is infinite.
 pub fn hierarchy_of<S: Shape>(shapes: &[S]) -> Option<Bvh> {
@@ -14,63 +18,104 @@ pub fn hierarchy_of<S: Shape>(shapes: &[S]) -> Option<Bvh> {
     Some(Bvh::build::<LEAF>(&boxes?))
 }
 
-/// A ray in the leaves of a table of shapes, and its closest hit so far.
-struct ShapeLeaves<'a, S> {
+/// The rays from `start` on in the leaves of a table of shapes, and their closest hits so far.
+struct ShapeLeaves<'a, 'b, S> {
     shapes: &'a [S],
     numbers: &'a [u32],
     bvh: &'a Bvh,
-    ray: [DVec3; 2],
-    /// 1 / R·R.
-    inverse: f64,
-    closest: ClosestHit,
+    rays: RaySlices<'a>,
+    start: usize,
+    hits: &'a mut ClosestHits<'b>,
     /// For shapes that have a hierarchy of their own.
     inner: &'a mut Stack,
 }
 
-impl<S: Shape> LeafTest for ShapeLeaves<'_, S> {
+impl<S: Shape> StreamLeaves for ShapeLeaves<'_, '_, S> {
     #[inline(always)]
-    fn test(&mut self, leaf: usize) -> f64 {
-        for &place in self.bvh.primitives(leaf) {
-            let (shape, number) = (&self.shapes[place as usize], self.numbers[place as usize]);
-            if shape.culling_sphere().is_some_and(|sphere| misses(self.ray, self.inverse, sphere)) {
-                continue;
+    fn test(&mut self, leaf: usize, rays: &[u16]) {
+        for some in rays.chunks(LANES) {
+            if S::IN_BLOCKS && some.len() >= FEW {
+                self.test_together(leaf, some);
+            } else {
+                some.iter().for_each(|&ray| self.test_alone(leaf, usize::from(ray)));
             }
-            self.closest = shape.keep_closest_of_ray(self.ray, number, self.closest, self.inner);
         }
-        self.closest.t
+    }
+
+    #[inline(always)]
+    fn t(&self, ray: usize) -> f64 {
+        let row = self.start + ray;
+        if self.hits.get(row).is_enough() { -1.0 } else { self.hits.t[row] }
     }
 }
 
-/// Whether a ray's line certainly misses a sphere, which takes no division and no root.
-#[inline(always)]
-fn misses([origin, direction]: [DVec3; 2], inverse: f64, (centre, radius): (DVec3, f64)) -> bool {
-    nearness(centre - origin, direction, inverse, radius) < 0.0
+impl<S: Shape> ShapeLeaves<'_, '_, S> {
+    /// Up to sixteen rays, for which one shape after another is tested.
+    #[inline(always)]
+    fn test_together(&mut self, leaf: usize, rays: &[u16]) {
+        let mut rows = [0; LANES];
+        let rows = &mut rows[..rays.len()];
+        for (row, &ray) in rows.iter_mut().zip(rays) {
+            *row = (self.start + usize::from(ray)) as u32;
+        }
+        let block = RayBlock::of_rows(self.rays, rows);
+        let mut closest = BlockHits::of_rows(self.hits.t, self.hits.shape, rows);
+        for &place in self.bvh.primitives(leaf) {
+            let (shape, number) = (&self.shapes[place as usize], self.numbers[place as usize]);
+            if is_near_any(&block, shape) {
+                keep_closest_block(&block, shape, number, &mut closest);
+            }
+        }
+        closest.write_rows(self.hits.t, self.hits.shape, rows);
+    }
+
+    #[inline(always)]
+    fn test_alone(&mut self, leaf: usize, ray: usize) {
+        let (ray, row) = (self.rays.ray(self.start + ray), self.start + ray);
+        let (mut closest, inverse) = (self.hits.get(row), 1.0 / ray[1].dot(ray[1]));
+        for &place in self.bvh.primitives(leaf) {
+            let (shape, number) = (&self.shapes[place as usize], self.numbers[place as usize]);
+            if shape
+                .culling_sphere()
+                .is_some_and(|(centre, radius)| nearness(centre - ray[0], ray[1], inverse, radius) < 0.0)
+            {
+                continue;
+            }
+            closest = shape.keep_closest_of_ray(ray, number, closest, self.inner);
+        }
+        self.hits.set(row, closest);
+    }
 }
 
-/// Intersects one ray at a time with the shapes whose boxes it hits, and keeps the closest hits.
+/// What a column of rays needs on its way through hierarchies, kept from tile to tile.
+#[derive(Default)]
+pub struct HierarchyRoom {
+    stream: RayStream,
+    /// For one ray in a shape that has a hierarchy of its own.
+    inner: Stack,
+}
+
+/// Intersects a column of rays with the shapes whose boxes they enter, and keeps the closest hits.
 ///
-/// The result is to the last bit that of testing all shapes: a hierarchy only says which may be left out. The stacks, one
-/// for this hierarchy and one for those of the shapes, are room that is kept from tile to tile.
+/// The result is to the last bit that of testing all shapes: a hierarchy only says which may be left out.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 pub fn keep_closest_of<S: Shape>(
     (shapes, numbers, bvh): (&[S], &[u32], &Bvh),
     rays: RaySlices<'_>,
     mut hits: ClosestHits<'_>,
-    [stack, inner]: &mut [Stack; 2],
+    HierarchyRoom { stream, inner }: &mut HierarchyRoom,
 ) {
-    for row in 0..hits.t.len() {
-        let (ray, closest) = (rays.ray(row), hits.get(row));
-        if closest.is_enough() {
-            continue;
+    let rows = hits.t.len();
+    for start in (0..rows.div_ceil(STREAM)).map(|part| part * STREAM) {
+        stream.clear();
+        let end = rows.min(start + STREAM);
+        for first in (start..end).step_by(LANES) {
+            let last = end.min(first + LANES);
+            let RayBlock { o, d, .. } = RayBlock::of(rays, first, last);
+            stream.add([&o, &d], last - first, &bvh.around);
         }
-        let inverse = 1.0 / ray[1].dot(ray[1]);
-        let mut leaves = ShapeLeaves { shapes, numbers, bvh, ray, inverse, closest, inner };
-        // Constants, so that each of the two loops asks for nothing that only the other needs.
-        match closest.any {
-            true => traverse(true, bvh, ray, closest.t, stack, &mut leaves),
-            false => traverse(false, bvh, ray, closest.t, stack, &mut leaves),
-        }
-        hits.set(row, leaves.closest);
+        let mut leaves = ShapeLeaves { shapes, numbers, bvh, rays, start, hits: &mut hits, inner };
+        stream.traverse(bvh, &mut leaves);
     }
 }
 

@@ -137,6 +137,7 @@ impl Shape for PlacedMesh {
     const HAS_PRIMITIVES: bool = true;
     const IS_TRIANGULAR: bool = true;
     const HIERARCHY_FROM: usize = 6;
+    const IN_BLOCKS: bool = false;
 
     fn has_inside(mesh: &MeshInstance) -> bool {
         is_closed(&mesh.geometry)

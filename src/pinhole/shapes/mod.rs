@@ -91,7 +91,7 @@ pub use cuboid::{Slabs, cuboid_face, cuboid_intersection, cuboid_surface, cuboid
 pub use cylinder::PlacedCylinder;
 pub use disk::{PlacedDisk, disk_intersection, disk_t};
 pub use ellipsoid::{Ellipsoid, ellipsoid_intersection, ellipsoid_surface, ellipsoid_t};
-pub use hierarchy_rows::{hierarchy_of, keep_closest_counted, keep_closest_of};
+pub use hierarchy_rows::{HierarchyRoom, hierarchy_of, keep_closest_counted, keep_closest_of};
 pub use inside::stretches_inside;
 pub use kind::ShapeKind;
 pub use planar::{Crossing, Planar, crossing};

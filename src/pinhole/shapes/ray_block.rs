@@ -192,6 +192,24 @@ impl BlockHits {
         own
     }
 
+    /// Those of the listed rows, at most one per lane.
+    #[inline(always)]
+    pub fn of_rows(t: &[f64], shape: &[u32], rows: &[u32]) -> Self {
+        let mut own = Self { t: [f64::NEG_INFINITY; LANES], shape: [0; LANES] };
+        for (lane, &row) in rows.iter().enumerate() {
+            (own.t[lane], own.shape[lane]) = (t[row as usize], shape[row as usize]);
+        }
+        own
+    }
+
+    /// Writes them to the listed rows.
+    #[inline(always)]
+    pub fn write_rows(&self, t: &mut [f64], shape: &mut [u32], rows: &[u32]) {
+        for (lane, &row) in rows.iter().enumerate() {
+            (t[row as usize], shape[row as usize]) = (self.t[lane], self.shape[lane]);
+        }
+    }
+
     /// Writes them to the rows.
     #[inline(always)]
     pub fn write(&self, t: &mut [f64], shape: &mut [u32]) {
@@ -225,6 +243,18 @@ pub(crate) fn keep_closest_block(rays: &RayBlock, one: &impl Shape, number: u32,
 }
 // ANCHOR_END: keep_closest
 
+/// Whether a shape's culling sphere, if it has one, is intersected by the line of any ray of a block.
+#[inline(always)]
+pub(super) fn is_near_any(rays: &RayBlock, one: &impl Shape) -> bool {
+    let Some((centre, radius)) = one.culling_sphere() else { return true };
+    let mut is_near = false;
+    for lane in 0..LANES {
+        let f = centre - vector(&rays.o, lane);
+        is_near |= nearness(f, vector(&rays.d, lane), rays.inverse[lane], radius) >= 0.0;
+    }
+    is_near
+}
+
 /// Tests one shape at a time against all rays, so that the arithmetic is vectorised over rays; if none of sixteen
 /// intersects its culling sphere, they are skipped.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
@@ -241,17 +271,9 @@ pub(super) fn keep_closest_rows<S: Shape>(
         let block = RayBlock::of(rays, start, end);
         let mut closest = BlockHits::of(&t[start..end], &shape[start..end]);
         for (one, &number) in shapes.iter().zip(numbers) {
-            if let Some((centre, radius)) = one.culling_sphere() {
-                let mut is_near = false;
-                for lane in 0..LANES {
-                    let f = centre - vector(&block.o, lane);
-                    is_near |= nearness(f, vector(&block.d, lane), block.inverse[lane], radius) >= 0.0;
-                }
-                if !is_near {
-                    continue;
-                }
+            if is_near_any(&block, one) {
+                keep_closest_block(&block, one, number, &mut closest);
             }
-            keep_closest_block(&block, one, number, &mut closest);
         }
         closest.write(&mut t[start..end], &mut shape[start..end]);
         start = end;

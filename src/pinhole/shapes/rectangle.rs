@@ -30,7 +30,7 @@ impl Shape for PlacedRectangle {
     type SurfaceData = ();
     type Emitter = Parallelogram;
 
-    const HIERARCHY_FROM: usize = 24;
+    const HIERARCHY_FROM: usize = 12;
 
     fn has_inside(_: &Rectangle) -> bool {
         false

@@ -72,11 +72,13 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     const IS_PART: bool = false;
     /// Whether its u and v are those of a point in its uv space.
     const HAS_UV_SPACE: bool = false;
+    /// Whether [`Self::intersections`] of a block takes less time than [`Self::intersection`] of one ray after another.
+    const IN_BLOCKS: bool = true;
     /// From so many on a hierarchy over them saves time; fewer are tested one by one, sixteen rays at a time.
     ///
     /// `cargo bench --bench curves` prints both times for rays of a camera and for random ones: this lies between the
     /// numbers from which on either gain.
-    const HIERARCHY_FROM: usize = 160;
+    const HIERARCHY_FROM: usize = 64;
 
     /// Whether it can be made of glass: it has an inside, alone or together with others.
     fn has_inside(component: &Self::Component) -> bool;

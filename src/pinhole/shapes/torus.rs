@@ -46,6 +46,7 @@ impl Shape for PlacedTorus {
     type Emitter = NeverSampled;
 
     const HIERARCHY_FROM: usize = 16;
+    const IN_BLOCKS: bool = false;
 
     fn has_inside(_: &Torus) -> bool {
         true

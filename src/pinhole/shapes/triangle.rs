@@ -74,6 +74,8 @@ impl Shape for TriangleRow {
     type Emitter = EmittingTriangle;
 
     const IS_TRIANGULAR: bool = true;
+    const IN_BLOCKS: bool = false;
+    const HIERARCHY_FROM: usize = 160;
     const IS_PART: bool = true;
 
     fn has_inside(_: &Triangle) -> bool {

@@ -9,7 +9,9 @@ use crate::measure::torus_knot::{MIN_RADIUS, curve, torus_knot};
 use glam::{DQuat, DVec3, Vec3};
 use pinhole::intersect::NO_SHAPE;
 use pinhole::scene::{MeshGeometry, MeshInstance, Placement};
-use pinhole::shapes::{ClosestHits, PlacedMesh, RaySlices, Shape, hierarchy_of, keep_closest_of, with_shapes};
+use pinhole::shapes::{
+    ClosestHits, HierarchyRoom, PlacedMesh, RaySlices, Shape, hierarchy_of, keep_closest_of, with_shapes,
+};
 use std::f64::consts::TAU;
 use std::ops::Range;
 use std::sync::LazyLock;
@@ -21,6 +23,8 @@ const LEAKS: [Method; 1] = [Method::pinhole("pinhole, no ray leaks", "", 0.0)];
 const SHAPES: usize = 60;
 /// The rays that are tried with one set of shapes.
 const RAYS_A_SET: u64 = 512;
+/// The rays that go through a hierarchy together, the last of which is looked at.
+const TOGETHER: usize = 40;
 
 /// The offsets of a mesh from the eye.
 const OFFSETS: [(&str, DVec3); 3] = [
@@ -52,21 +56,22 @@ pub fn trials() -> Vec<Trial> {
 /// A hit's number, primitive and t.
 type Found = (u32, u32, u64);
 
-/// What a kernel finds along one ray.
-fn found(ray: AimedRay, t_max: f64, keep_closest: impl Fn(RaySlices<'_>, ClosestHits<'_>)) -> Found {
-    let (origin, direction) = (ray.origin.to_array().map(|part| [part]), ray.direction.to_array().map(|part| [part]));
-    let rays = RaySlices {
+/// What a kernel that intersects a column of rays, each up to its t_max, finds along the last of them.
+fn found(rays: &[(AimedRay, f64)], any: bool, keep_closest: impl FnOnce(RaySlices<'_>, ClosestHits<'_>)) -> Found {
+    let part = |vector: fn(&AimedRay) -> Vec3, axis: usize| -> Vec<f32> {
+        rays.iter().map(|(ray, _)| vector(ray)[axis]).collect()
+    };
+    let origin = [0, 1, 2].map(|axis| part(|ray| ray.origin, axis));
+    let direction = [0, 1, 2].map(|axis| part(|ray| ray.direction, axis));
+    let slices = RaySlices {
         origin: origin.each_ref().map(|part| &part[..]),
         direction: direction.each_ref().map(|part| &part[..]),
     };
-    let (mut t, mut shape, mut primitive) = ([t_max], [NO_SHAPE], [0]);
-    keep_closest(rays, ClosestHits { t: &mut t, shape: &mut shape, primitive: Some(&mut primitive), any: false });
-    (shape[0], if shape[0] == NO_SHAPE { 0 } else { primitive[0] }, t[0].to_bits())
-}
-
-/// Whether a kernel that may stop at the first hit finds any.
-fn found_any(ray: AimedRay, t_max: f64, keep_closest: impl Fn(RaySlices<'_>, ClosestHits<'_>)) -> bool {
-    found(ray, t_max, |rays, hits| keep_closest(rays, ClosestHits { any: true, primitive: None, ..hits })).0 != NO_SHAPE
+    let mut t: Vec<f64> = rays.iter().map(|(_, t_max)| *t_max).collect();
+    let (mut shape, mut primitive) = (vec![NO_SHAPE; rays.len()], vec![0; rays.len()]);
+    keep_closest(slices, ClosestHits { t: &mut t, shape: &mut shape, primitive: Some(&mut primitive), any });
+    let last = rays.len() - 1;
+    (shape[last], if shape[last] == NO_SHAPE { 0 } else { primitive[last] }, t[last].to_bits())
 }
 
 /// Shapes of any size close together, some of them twice, so that there are ties.
@@ -85,6 +90,7 @@ fn check_shapes<S: Oracle>(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(SAME.len());
     let mut set = u64::MAX;
     let (mut shapes, mut numbers, mut bvh) = (Vec::new(), Vec::new(), None);
+    let (mut room, mut together) = (HierarchyRoom::default(), Vec::new());
     for index in range {
         if index / RAYS_A_SET != set {
             set = index / RAYS_A_SET;
@@ -104,14 +110,19 @@ fn check_shapes<S: Oracle>(range: Range<u64>) -> Tally {
             ray.direction = along_an_axis(&mut draws);
         }
         let t_max = if draws.unit() < 0.2 { draws.power_of_ten(-1.0, 2.0) } else { f64::INFINITY };
-        let all = found(ray, t_max, |rays, hits| S::keep_closest(&shapes, &numbers, rays, hits));
-        let some = found(ray, t_max, |rays, hits| {
-            keep_closest_of((&shapes, &numbers, bvh), rays, hits, &mut Default::default())
+        // The ray's way must not depend on those that go through the hierarchy with it.
+        together.push((ray, t_max));
+        if together.len() > TOGETHER {
+            together.remove(0);
+        }
+        let all = found(&[(ray, t_max)], false, |rays, hits| {
+            S::keep_closest(&shapes, &numbers, rays, hits);
+        });
+        let [some, any] = [false, true].map(|any| {
+            found(&together, any, |rays, hits| keep_closest_of((&shapes, &numbers, bvh), rays, hits, &mut room))
         });
         tally.count(all.0 != NO_SHAPE);
-        let any = found_any(ray, t_max, |rays, hits| {
-            keep_closest_of((&shapes, &numbers, bvh), rays, hits, &mut Default::default())
-        });
+        let any = any.0 != NO_SHAPE;
         tally.scores[0].check(all == some && any == (all.0 != NO_SHAPE));
     }
     tally
