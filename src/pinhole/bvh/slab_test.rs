@@ -175,7 +175,6 @@ impl BoxRay {
     }
     // ANCHOR_END: enters_eight
 
-    // ANCHOR: entries_of_eight
     /// Where the ray enters the boxes of a node, up to `limit`; infinite for those that it does not enter.
     ///
     /// The numbers of [`Self::enters`], for loops over many rays: each step is a loop of its own over the eight boxes,
@@ -202,7 +201,6 @@ impl BoxRay {
             entry[child] = if from[child] <= until[child] { finite } else { f32::INFINITY };
         }
     }
-    // ANCHOR_END: entries_of_eight
 }
 
 /// How far an origin is moved on along a ray, in τ, and what the rounding of that may add to it.

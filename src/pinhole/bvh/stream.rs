@@ -144,7 +144,6 @@ impl RayStream {
         self.count += count;
     }
 
-    // ANCHOR: stream_traverse
     /// Visits the leaves whose boxes its rays enter, until none can hold anything closer for any of them.
     #[inline(always)]
     pub fn traverse(&mut self, bvh: &Bvh, leaves: &mut impl StreamLeaves) {
@@ -191,7 +190,6 @@ impl RayStream {
             }
         }
     }
-    // ANCHOR_END: stream_traverse
 }
 
 /// A level, for which room is made when a node is first that deep.
