@@ -9,11 +9,12 @@ use super::scatter_block::{AT_ONCE, SampledBlock, SampledColumns, ScatteredBlock
 use super::specular::{specular_from_lights_stage, specular_stage, split_stage};
 use super::{DeeperMedia, Media, Scattered, power_heuristic};
 use crate::extract::{
-    GlassTable, MaterialTable, NO_ROW, SamplingTable, ShapeTable, area_light_evidence, bidirectional_evidence,
-    bsdf_evidence, environment_light_evidence, glass_contact_evidence, joined_evidence, mis_evidence, needed_if,
-    traced_evidence,
+    GlassTable, MaterialTable, SamplingTable, ShapeTable, area_light_evidence, bidirectional_evidence, bsdf_evidence,
+    environment_light_evidence, glass_contact_evidence, joined_evidence, mis_evidence, needed_if, traced_evidence,
 };
-use crate::intersect::{Contacts, Hits, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces, rows_of_kind};
+use crate::intersect::{
+    Contacts, Hits, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces, list_rows, rows_of_kind,
+};
 use crate::material::{
     Bsdf, BsdfClass, MaterialKind, MatteTable, Parameters, ShadingContext, Transport, for_each_bsdf,
 };
@@ -277,25 +278,16 @@ rows_of_kind! {
     pub struct BsdfRows<B: Bsdf>
 }
 
-/// Lists the rows that hit a surface with this BSDF: every candidate is written, and the next overwrites it unless it
-/// counts.
+/// Lists the rows that hit a surface with this BSDF.
 pub fn classify_bsdf<B: Bsdf>(
     shapes: Res<Shared<ShapeTable>>,
     materials: Res<Shared<MaterialTable>>,
     mut tiles: Query<(&Hits, &mut BsdfRows<B>)>,
 ) {
-    let has_bsdf = |shape: usize| match shapes.material[shape] {
-        NO_ROW => false,
-        material => materials.kind[material as usize] == B::KIND,
-    };
+    // A shape without a material has a row that no table has.
+    let has_bsdf = |shape: usize| materials.kind.get(shapes.material[shape] as usize) == Some(&B::KIND);
     for (hits, mut list) in &mut tiles {
-        list.row.resize(hits.rows(), 0);
-        let mut length = 0;
-        for (row, &shape) in hits.shape.iter().enumerate() {
-            list.row[length] = row as u32;
-            length += usize::from(shape != NO_SHAPE && has_bsdf(shape as usize));
-        }
-        list.row.truncate(length);
+        list_rows(hits, shapes.kind.len(), &mut list.row, has_bsdf);
     }
 }
 

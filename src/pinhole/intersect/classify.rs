@@ -6,7 +6,7 @@ use crate::shapes::{Listed, ShapeKind, with_shapes};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 
-/// The hits of a tile, the lists by material that they are sorted into, and what is cleared where nothing was hit.
+/// The hits of a tile, the lists by material that they are sorted into, and what is cleared.
 ///
 /// Each exists only where something reads it.
 #[derive(QueryData)]
@@ -31,30 +31,30 @@ macro_rules! shape_lists {
 
         fn list_shapes(hits: &Hits, shapes: &ShapeTable, lists: ShapeListsViewItem<'_, '_>) {
             $(if let Some(mut list) = lists.$field {
-                list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::$kind);
+                list_rows(hits, shapes.kind.len(), &mut list.row, |shape| shapes.kind[shape] == ShapeKind::$kind);
             })+
         }
     };
 }
 with_shapes!(shape_lists);
 
-/// Sorts the rows into lists by shape and material, and clears the surfaces of rows that hit nothing.
+/// Sorts the rows into lists by shape and material, and clears what the stages of shapes write.
 ///
 /// Afterwards each stage visits the rows of its own kind only, so that no kernel branches by kind.
 pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(ShapeListsView, HitListsView)>) {
     for (lists, HitListsViewItem { hits, materials, emissive, surfaces, uvs, sides }) in &mut tiles {
         list_shapes(hits, &shapes, lists);
         if let Some(mut list) = materials {
-            list_rows(hits, &mut list.row, |shape| shapes.non_specular[shape]);
+            list_rows(hits, shapes.kind.len(), &mut list.row, |shape| shapes.non_specular[shape]);
         }
         if let Some(mut list) = emissive {
             let list = &mut *list;
-            list_rows(hits, &mut list.row, |shape| shapes.emissive[shape] != NO_ROW);
+            list_rows(hits, shapes.kind.len(), &mut list.row, |shape| shapes.emissive[shape] != NO_ROW);
             list.emissive.clear();
             list.emissive.extend(list.row.iter().map(|&row| shapes.emissive[hits.shape[row as usize] as usize]));
         }
         if let Some(mut surfaces) = surfaces {
-            clear_misses(hits, &mut surfaces);
+            clear_surfaces(&mut surfaces, hits.rows());
         }
         if let Some(mut uvs) = uvs {
             uvs.slices_mut(hits.rows()).set_all([0.0; 2]);
@@ -65,31 +65,34 @@ pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(ShapeLis
     }
 }
 
-/// Writes every row and keeps those of the kind (stream compaction), so that no branch depends on what was hit.
-fn list_rows(hits: &Hits, list: &mut Vec<u32>, of_kind: impl Fn(usize) -> bool) {
+/// Lists the rows that hit one of so many `shapes` of a kind: every row is written, and the next overwrites it unless it
+/// counts (stream compaction), so that no branch depends on what was hit.
+///
+/// A row that hit nothing is asked like the last shape, and does not count.
+pub fn list_rows(hits: &Hits, shapes: usize, list: &mut Vec<u32>, of_kind: impl Fn(usize) -> bool) {
+    let Some(last) = shapes.checked_sub(1) else { return list.clear() };
     list.resize(hits.rows(), 0);
-    let mut length = 0;
+    let (rows, mut length) = (&mut list[..], 0);
     for (row, &shape) in hits.shape.iter().enumerate() {
-        list[length] = row as u32;
-        length += usize::from(shape != NO_SHAPE && of_kind(shape as usize));
+        rows[length] = row as u32;
+        length += usize::from((shape != NO_SHAPE) & of_kind((shape as usize).min(last)));
     }
     list.truncate(length);
 }
 
-fn clear_misses(hits: &Hits, surfaces: &mut Surfaces) {
-    let rows = hits.rows();
+/// Clears all rows: those that hit something are written by the stage of their shape.
+fn clear_surfaces(surfaces: &mut Surfaces, rows: usize) {
     let (mut position, mut normal, bound, material) = surfaces.slices_mut(rows);
-    for row in (0..rows).filter(|&row| hits.shape[row] == NO_SHAPE) {
-        position.put(row, [0.0; 3]);
-        normal.put(row, [0.0; 3]);
-        (bound[row], material[row]) = (0.0, 0);
-    }
+    position.set_all([0.0; 3]);
+    normal.set_all([0.0; 3]);
+    bound.fill(0.0);
+    material.fill(0);
 }
 
 /// Lists the rows that hit one kind of shape, one that a program adds.
 pub fn classify_shape<S: Listed>(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(&Hits, &mut ShapeRows<S>)>) {
     for (hits, mut list) in &mut tiles {
-        list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == S::KIND);
+        list_rows(hits, shapes.kind.len(), &mut list.row, |shape| shapes.kind[shape] == S::KIND);
     }
 }
 

@@ -29,7 +29,7 @@ mod surface;
 #[doc(hidden)]
 pub use crate::extract::shape_evidence;
 #[doc(hidden)]
-pub use classify::{classify_hits, classify_shape, classify_shape_stage, classify_stage};
+pub use classify::{classify_hits, classify_shape, classify_shape_stage, classify_stage, list_rows};
 #[doc(hidden)]
 pub use contact::{Contacts, GlassCrossing, contact_bound_stage, contact_stage, merge_contacts, widen_bounds};
 #[doc(hidden)]
