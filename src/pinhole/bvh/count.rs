@@ -68,7 +68,7 @@ pub fn traverse_counted(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bvh::{BoundingBox, Child};
+    use crate::bvh::{Child, random_boxes};
     use crate::measure::draws::Draws;
     use glam::DVec3;
 
@@ -89,12 +89,7 @@ mod tests {
     #[test]
     fn a_ray_that_hits_nothing_visits_what_its_boxes_say() {
         let mut draws = Draws::new(3041, 0);
-        let boxes: Vec<BoundingBox> = (0..3000)
-            .map(|_| {
-                let low = DVec3::from([(); 3].map(|()| draws.between(-1.0, 1.0)));
-                BoundingBox::around(low, low + DVec3::splat(0.05))
-            })
-            .collect();
+        let boxes = random_boxes(&mut draws, 3000, 0.05);
         let bvh = Bvh::build::<4>(&boxes);
         let levels = levels(&bvh);
         let (rays, mut deepest) = (2000, 0);

@@ -49,6 +49,16 @@ pub fn by_axis<T>(of: impl Fn(usize) -> T) -> [T; 3] {
     [of(0), of(1), of(2)]
 }
 
+/// Boxes of one size with their lower corners at random in a cube of side 2, for tests.
+#[cfg(test)]
+fn random_boxes(draws: &mut crate::measure::draws::Draws, count: usize, side: f64) -> Vec<BoundingBox> {
+    let mut around = || {
+        let low = glam::DVec3::from([(); 3].map(|()| draws.between(-1.0, 1.0)));
+        BoundingBox::around(low, low + glam::DVec3::splat(side))
+    };
+    (0..count).map(|_| around()).collect()
+}
+
 /// A bounding volume hierarchy.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bvh {

@@ -210,7 +210,7 @@ fn add_level(levels: &mut Vec<Box<Level>>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bvh::{LeafTest, Stack, Traversal};
+    use crate::bvh::{LeafTest, Stack, Traversal, by_axis, random_boxes};
     use crate::measure::draws::Draws;
     use glam::DVec3;
 
@@ -248,12 +248,7 @@ mod tests {
 
     fn boxes_and_rays() -> (Bvh, Vec<[DVec3; 2]>) {
         let mut draws = Draws::new(4711, 0);
-        let boxes: Vec<BoundingBox> = (0..700)
-            .map(|_| {
-                let low = DVec3::from([(); 3].map(|()| draws.between(-1.0, 1.0)));
-                BoundingBox::around(low, low + DVec3::splat(0.1))
-            })
-            .collect();
+        let boxes = random_boxes(&mut draws, 700, 0.1);
         let mut rays: Vec<[DVec3; 2]> = (0..STREAM - 4)
             .map(|_| {
                 let origin = draws.unit_vector() * draws.power_of_ten(-1.0, 3.0);
@@ -274,9 +269,7 @@ mod tests {
         stream.clear();
         for some in rays.chunks(8) {
             let part = |which: usize| {
-                crate::bvh::by_axis(|axis| {
-                    std::array::from_fn::<_, 8, _>(|i| some.get(i).map_or(1.0, |ray| ray[which][axis]))
-                })
+                by_axis(|axis| std::array::from_fn::<_, 8, _>(|i| some.get(i).map_or(1.0, |ray| ray[which][axis])))
             };
             stream.add([&part(0), &part(1)], some.len(), &bvh.around);
         }
