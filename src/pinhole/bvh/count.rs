@@ -68,7 +68,7 @@ pub fn traverse_counted(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bvh::{Child, random_boxes};
+    use crate::bvh::{Child, tests::random_boxes};
     use crate::measure::draws::Draws;
     use glam::DVec3;
 

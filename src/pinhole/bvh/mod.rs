@@ -49,16 +49,6 @@ pub fn by_axis<T>(of: impl Fn(usize) -> T) -> [T; 3] {
     [of(0), of(1), of(2)]
 }
 
-/// Boxes of one size with their lower corners at random in a cube of side 2, for tests.
-#[cfg(test)]
-fn random_boxes(draws: &mut crate::measure::draws::Draws, count: usize, side: f64) -> Vec<BoundingBox> {
-    let mut around = || {
-        let low = glam::DVec3::from([(); 3].map(|()| draws.between(-1.0, 1.0)));
-        BoundingBox::around(low, low + glam::DVec3::splat(side))
-    };
-    (0..count).map(|_| around()).collect()
-}
-
 /// A bounding volume hierarchy.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bvh {
@@ -83,5 +73,21 @@ impl Bvh {
     /// The memory of its arrays, in bytes.
     pub fn bytes(&self) -> usize {
         self.nodes.len() * size_of::<WideNode>() + self.leaves.len() * size_of::<Range>() + self.order.len() * 4
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::BoundingBox;
+    use crate::measure::draws::Draws;
+    use glam::DVec3;
+
+    /// Boxes of one size with their lower corners at random in a cube of side 2.
+    pub fn random_boxes(draws: &mut Draws, count: usize, side: f64) -> Vec<BoundingBox> {
+        let mut around = || {
+            let low = DVec3::from([(); 3].map(|()| draws.between(-1.0, 1.0)));
+            BoundingBox::around(low, low + DVec3::splat(side))
+        };
+        (0..count).map(|_| around()).collect()
     }
 }

@@ -210,7 +210,7 @@ fn add_level(levels: &mut Vec<Box<Level>>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bvh::{LeafTest, Stack, Traversal, by_axis, random_boxes};
+    use crate::bvh::{LeafTest, Stack, Traversal, by_axis, tests::random_boxes};
     use crate::measure::draws::Draws;
     use glam::DVec3;
 

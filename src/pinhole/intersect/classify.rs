@@ -1,5 +1,5 @@
 use super::hits::{EmissiveRows, MaterialRows, ShapeRows};
-use super::{Hits, NO_SHAPE, SurfaceSides, SurfaceUvs, Surfaces};
+use super::{Hits, SurfaceSides, SurfaceUvs, Surfaces};
 use crate::extract::{NO_ROW, ShapeTable, kind_evidence, shape_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems, VectorRowsMut};
 use crate::shapes::{Listed, ShapeKind, with_shapes};
@@ -68,14 +68,14 @@ pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(ShapeLis
 /// Lists the rows that hit a shape of a kind: every row is written, and the next overwrites it unless it counts (stream
 /// compaction), so that no branch depends on what was hit.
 ///
-/// A row that hit nothing is asked like the last shape, and does not count.
+/// A row that hit nothing has a number that no shape has: it is asked like the last one, and does not count.
 pub fn list_rows(hits: &Hits, shapes: &ShapeTable, list: &mut Vec<u32>, of_kind: impl Fn(usize) -> bool) {
     let Some(last) = shapes.kind.len().checked_sub(1) else { return list.clear() };
     list.resize(hits.rows(), 0);
     let (rows, mut length) = (&mut list[..], 0);
     for (row, &shape) in hits.shape.iter().enumerate() {
         rows[length] = row as u32;
-        length += usize::from((shape != NO_SHAPE) & of_kind((shape as usize).min(last)));
+        length += usize::from((shape as usize <= last) & of_kind(last.min(shape as usize)));
     }
     list.truncate(length);
 }
