@@ -169,7 +169,7 @@ fn every_instruction_set_and_every_packet_gives_the_same_bits() {
                 let (mut t, mut shape, mut primitive) =
                     (vec![f64::INFINITY; TILE], vec![u32::MAX; TILE], vec![u32::MAX; TILE]);
                 let found = ClosestHits { t: &mut t, shape: &mut shape, primitive: Some(&mut primitive), any };
-                PlacedMesh::keep_closest(std::slice::from_ref(&mesh), &[0], slices, found);
+                PlacedMesh::keep_closest((std::slice::from_ref(&mesh), &()), &[0], slices, found);
                 for row in 0..TILE {
                     let [origin, direction] = slices.ray(row);
                     let alone = mesh.closest(origin, direction);

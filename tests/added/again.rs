@@ -33,6 +33,7 @@ impl Shape for PlacedBall {
     type Component = Ball;
     type SurfaceData = ();
     type Emitter = NeverSampled;
+    type Prepared = ();
     const HAS_UV_SPACE: bool = true;
 
     fn has_inside(_: &Ball) -> bool {

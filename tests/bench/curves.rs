@@ -154,13 +154,13 @@ fn shape_curve<S: Oracle>(plural: &str, counts: &[usize]) {
     for &count in counts {
         let shapes = shapes_in_a_cube::<S>(count);
         let numbers: Vec<u32> = (0..count as u32).collect();
-        let bvh = hierarchy_of(&shapes).expect("bounded shapes");
+        let (bvh, prepared) = (hierarchy_of(&shapes).expect("bounded shapes"), S::prepared(&shapes));
         let row = sets.iter().flat_map(|rays| {
             let (all, mut room) = (SIDE * SIDE, HierarchyRoom::default());
             let (tree, hits) =
                 rays.time(all, BATCH, |rays, hits| keep_closest_of((&shapes, &numbers, &bvh), rays, hits, &mut room));
             let (one_by_one, same) = rays.time(all, BATCH, |rays, hits| {
-                S::keep_closest(&shapes, &numbers, rays, hits);
+                S::keep_closest((&shapes, &prepared), &numbers, rays, hits);
             });
             assert_eq!(hits, same, "{count} {plural}");
             [Some(tree), Some(one_by_one)]
@@ -204,7 +204,7 @@ fn sphere_curve(counts: &[usize]) -> Curve {
         let all = |rays: &Rays| {
             let few = rays_for(count);
             let kernel = |rays: RaySlices<'_>, hits: ClosestHits<'_>| {
-                PlacedSphere::keep_closest(&shapes, &numbers, rays, hits);
+                PlacedSphere::keep_closest((&shapes, &()), &numbers, rays, hits);
             };
             (count <= MAX_ALL).then(|| rays.time(few, BATCH, kernel).0)
         };
@@ -268,7 +268,7 @@ fn triangle_curve(max: usize) -> Curve {
             })
         });
         let wide = |rays: &Rays, batch: usize| {
-            rays.time(whole, batch, |rays, hits| PlacedMesh::keep_closest(one, &[0], rays, hits))
+            rays.time(whole, batch, |rays, hits| PlacedMesh::keep_closest((one, &()), &[0], rays, hits))
         };
         let [alone, turns] = [ALONE, BATCH].map(|batch| wide(&random, batch));
         let [coherent_alone, packets] = [ALONE, BATCH].map(|batch| wide(&coherent, batch));

@@ -110,7 +110,7 @@ fn trace(mesh: &PlacedMesh, rays: &Rays, any: bool) -> Traced {
         let slices = RaySlices { origin: [ox, oy, oz], direction: [dx, dy, dz] };
         let primitive = (!any).then(|| &mut primitive[rows.clone()]);
         let hits = ClosestHits { t: &mut t[rows.clone()], shape: &mut shape[rows], primitive, any };
-        PlacedMesh::keep_closest(std::slice::from_ref(mesh), &[0], slices, hits);
+        PlacedMesh::keep_closest((std::slice::from_ref(mesh), &()), &[0], slices, hits);
     }
     let seconds = start.elapsed().as_secs_f64();
     let found = t.iter().zip(&shape).filter(|(_, shape)| **shape != NO_SHAPE);

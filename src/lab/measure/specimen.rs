@@ -111,7 +111,7 @@ pub fn kernel_ts<S: Shape>(shapes: &[S], rays: &[AimedRay], t_max: f64) -> Vec<O
         origin: origin.each_ref().map(|part| &part[..]),
         direction: direction.each_ref().map(|part| &part[..]),
     };
-    S::keep_closest(shapes, &numbers, slices, hits);
+    S::keep_closest((shapes, &S::prepared(shapes)), &numbers, slices, hits);
     t.iter().zip(shape).map(|(&t, shape)| (shape != NO_SHAPE).then_some(t)).collect()
 }
 

@@ -385,6 +385,8 @@ pub struct ShapesOf<S: Listed> {
     pub shape: Vec<u32>,
     /// How many, from the first on, are opaque to every ray.
     pub opaque: usize,
+    /// What is prepared of these, once it is asked for.
+    prepared: OnceLock<S::Prepared>,
 }
 
 /// The table of spheres.
@@ -407,7 +409,7 @@ pub type MeshTable = ShapesOf<PlacedMesh>;
 
 impl<S: Listed> Default for ShapesOf<S> {
     fn default() -> Self {
-        Self { row: Vec::new(), surface_data: Vec::new(), shape: Vec::new(), opaque: 0 }
+        Self { row: Vec::new(), surface_data: Vec::new(), shape: Vec::new(), opaque: 0, prepared: OnceLock::new() }
     }
 }
 
@@ -418,12 +420,18 @@ impl<S: Listed> ShapesOf<S> {
         self.surface_data.push(surface_data);
         self.shape.push(shape);
         self.opaque += 1;
+        self.prepared.take();
     }
 
     /// The opaque shapes, and their numbers.
     #[inline(always)]
     pub fn opaque(&self) -> (&[S], &[u32]) {
         (&self.row[..self.opaque], &self.shape[..self.opaque])
+    }
+
+    /// What [`Shape::keep_closest`](crate::shapes::Shape::keep_closest) reads of the opaque shapes besides.
+    pub fn prepared(&self) -> &S::Prepared {
+        self.prepared.get_or_init(|| S::prepared(self.opaque().0))
     }
 
     /// Those that pass a test, at the moment when the shutter opens.

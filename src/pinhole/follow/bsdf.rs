@@ -67,11 +67,12 @@ pub fn sample_bsdf<B: Bsdf, const FROM_LIGHT: bool>(
             draws_of_one(&draws, Purpose::MaterialChoice, &list, &mut choices);
         }
         let seen = SampledColumns { rays, paths, surfaces, shading };
+        let mut room = scattered.room(list.len());
         let mut choices = choices.chunks(AT_ONCE);
         for (rows, points) in list.chunks(AT_ONCE).zip(points.chunks(AT_ONCE)) {
             block.gather(&seen, rows);
             block.set_numbers(points, choices.next().unwrap_or_default());
-            for (lane, &row) in rows.iter().enumerate() {
+            for (lane, &row) in (0..AT_ONCE).zip(rows) {
                 let (row, material) = (row as usize, surfaces.material[row as usize] as usize);
                 let of_row = (columns.get(&materials, row, material), row, material);
                 block.set_context::<B>(
@@ -80,8 +81,10 @@ pub fn sample_bsdf<B: Bsdf, const FROM_LIGHT: bool>(
                 );
             }
             made.sample(&**bsdf, &block, rows.len(), transport(FROM_LIGHT));
-            made.append(rows, &mut scattered);
+            made.append(rows, &mut room);
         }
+        let length = room.length;
+        scattered.slices_mut(length);
     }
 }
 // ANCHOR_END: sample_bsdf

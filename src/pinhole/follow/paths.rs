@@ -8,7 +8,9 @@ use crate::extract::{
     needed_if, photon_evidence, wavelength_evidence,
 };
 use crate::intersect::MaterialRows;
-use crate::plan::{Bounce, Column, Shared, Stage, StageKind, TileSystems, VectorRows, VectorRowsMut, column};
+use crate::plan::{
+    Bounce, Column, ColumnArrays, Shared, Stage, StageKind, TileSystems, VectorRows, VectorRowsMut, column,
+};
 use crate::rays::{
     Depth, DrawsView, PathLight, Paths, RayTimes, WavelengthWeights, Wavelengths, WorldRays, draws_of_one, ray_vectors,
 };
@@ -80,32 +82,47 @@ impl Scattered {
     }
 
     /// Appends a ray for each of these rows, except for rays of throughput 0.
-    ///
-    /// Every row is written, and the next one overwrites it unless it counts, so that no branch depends on the surface.
     #[inline(always)]
     pub fn append(&mut self, rows: &[u32], ray_of: impl Fn(usize, usize) -> ScatteredRay) {
-        let length = self.row.len();
-        let (from, mut origin, mut direction, mut throughput, pdf) = self.slices_mut(length + rows.len());
-        let mut at = length;
-        for (number, &row) in rows.iter().enumerate() {
-            let ray = ray_of(number, row as usize);
-            from[at] = row;
-            origin.put(at, ray.origin);
-            direction.put(at, ray.direction.as_vec3());
-            throughput.put(at, ray.throughput);
-            pdf[at] = ray.pdf;
-            at += usize::from(ray.throughput != [0.0; 3]);
-        }
-        self.slices_mut(at);
+        let mut room = self.room(rows.len());
+        rows.iter().enumerate().for_each(|(number, &row)| room.append(row, &ray_of(number, row as usize)));
+        let length = room.length;
+        self.slices_mut(length);
     }
 
-    /// Moves a row to an earlier place.
-    pub(super) fn moved(&mut self, from: usize, to: usize) {
-        self.row[to] = self.row[from];
-        self.origin.put(to, self.origin.at(from));
-        self.direction.put(to, self.direction.at(from));
-        self.throughput.put(to, self.throughput.at(from));
-        self.pdf[to] = self.pdf[from];
+    /// Room for so many rays, all of it made at once; the column is cut to [`ScatteredRoom::length`] afterwards.
+    #[inline(always)]
+    pub(super) fn room(&mut self, rays: usize) -> ScatteredRoom<'_> {
+        let length = self.row.len();
+        let (row, origin, direction, throughput, pdf) = self.slices_mut(length + rays);
+        ScatteredRoom { row, origin, direction, throughput, pdf, length }
+    }
+}
+
+/// The column of scattered rays while some are appended.
+pub(super) struct ScatteredRoom<'a> {
+    row: &'a mut [u32],
+    origin: [&'a mut [f32]; 3],
+    direction: [&'a mut [f32]; 3],
+    throughput: [&'a mut [f64]; 3],
+    pdf: &'a mut [f64],
+    /// How many rays there are.
+    pub length: usize,
+}
+
+impl ScatteredRoom<'_> {
+    /// Appends a ray that is scattered from a row, unless its throughput is 0.
+    ///
+    /// Every ray is written, and the next one overwrites it unless it counts, so that no branch depends on the surface.
+    #[inline(always)]
+    pub fn append(&mut self, row: u32, ray: &ScatteredRay) {
+        let at = self.length;
+        self.row[at] = row;
+        self.origin.put(at, ray.origin);
+        self.direction.put(at, ray.direction.as_vec3());
+        self.throughput.put(at, ray.throughput);
+        self.pdf[at] = ray.pdf;
+        self.length += usize::from(ray.throughput != [0.0; 3]);
     }
 }
 
@@ -123,10 +140,13 @@ pub fn start_scattered_stage() -> Stage {
 /// Adds the radiance of this bounce, times the path's throughput, to the light of every path.
 pub fn add_bounce(mut tiles: Query<(&Paths, &Radiance, &mut PathLight)>) {
     for (paths, radiance, mut light) in &mut tiles {
-        let light = &mut *light;
-        for row in 0..paths.rows() {
-            let (throughput, added) = (paths.throughput(row), radiance.rgb(row));
-            light.rgb.add(paths.first[row] as usize, [0, 1, 2].map(|part| throughput[part] * f64::from(added[part])));
+        let (first, throughput, _) = paths.slices();
+        let added = radiance.rgb.slices(first.len());
+        let all = light.rows();
+        let mut light = light.slices_mut(all);
+        for row in 0..first.len() {
+            let (throughput, added) = (throughput.at(row), added.at(row));
+            light.add(first[row] as usize, [0, 1, 2].map(|part| throughput[part] * f64::from(added[part])));
         }
     }
 }
@@ -346,18 +366,21 @@ pub fn play_roulette(
             continue;
         }
         draws_of_one(&draws, Purpose::Roulette, &scattered.row, &mut numbers);
-        let mut kept = 0;
-        for row in 0..scattered.rows() {
-            let scale = if scattered.pdf[row] == f64::INFINITY { integrator.eta_scale } else { 1.0 };
-            let left = scattered.throughput(row).map(|part| part * scale / integrator.at_risk);
+        let (mut kept, all) = (0, scattered.rows());
+        let (from, mut origin, mut direction, mut throughput, pdf) = scattered.slices_mut(all);
+        for (row, &number) in (0..all).zip(&numbers) {
+            let scale = if pdf[row] == f64::INFINITY { integrator.eta_scale } else { 1.0 };
+            let left = throughput.at(row).map(|part| part * scale / integrator.at_risk);
             // The weight of a wavelength may be negative.
             let probability = survival_probability(left.map(f64::abs));
-            if numbers[row] < probability {
-                scattered.moved(row, kept);
-                let more = 1.0 / probability;
-                scattered.throughput.scale(kept, [more; 3]);
-                kept += 1;
-            }
+            let more = 1.0 / probability;
+            // Every ray is written, and the next one overwrites it unless it survives, so that no branch depends on chance.
+            from[kept] = from[row];
+            origin.put(kept, origin.at(row));
+            direction.put(kept, direction.at(row));
+            throughput.put(kept, throughput.at(row).map(|part| part * more));
+            pdf[kept] = pdf[row];
+            kept += usize::from(number < probability);
         }
         scattered.slices_mut(kept);
     }

@@ -3,7 +3,8 @@
 //! The rows of a list lie apart in their columns: a block of them is gathered component by component, one loop samples
 //! all of its rows, and the rays that go on are appended.
 
-use super::{Scattered, ScatteredRay};
+use super::ScatteredRay;
+use super::paths::ScatteredRoom;
 use crate::intersect::{ShadingNormals, Surfaces};
 use crate::material::{Bsdf, BsdfSample, Parameters, ShadingContext, Transport};
 use crate::plan::{ColumnArrays, VectorRows, VectorRowsMut};
@@ -74,13 +75,14 @@ impl SampledBlock {
     pub fn gather(&mut self, columns: &SampledColumns<'_>, rows: &[u32]) {
         let (position, geometric, bound, _) = columns.surfaces.slices();
         let arriving = columns.rays.direction.slices(bound.len());
-        for (lane, &row) in rows.iter().enumerate() {
+        let throughput = columns.paths.throughput.slices(bound.len());
+        for (lane, &row) in (0..AT_ONCE).zip(rows) {
             let row = row as usize;
             self.direction.put(lane, arriving.at(row));
             self.position.put(lane, position.at(row));
             self.geometric.put(lane, geometric.at(row));
             self.bound[lane] = bound[row];
-            self.throughput.put(lane, columns.paths.throughput(row));
+            self.throughput.put(lane, throughput.at(row));
             let own = || Vec3::from(geometric.at(row)).as_dvec3();
             self.normal.put(lane, columns.shading.map_or_else(own, |normals| normals.get(row)));
         }
@@ -101,7 +103,7 @@ impl SampledBlock {
     /// Sets the random numbers of the rows.
     #[inline(always)]
     pub fn set_numbers(&mut self, points: &[[f64; 2]], choices: &[f64]) {
-        for (lane, &[u, v]) in points.iter().enumerate() {
+        for (lane, &[u, v]) in (0..AT_ONCE).zip(points) {
             (self.u[0][lane], self.u[1][lane]) = (u, v);
         }
         self.choice[..choices.len()].copy_from_slice(choices);
@@ -140,8 +142,8 @@ impl ScatteredBlock {
 
     /// Appends those that go on.
     #[inline(always)]
-    pub fn append(&self, rows: &[u32], scattered: &mut Scattered) {
-        scattered.append(rows, |lane, _| self.ray(lane));
+    pub fn append(&self, rows: &[u32], to: &mut ScatteredRoom<'_>) {
+        (0..AT_ONCE).zip(rows).for_each(|(lane, &row)| to.append(row, &self.ray(lane)));
     }
 }
 

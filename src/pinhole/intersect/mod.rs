@@ -55,6 +55,7 @@ pub use shading_normal::{
 };
 #[doc(hidden)]
 pub use shape_stages::{fill_surfaces, intersect_shapes, intersect_stage, shape_stages, surface_stage};
+pub(crate) use surface::SurfaceSlices;
 pub use surface::Surfaces;
 #[doc(hidden)]
 pub use surface::{Surface, SurfaceSides, SurfaceUvs};

@@ -53,7 +53,7 @@ fn moving_rows(
         }
         let (t, shape) = (&mut t[start..end], &mut shape[start..end]);
         for ((body, velocity), &number) in moving.body.iter().zip(&moving.velocity).zip(&moving.shape) {
-            let mut own = RayBlock { o: block.o, d: block.d, inverse: block.inverse };
+            let mut own = RayBlock { o: block.o, d: block.d };
             for (lane, &time) in times.iter().enumerate() {
                 let origin = at_rest(vector(&own.o, lane), *velocity, time);
                 (own.o[0][lane], own.o[1][lane], own.o[2][lane]) = origin.into();

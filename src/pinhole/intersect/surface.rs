@@ -66,6 +66,24 @@ impl SurfaceSides {
     }
 }
 
+/// All components of [`Surfaces`] at one length, so that one check of a row's number serves them all.
+#[derive(Clone, Copy)]
+pub(crate) struct SurfaceSlices<'a> {
+    position: [&'a [f32]; 3],
+    normal: [&'a [f32]; 3],
+    bound: &'a [f32],
+    material: &'a [u32],
+}
+
+impl SurfaceSlices<'_> {
+    /// Reads a row.
+    #[inline(always)]
+    pub fn get(&self, row: usize) -> Surface {
+        let [position, normal] = [&self.position, &self.normal].map(|vectors| Vec3::from(vectors.at(row)));
+        Surface { position, normal, bound: self.bound[row], material: self.material[row] }
+    }
+}
+
 /// One row of [`Surfaces`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Surface {
@@ -101,6 +119,13 @@ impl Surfaces {
         self.normal.put(row, surface.normal);
         self.bound[row] = surface.bound;
         self.material[row] = surface.material;
+    }
+
+    /// What many rows are read from.
+    #[inline(always)]
+    pub(crate) fn to_read(&self) -> SurfaceSlices<'_> {
+        let (position, normal, bound, material) = self.slices();
+        SurfaceSlices { position, normal, bound, material }
     }
 
     /// Reads a row.

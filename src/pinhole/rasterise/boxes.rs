@@ -123,6 +123,7 @@ fn keep_closest<S: Listed>(
     };
     boxes.for_each_near(tile, |[[left, right], [top, bottom]], nearest, row| {
         let (shape, number) = (from_ref(&shapes.row[row]), from_ref(&shapes.shape[row]));
+        let prepared = S::prepared(shape);
         // Lines of a tile that are covered from end to end are one range of rows.
         let lines = if right - left + 1 == width { LINES } else { 1 };
         for first in (top..=bottom).step_by(lines) {
@@ -130,7 +131,7 @@ fn keep_closest<S: Listed>(
             let rows = rows_of(first * width + left..last * width + right + 1);
             // Nothing is closer where every ray has hit something in front of the box.
             if hits.t[rows.clone()].iter().any(|&t| t >= nearest) {
-                S::keep_closest(shape, number, rays.part(rows.clone()), hits.part(rows));
+                S::keep_closest((shape, &prepared), number, rays.part(rows.clone()), hits.part(rows));
             }
         }
     });

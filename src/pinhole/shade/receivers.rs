@@ -2,7 +2,7 @@
 
 use super::light::ShadowRay;
 use super::{LightPdfs, ShadowRays, TransmissiveRows};
-use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces};
+use crate::intersect::{MaterialRows, ShadingNormals, Surface, SurfaceSlices, Surfaces};
 use crate::plan::{Column, VectorRows, VectorRowsMut};
 use crate::shapes::offset_origin;
 use glam::{DVec3, Vec3};
@@ -51,10 +51,10 @@ impl<'a> LightRows<'a> {
     /// Where the shadow rays of some rows start; of those behind, on the other side.
     #[inline(always)]
     pub fn starts(&self, rows: &[u32], behind: bool) -> Starts {
-        let mut starts = [[0.0; AT_ONCE]; 3];
+        let (mut starts, surfaces) = ([[0.0; AT_ONCE]; 3], self.surfaces.to_read());
         let sign = if behind { -1.0 } else { 1.0 };
-        for (lane, &row) in rows.iter().enumerate().take(AT_ONCE) {
-            let surface = self.surfaces.get(row as usize);
+        for (lane, &row) in (0..AT_ONCE).zip(rows) {
+            let surface = surfaces.get(row as usize);
             starts.put(lane, offset_origin(surface.position, sign * surface.normal, surface.bound));
         }
         starts
@@ -106,8 +106,8 @@ pub(super) fn append_rays(
     let mut to = (rays, pdfs);
     let rows = (receivers.rows, draws);
     match receivers.shading {
-        None => append(rows, &mut to, casts_shadows, light, &Plain(receivers.surfaces)),
-        Some(normals) => append(rows, &mut to, casts_shadows, light, &Shaded(receivers.surfaces, normals)),
+        None => append(rows, &mut to, casts_shadows, light, &Plain(receivers.surfaces.to_read())),
+        Some(normals) => append(rows, &mut to, casts_shadows, light, &Shaded(receivers.surfaces.to_read(), normals)),
     }
     if !receivers.far.is_empty() {
         append((receivers.far, far_draws), &mut to, casts_shadows, light, &Behind(receivers));
@@ -119,8 +119,8 @@ trait Receivers {
     fn of_row(&self, row: usize) -> (Surface, DVec3);
 }
 
-struct Plain<'a>(&'a Surfaces);
-struct Shaded<'a>(&'a Surfaces, &'a ShadingNormals);
+struct Plain<'a>(SurfaceSlices<'a>);
+struct Shaded<'a>(SurfaceSlices<'a>, &'a ShadingNormals);
 struct Behind<'a>(&'a LightRows<'a>);
 
 impl Receivers for Plain<'_> {
@@ -253,10 +253,10 @@ fn append(
     let mut path = [0; AT_ONCE];
     let mut draws = draws.chunks(AT_ONCE);
     for rows in rows.chunks(AT_ONCE) {
-        for (lane, &row) in rows.iter().enumerate() {
+        for (lane, &row) in (0..AT_ONCE).zip(rows) {
             block.set(lane, receivers.of_row(row as usize));
         }
-        for (lane, &[u, v]) in draws.next().unwrap_or_default().iter().enumerate() {
+        for (lane, &[u, v]) in (0..AT_ONCE).zip(draws.next().unwrap_or_default()) {
             (block.u[0][lane], block.u[1][lane]) = (u, v);
         }
         make(light, &block, &mut made);
@@ -265,12 +265,14 @@ fn append(
         if made.counts[..count].contains(&0) {
             count = 0;
             // Every ray is written, and the next one overwrites it unless it counts, so that no branch depends on it.
-            for (lane, &row) in rows.iter().enumerate() {
-                path[count] = row;
+            for (lane, &row) in (0..AT_ONCE).zip(rows) {
+                // It is no more than the lane, which the compiler does not see.
+                let at = count % AT_ONCE;
+                path[at] = row;
                 for component in made.components() {
-                    component[count] = component[lane];
+                    component[at] = component[lane];
                 }
-                made.pdf[count] = made.pdf[lane];
+                made.pdf[at] = made.pdf[lane];
                 count += made.counts[lane] as usize;
             }
         }

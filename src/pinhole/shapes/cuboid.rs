@@ -69,6 +69,7 @@ impl Shape for Slabs {
     type Component = Cuboid;
     type SurfaceData = ();
     type Emitter = EmittingCuboid;
+    type Prepared = ();
 
     const HIERARCHY_FROM: usize = 24;
 

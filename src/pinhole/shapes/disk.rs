@@ -28,6 +28,7 @@ impl Shape for PlacedDisk {
     type Component = Disk;
     type SurfaceData = ();
     type Emitter = EmittingDisk;
+    type Prepared = ();
 
     const HIERARCHY_FROM: usize = 12;
 

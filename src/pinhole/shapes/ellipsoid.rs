@@ -40,6 +40,7 @@ impl Shape for Ellipsoid {
     type Component = Sphere;
     type SurfaceData = ();
     type Emitter = NeverSampled;
+    type Prepared = ();
 
     const NOUN: &'static str = "unevenly scaled sphere";
     const NON_UNIFORM: Option<bool> = Some(true);

@@ -217,6 +217,7 @@ impl<C: FrustumShape> Shape for PlacedFrustum<C> {
     type Component = C;
     type SurfaceData = ();
     type Emitter = EmittingFrustum;
+    type Prepared = ();
 
     const HIERARCHY_FROM: usize = 8;
 

@@ -59,10 +59,11 @@ impl<S: Shape> ShapeLeaves<'_, '_, S> {
             *row = (self.start + usize::from(ray)) as u32;
         }
         let block = RayBlock::of_rows(self.rays, rows);
+        let inverse = block.inverses();
         let mut closest = BlockHits::of_rows(self.hits.t, self.hits.shape, rows);
         for &place in self.bvh.primitives(leaf) {
             let (shape, number) = (&self.shapes[place as usize], self.numbers[place as usize]);
-            if is_near_any(&block, shape) {
+            if is_near_any(&block, &inverse, shape) {
                 keep_closest_block(&block, shape, number, &mut closest);
             }
         }
@@ -111,7 +112,7 @@ pub fn keep_closest_of<S: Shape>(
         let end = rows.min(start + STREAM);
         for first in (start..end).step_by(LANES) {
             let last = end.min(first + LANES);
-            let RayBlock { o, d, .. } = RayBlock::of(rays, first, last);
+            let RayBlock { o, d } = RayBlock::of(rays, first, last);
             stream.add([&o, &d], last - first, &bvh.around);
         }
         let mut leaves = ShapeLeaves { shapes, numbers, bvh, rays, start, hits: &mut hits, inner };

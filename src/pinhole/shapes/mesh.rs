@@ -4,7 +4,7 @@ use super::arithmetic::{Arithmetic, Precise, dot_of, exact_cross, exact_differen
 use super::bounds::{Bounds, l1_norm};
 use super::emitter::EmittingTriangle;
 use super::mesh_traversal::{MeshHierarchy, MeshPacket, MeshStacks, keep_closest_apart, may_be_coherent};
-use super::ray_block::{ClosestHit, ClosestHits, HitBlock, Intersection, RayHit, RaySlices, SurfacePoint};
+use super::ray_block::{ClosestHit, ClosestHits, HITS, HitBlock, Intersection, RayHit, RaySlices, SurfacePoint};
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::{norm, normal_world_from_object};
 use super::triangle::{EXACT_BELOW, ObjectMaps, TriangleHit, TriangleRow, interpolate_mesh};
@@ -133,6 +133,7 @@ impl Shape for PlacedMesh {
     type Component = MeshInstance;
     type SurfaceData = ();
     type Emitter = EmittingTriangle;
+    type Prepared = ();
 
     const HAS_PRIMITIVES: bool = true;
     const IS_TRIANGULAR: bool = true;
@@ -179,7 +180,7 @@ impl Shape for PlacedMesh {
         self.closest(origin, direction).primitive
     }
 
-    fn keep_closest(meshes: &[Self], numbers: &[u32], rays: RaySlices<'_>, hits: ClosestHits<'_>) {
+    fn keep_closest((meshes, ()): (&[Self], &()), numbers: &[u32], rays: RaySlices<'_>, hits: ClosestHits<'_>) {
         mesh_rows(meshes, numbers, rays, hits);
     }
 
@@ -269,7 +270,7 @@ impl Shape for PlacedMesh {
 impl PlacedMesh {
     /// The surfaces of hits that are all of this mesh, where f64 is certain of them.
     fn interpolate(&self, hits: &mut HitBlock, count: usize) {
-        for lane in 0..count {
+        for lane in 0..count.min(HITS) {
             let corners = self.geometry.corners(hits.primitive[lane] as usize);
             hits.set_corners(lane, corners.map(|corner| DVec3::from(corner.map(f64::from))));
         }

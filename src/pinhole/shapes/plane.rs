@@ -30,6 +30,7 @@ impl Shape for PlacedPlane {
     type Component = Plane;
     type SurfaceData = ();
     type Emitter = NeverSampled;
+    type Prepared = ();
 
     const IS_BOUNDED: bool = false;
     const HAS_UV_SPACE: bool = true;
@@ -59,7 +60,7 @@ impl Shape for PlacedPlane {
         plane_t(origin, direction, self.normal, self.offset)
     }
 
-    fn keep_closest(planes: &[Self], numbers: &[u32], rays: RaySlices<'_>, hits: ClosestHits<'_>) {
+    fn keep_closest((planes, ()): (&[Self], &()), numbers: &[u32], rays: RaySlices<'_>, hits: ClosestHits<'_>) {
         plane_rows(planes, numbers, rays, hits.t, hits.shape);
     }
 

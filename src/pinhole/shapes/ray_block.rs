@@ -115,24 +115,23 @@ pub struct Intersection {
 /// The vectors of a block of rays: x, y and z of each.
 pub(crate) type BlockVectors = [[f64; LANES]; 3];
 
-/// A block of rays in f64, one per lane: origins, directions and 1 / R·R; lanes beyond the last row hold dummy rays.
+/// A block of rays in f64, one per lane: origins and directions; lanes beyond the last row hold dummy rays.
 pub(crate) struct RayBlock {
     pub o: BlockVectors,
     pub d: BlockVectors,
-    pub inverse: [f64; LANES],
 }
 
 impl RayBlock {
     #[inline(always)]
     pub fn of(rays: RaySlices<'_>, start: usize, end: usize) -> Self {
-        let [ox, oy, oz] = rays.origin.map(|component| &component[..end]);
-        let [dx, dy, dz] = rays.direction.map(|component| &component[..end]);
         let (mut o, mut d) = ([[0.0_f64; LANES]; 3], [[1.0_f64; LANES]; 3]);
-        for (lane, row) in (start..end).enumerate() {
-            (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
-            (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
+        for axis in 0..3 {
+            let of = [&rays.origin[axis][start..end], &rays.direction[axis][start..end]];
+            for (to, from) in [&mut o[axis], &mut d[axis]].into_iter().zip(of) {
+                fill_lanes(to, from, |&component| f64::from(component));
+            }
         }
-        Self::with_inverses(o, d)
+        Self { o, d }
     }
 
     /// The rays of the listed rows, at most one per lane.
@@ -140,21 +139,33 @@ impl RayBlock {
     pub fn of_rows(rays: RaySlices<'_>, rows: &[u32]) -> Self {
         let ([ox, oy, oz], [dx, dy, dz]) = (rays.origin, rays.direction);
         let (mut o, mut d) = ([[0.0_f64; LANES]; 3], [[1.0_f64; LANES]; 3]);
-        for (lane, &row) in rows.iter().enumerate() {
+        for (lane, &row) in (0..LANES).zip(rows) {
             let row = row as usize;
             (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
             (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
         }
-        Self::with_inverses(o, d)
+        Self { o, d }
     }
 
+    /// 1 / R·R of each, which culling spheres are tested with.
     #[inline(always)]
-    fn with_inverses(o: [[f64; LANES]; 3], d: [[f64; LANES]; 3]) -> Self {
+    pub fn inverses(&self) -> [f64; LANES] {
         let mut inverse = [1.0_f64; LANES];
         for (lane, inverse) in inverse.iter_mut().enumerate() {
-            *inverse = 1.0 / vector(&d, lane).dot(vector(&d, lane));
+            *inverse = 1.0 / vector(&self.d, lane).dot(vector(&self.d, lane));
         }
-        Self { o, d, inverse }
+        inverse
+    }
+}
+
+/// Fills the first lanes, as many as there are numbers.
+///
+/// Of a whole block the number is known when this is compiled, so that it is a few instructions and not a loop.
+#[inline(always)]
+pub(super) fn fill_lanes<T, U>(to: &mut [U; LANES], from: &[T], of: impl Fn(&T) -> U) {
+    match from.first_chunk::<LANES>() {
+        Some(from) => (0..LANES).for_each(|lane| to[lane] = of(&from[lane])),
+        None => to.iter_mut().zip(from).for_each(|(to, from)| *to = of(from)),
     }
 }
 
@@ -187,8 +198,8 @@ impl BlockHits {
     pub fn of(t: &[f64], shape: &[u32]) -> Self {
         // Nothing is closer to a lane without a row.
         let mut own = Self { t: [f64::NEG_INFINITY; LANES], shape: [0; LANES] };
-        own.t[..t.len()].copy_from_slice(t);
-        own.shape[..shape.len()].copy_from_slice(shape);
+        fill_lanes(&mut own.t, t, |&t| t);
+        fill_lanes(&mut own.shape, shape, |&shape| shape);
         own
     }
 
@@ -196,7 +207,7 @@ impl BlockHits {
     #[inline(always)]
     pub fn of_rows(t: &[f64], shape: &[u32], rows: &[u32]) -> Self {
         let mut own = Self { t: [f64::NEG_INFINITY; LANES], shape: [0; LANES] };
-        for (lane, &row) in rows.iter().enumerate() {
+        for (lane, &row) in (0..LANES).zip(rows) {
             (own.t[lane], own.shape[lane]) = (t[row as usize], shape[row as usize]);
         }
         own
@@ -205,7 +216,7 @@ impl BlockHits {
     /// Writes them to the listed rows.
     #[inline(always)]
     pub fn write_rows(&self, t: &mut [f64], shape: &mut [u32], rows: &[u32]) {
-        for (lane, &row) in rows.iter().enumerate() {
+        for (lane, &row) in (0..LANES).zip(rows) {
             (t[row as usize], shape[row as usize]) = (self.t[lane], self.shape[lane]);
         }
     }
@@ -213,8 +224,13 @@ impl BlockHits {
     /// Writes them to the rows.
     #[inline(always)]
     pub fn write(&self, t: &mut [f64], shape: &mut [u32]) {
-        t.copy_from_slice(&self.t[..t.len()]);
-        shape.copy_from_slice(&self.shape[..shape.len()]);
+        match (t.first_chunk_mut::<LANES>(), shape.first_chunk_mut::<LANES>()) {
+            (Some(t), Some(shape)) => (*t, *shape) = (self.t, self.shape),
+            _ => {
+                t.copy_from_slice(&self.t[..t.len()]);
+                shape.copy_from_slice(&self.shape[..shape.len()]);
+            }
+        }
     }
 }
 
@@ -245,12 +261,12 @@ pub(crate) fn keep_closest_block(rays: &RayBlock, one: &impl Shape, number: u32,
 
 /// Whether a shape's culling sphere, if it has one, is intersected by the line of any ray of a block.
 #[inline(always)]
-pub(super) fn is_near_any(rays: &RayBlock, one: &impl Shape) -> bool {
+pub(super) fn is_near_any(rays: &RayBlock, inverse: &[f64; LANES], one: &impl Shape) -> bool {
     let Some((centre, radius)) = one.culling_sphere() else { return true };
     let mut is_near = false;
     for lane in 0..LANES {
         let f = centre - vector(&rays.o, lane);
-        is_near |= nearness(f, vector(&rays.d, lane), rays.inverse[lane], radius) >= 0.0;
+        is_near |= nearness(f, vector(&rays.d, lane), inverse[lane], radius) >= 0.0;
     }
     is_near
 }
@@ -265,13 +281,15 @@ pub(super) fn keep_closest_rows<S: Shape>(
     ClosestHits { t, shape, .. }: ClosestHits<'_>,
 ) {
     let rows = t.len();
+    let has_spheres = shapes.iter().any(|one| one.culling_sphere().is_some());
     let mut start = 0;
     while start < rows {
         let end = rows.min(start + LANES);
         let block = RayBlock::of(rays, start, end);
+        let inverse = if has_spheres { block.inverses() } else { [1.0; LANES] };
         let mut closest = BlockHits::of(&t[start..end], &shape[start..end]);
         for (one, &number) in shapes.iter().zip(numbers) {
-            if is_near_any(&block, one) {
+            if is_near_any(&block, &inverse, one) {
                 keep_closest_block(&block, one, number, &mut closest);
             }
         }

@@ -29,6 +29,7 @@ impl Shape for PlacedRectangle {
     type Component = Rectangle;
     type SurfaceData = ();
     type Emitter = Parallelogram;
+    type Prepared = ();
 
     const HIERARCHY_FROM: usize = 12;
 

@@ -57,6 +57,8 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// The shape as a light that is sampled; [`NeverSampled`](super::emitter::NeverSampled) for shapes whose emission is found by
     /// BSDF sampling only.
     type Emitter: Emitting;
+    /// What is computed once of all shapes that every ray is tested against, for [`Self::keep_closest`]; often nothing.
+    type Prepared: Clone + Debug + Default + PartialEq + Send + Sync + 'static;
 
     /// What it is called where the plan counts the entities that need its stages.
     const NOUN: &'static str = Self::Component::WORD;
@@ -116,8 +118,19 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
         None
     }
 
-    /// Intersects all rays with all of these shapes, which have these numbers, and keeps the closest hits.
-    fn keep_closest(shapes: &[Self], numbers: &[u32], rays: RaySlices<'_>, hits: ClosestHits<'_>) {
+    /// What [`Self::keep_closest`] reads of these shapes besides.
+    fn prepared(_shapes: &[Self]) -> Self::Prepared {
+        Self::Prepared::default()
+    }
+
+    /// Intersects all rays with all of these shapes, of which that was prepared and which have these numbers, and keeps the
+    /// closest hits.
+    fn keep_closest(
+        (shapes, _): (&[Self], &Self::Prepared),
+        numbers: &[u32],
+        rays: RaySlices<'_>,
+        hits: ClosestHits<'_>,
+    ) {
         keep_closest_rows(shapes, numbers, rays, hits);
     }
 

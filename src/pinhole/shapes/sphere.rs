@@ -30,6 +30,7 @@ impl Shape for PlacedSphere {
     type Component = Sphere;
     type SurfaceData = ();
     type Emitter = Self;
+    type Prepared = ();
 
     const NON_UNIFORM: Option<bool> = Some(false);
     const HAS_UV_SPACE: bool = true;

@@ -44,6 +44,7 @@ impl Shape for PlacedTorus {
     type Component = Torus;
     type SurfaceData = ();
     type Emitter = NeverSampled;
+    type Prepared = ();
 
     const HIERARCHY_FROM: usize = 16;
     const IN_BLOCKS: bool = false;

@@ -11,7 +11,7 @@ use super::space::normal_world_from_object;
 use super::triangle_edges::{
     Edges, ROUNDING, Shear, edge_values_by_any_axis, edges, longest_axis, triangle_intersection,
 };
-use super::triangle_filter::triangle_rows;
+use super::triangle_filter::{PolygonFilter, triangle_rows};
 use super::uv::{UvSlope, planar_slope};
 use crate::bvh::by_axis;
 use crate::scene::{SceneError, Triangle, finite_point, number, triple};
@@ -72,6 +72,7 @@ impl Shape for TriangleRow {
     type Component = Triangle;
     type SurfaceData = TriangleFace;
     type Emitter = EmittingTriangle;
+    type Prepared = PolygonFilter;
 
     const IS_TRIANGULAR: bool = true;
     const IN_BLOCKS: bool = false;
@@ -104,8 +105,17 @@ impl Shape for TriangleRow {
         exact_triangle_t(origin, direction, self)
     }
 
-    fn keep_closest(triangles: &[Self], numbers: &[u32], rays: RaySlices<'_>, hits: ClosestHits<'_>) {
-        triangle_rows(triangles, numbers, rays, hits.t, hits.shape);
+    fn prepared(triangles: &[Self]) -> PolygonFilter {
+        PolygonFilter::of(triangles)
+    }
+
+    fn keep_closest(
+        (triangles, filter): (&[Self], &PolygonFilter),
+        numbers: &[u32],
+        rays: RaySlices<'_>,
+        hits: ClosestHits<'_>,
+    ) {
+        triangle_rows((triangles, filter), numbers, rays, hits.t, hits.shape);
     }
 
     #[inline(always)]
@@ -115,13 +125,13 @@ impl Shape for TriangleRow {
     }
 
     fn fill_surfaces(triangles: &[Self], faces: &[TriangleFace], hits: &mut HitBlock, count: usize) {
-        for lane in 0..count {
+        for lane in 0..count.min(HITS) {
             let row = hits.shape[lane] as usize;
             hits.set_corners(lane, triangles[row].corners);
             hits.set_face(lane, faces[row].normal, faces[row].turned);
         }
         interpolate_triangles(hits);
-        for lane in 0..count {
+        for lane in 0..count.min(HITS) {
             if !hits.is_certain(lane) {
                 Self::fill_surface(triangles, faces, hits, lane);
             }

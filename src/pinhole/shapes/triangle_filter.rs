@@ -5,7 +5,7 @@
 //! all of them.
 
 use super::l1_norm;
-use super::ray_block::{LANES, RaySlices};
+use super::ray_block::{LANES, RaySlices, fill_lanes};
 use super::shape::Shape;
 use super::triangle::{TriangleRow, exact_triangle_t};
 use super::triangle_edges::{ROUNDING, certain_t, edge_values_by_any_axis, rows_by_axis};
@@ -201,18 +201,27 @@ impl PolygonInF32 {
         };
         (polygon, plane)
     }
+}
 
-    /// Those of all triangles, and their planes.
-    fn all(triangles: &[TriangleRow]) -> (Vec<Self>, Vec<Plane>) {
-        let (mut polygons, mut planes) = (Vec::with_capacity(triangles.len()), Vec::with_capacity(triangles.len()));
-        let mut place = 0;
+/// What f32 tests rays against, of few triangles; of more, nothing, since they are tested in f64.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PolygonFilter {
+    polygons: Vec<PolygonInF32>,
+    planes: Vec<Plane>,
+}
+
+impl PolygonFilter {
+    /// That of these triangles.
+    pub(super) fn of(triangles: &[TriangleRow]) -> Self {
+        let mut filter = Self::default();
+        let mut place = if triangles.len() > NUMBERS * IN_ONE { triangles.len() } else { 0 };
         while place < triangles.len() {
-            let (polygon, plane) = Self::at(place, triangles);
+            let (polygon, plane) = PolygonInF32::at(place, triangles);
             place = polygon.places[1] as usize + 1;
-            polygons.push(polygon);
-            planes.push(plane);
+            filter.polygons.push(polygon);
+            filter.planes.push(plane);
         }
-        (polygons, planes)
+        filter
     }
 }
 
@@ -287,9 +296,11 @@ fn first_hits<const FUSED: bool>(
         let suspects = &mut suspects[number];
         for (bit, (polygon, plane)) in polygons.iter().zip(planes).enumerate() {
             let mut heights = [0.0_f32; LANES];
+            let DVec3 { x: px, y: py, z: pz } = plane.normal;
             for lane in 0..LANES {
-                let at = DVec3::new(origin[0][lane], origin[1][lane], origin[2][lane]);
-                heights[lane] = (plane.height - plane.normal.dot(at)) as f32;
+                let [x, y, z] = [origin[0][lane], origin[1][lane], origin[2][lane]];
+                let height = fma_f64::<FUSED>(-px, x, plane.height);
+                heights[lane] = fma_f64::<FUSED>(-pz, z, fma_f64::<FUSED>(-py, y, height)) as f32;
             }
             let ([nx, ny, nz], [[ux, uy, uz], [vx, vy, vz]]) = (polygon.normal, polygon.gradients);
             let ([[eu, ev, e1], [fu, fv, f1]], places) = (polygon.edges, polygon.places);
@@ -341,6 +352,13 @@ fn fma<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
+/// The same in f64.
+#[allow(clippy::disallowed_methods, reason = "whether it rounds once or twice, the bounds hold, and f64 decides")]
+#[inline(always)]
+fn fma_f64<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
+    if FUSED { a.mul_add(b, c) } else { a * b + c }
+}
+
 #[inline(always)]
 fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
@@ -376,7 +394,7 @@ impl Pairs {
 /// Keeps the closest hits of all rays with a few triangles.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma", "x86_64+avx2+fma", "x86_64+avx2"))]
 pub(super) fn triangle_rows(
-    triangles: &[TriangleRow],
+    triangles: (&[TriangleRow], &PolygonFilter),
     numbers: &[u32],
     rays: RaySlices<'_>,
     t: &mut [f64],
@@ -389,17 +407,16 @@ pub(super) fn triangle_rows(
 /// many are suspected is tested against all.
 #[inline(always)]
 fn filtered_rows<const FUSED: bool>(
-    triangles: &[TriangleRow],
+    (triangles, PolygonFilter { polygons, planes }): (&[TriangleRow], &PolygonFilter),
     numbers: &[u32],
     rays: RaySlices<'_>,
     t: &mut [f64],
     shape: &mut [u32],
 ) {
-    if triangles.len() > NUMBERS * IN_ONE {
+    if polygons.is_empty() {
         let all: Vec<u32> = (0..t.len() as u32).collect();
         return rows_by_axis(triangles, numbers, rays, &all, t, shape);
     }
-    let (polygons, planes) = PolygonInF32::all(triangles);
     let (mut pairs, mut against_all) = (Vec::with_capacity(2 * t.len()), Vec::new());
     let numbers_used = polygons.len().div_ceil(IN_ONE).min(NUMBERS);
     for start in (0..t.len()).step_by(LANES) {
@@ -407,13 +424,11 @@ fn filtered_rows<const FUSED: bool>(
         let mut block: Rays = [[[0.0; LANES]; 3], [[1.0; LANES]; 3]];
         let mut until = [0.0; LANES];
         for axis in 0..3 {
-            block[0][axis][..count].copy_from_slice(&rays.origin[axis][start..start + count]);
-            block[1][axis][..count].copy_from_slice(&rays.direction[axis][start..start + count]);
+            fill_lanes(&mut block[0][axis], &rays.origin[axis][start..start + count], |&component| component);
+            fill_lanes(&mut block[1][axis], &rays.direction[axis][start..start + count], |&component| component);
         }
-        for (until, t) in until.iter_mut().zip(&t[start..start + count]) {
-            *until = *t as f32;
-        }
-        let candidates = first_hits::<FUSED>((&polygons, &planes), &block, &until);
+        fill_lanes(&mut until, &t[start..start + count], |&t| t as f32);
+        let candidates = first_hits::<FUSED>((polygons, planes), &block, &until);
         let in_doubt = candidates.in_doubt(numbers_used);
         for (row, lane) in (start as u32..).zip(0..count) {
             // Few rays are, near edges, and those of shadows before a polygon that is the light.
@@ -449,7 +464,7 @@ fn filtered_rows<const FUSED: bool>(
             t: [0.0; LANES],
             certain: [0; LANES],
         };
-        for (lane, &(row, place)) in of_block.iter().enumerate() {
+        for (lane, &(row, place)) in (0..LANES).zip(of_block) {
             let (row, triangle) = (row as usize, &triangles[place as usize]);
             for axis in 0..3 {
                 block.o[axis][lane] = f64::from(rays.origin[axis][row]);
@@ -461,7 +476,7 @@ fn filtered_rows<const FUSED: bool>(
             block.size[lane] = triangle.size;
         }
         block.intersect();
-        for (lane, &(row, place)) in of_block.iter().enumerate() {
+        for (lane, &(row, place)) in (0..LANES).zip(of_block) {
             let (row, place) = (row as usize, place as usize);
             let found = if block.certain[lane] != 0 {
                 block.t[lane]
@@ -541,14 +556,15 @@ mod tests {
                 let columns = [&origins, &directions].map(|own| [0, 1, 2].map(|axis| column(own, axis)));
                 let slices = |own: usize| [0, 1, 2].map(|axis| &columns[own][axis][..]);
                 let rays = RaySlices { origin: slices(0), direction: slices(1) };
+                let filter = PolygonFilter::of(&triangles);
                 let of_shape: Vec<u32> = (0..triangles.len() as u32).rev().collect();
                 for until in [f64::INFINITY, 0.7 * scale, 0.0] {
                     let (mut t, mut shape) = (vec![until; origins.len()], vec![u32::MAX; origins.len()]);
                     let (mut all_t, mut all_shape) = (t.clone(), shape.clone());
                     let (mut twice_t, mut twice_shape) = (t.clone(), shape.clone());
                     // As a processor rounds that multiplies and adds at once, and as one that does not.
-                    filtered_rows::<true>(&triangles, &of_shape, rays, &mut t, &mut shape);
-                    filtered_rows::<false>(&triangles, &of_shape, rays, &mut twice_t, &mut twice_shape);
+                    filtered_rows::<true>((&triangles, &filter), &of_shape, rays, &mut t, &mut shape);
+                    filtered_rows::<false>((&triangles, &filter), &of_shape, rays, &mut twice_t, &mut twice_shape);
                     let rows: Vec<u32> = (0..origins.len() as u32).collect();
                     rows_by_axis(&triangles, &of_shape, rays, &rows, &mut all_t, &mut all_shape);
                     for row in 0..t.len() {
@@ -559,12 +575,12 @@ mod tests {
                     }
                     rows_tried += 2 * rows.len();
                 }
-                let (polygons, planes) = PolygonInF32::all(&triangles);
+                let PolygonFilter { polygons, planes } = &filter;
                 of_two += triangles.len() - polygons.len();
                 for start in (0..origins.len() - LANES).step_by(LANES) {
                     let part = |own: usize, axis: usize| std::array::from_fn(|lane| columns[own][axis][start + lane]);
                     let block = [0, 1].map(|own| [0, 1, 2].map(|axis| part(own, axis)));
-                    let found = first_hits::<false>((&polygons, &planes), &block, &[f32::INFINITY; LANES]);
+                    let found = first_hits::<false>((polygons, planes), &block, &[f32::INFINITY; LANES]);
                     in_doubt += (0..LANES).filter(|lane| found.count(NUMBERS, *lane) > SUSPECTS).count();
                 }
             }

@@ -56,6 +56,7 @@ impl Shape for PlacedBowl {
     type Component = Bowl;
     type SurfaceData = ();
     type Emitter = NeverSampled;
+    type Prepared = ();
 
     fn has_inside(_: &Bowl) -> bool {
         false

@@ -91,13 +91,14 @@ fn check_shapes<S: Oracle>(range: Range<u64>) -> Tally {
     let mut set = u64::MAX;
     let (mut shapes, mut numbers, mut bvh) = (Vec::new(), Vec::new(), None);
     let (mut room, mut together) = (HierarchyRoom::default(), Vec::new());
+    let mut prepared = S::Prepared::default();
     for index in range {
         if index / RAYS_A_SET != set {
             set = index / RAYS_A_SET;
             shapes = set_of::<S>(&mut Draws::new(901, set));
             // Numbers against the order of the table decide ties otherwise than the first that is found.
             numbers = (0..shapes.len() as u32).rev().collect();
-            bvh = hierarchy_of(&shapes);
+            (bvh, prepared) = (hierarchy_of(&shapes), S::prepared(&shapes));
         }
         let Some(bvh) = &bvh else { continue };
         let mut draws = Draws::new(902, index);
@@ -116,7 +117,7 @@ fn check_shapes<S: Oracle>(range: Range<u64>) -> Tally {
             together.remove(0);
         }
         let all = found(&[(ray, t_max)], false, |rays, hits| {
-            S::keep_closest(&shapes, &numbers, rays, hits);
+            S::keep_closest((&shapes, &prepared), &numbers, rays, hits);
         });
         let [some, any] = [false, true].map(|any| {
             found(&together, any, |rays, hits| keep_closest_of((&shapes, &numbers, bvh), rays, hits, &mut room))
