@@ -374,7 +374,7 @@ pub fn play_roulette(
             // The weight of a wavelength may be negative.
             let probability = survival_probability(left.map(f64::abs));
             let more = 1.0 / probability;
-            // Every ray is written, and the next one overwrites it unless it survives, so that no branch depends on chance.
+            // Every ray is written, and the next one overwrites it unless it survives, so that no branch is taken at random.
             from[kept] = from[row];
             origin.put(kept, origin.at(row));
             direction.put(kept, direction.at(row));
