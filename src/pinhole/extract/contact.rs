@@ -63,7 +63,8 @@ impl Contact {
 pub struct ContactTable {
     /// The shapes of glass that have any, and those that they may touch.
     pub contact: Vec<Contact>,
-    /// For each shape by its number its row in that list; [`NO_ROW`] for a shape that touches none.
+    /// For each shape of glass by its number its row in that list; [`NO_ROW`] for one that touches none, and for other
+    /// shapes.
     pub row: Vec<u32>,
     /// For each row of that list, where its others end in `other`; they begin where the previous row's end.
     pub end: Vec<u32>,
@@ -110,6 +111,9 @@ impl Table for ContactTable {
         for touched in others.values() {
             table.other.extend(touched.iter().map(|&shape| table.row[shape]));
             table.end.push(table.other.len() as u32);
+        }
+        for (&shape, _) in others.iter().filter(|(_, touched)| touched.is_empty()) {
+            table.row[shape] = NO_ROW;
         }
         Ok(table)
     }

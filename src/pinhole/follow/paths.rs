@@ -85,7 +85,9 @@ impl Scattered {
     #[inline(always)]
     pub fn append(&mut self, rows: &[u32], ray_of: impl Fn(usize, usize) -> ScatteredRay) {
         let mut room = self.room(rows.len());
-        rows.iter().enumerate().for_each(|(number, &row)| room.append(row, &ray_of(number, row as usize)));
+        for (number, &row) in rows.iter().enumerate() {
+            room.append(row, &ray_of(number, row as usize));
+        }
         let length = room.length;
         self.slices_mut(length);
     }

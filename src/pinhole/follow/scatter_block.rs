@@ -143,7 +143,9 @@ impl ScatteredBlock {
     /// Appends those that go on.
     #[inline(always)]
     pub fn append(&self, rows: &[u32], to: &mut ScatteredRoom<'_>) {
-        (0..AT_ONCE).zip(rows).for_each(|(lane, &row)| to.append(row, &self.ray(lane)));
+        for (lane, &row) in (0..AT_ONCE).zip(rows) {
+            to.append(row, &self.ray(lane));
+        }
     }
 }
 

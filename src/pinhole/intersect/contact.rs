@@ -137,7 +137,7 @@ pub struct ContactView {
 /// Where all are of glass, they are crossed together.
 pub fn merge_contacts(
     table: Res<Shared<ContactTable>>,
-    (mut near, mut together): (Local<Vec<Found>>, Local<Vec<GlassCrossing>>),
+    (mut list, mut near, mut together): (Local<Vec<u32>>, Local<Vec<Found>>, Local<Vec<GlassCrossing>>),
     mut tiles: Query<ContactView>,
 ) {
     for ContactViewItem { rays, times, mut hits, mut primitives, mut contacts } in &mut tiles {
@@ -145,7 +145,8 @@ pub fn merge_contacts(
             contacts.crossings.start(0);
             contacts.behind.clear();
         }
-        for row in 0..hits.rows() {
+        list_touching(&table, &hits, &mut list);
+        for row in list.iter().map(|&row| row as usize) {
             together.clear();
             let time = times.map_or(0.0, |times| times.time[row]);
             let primitive = primitives.as_ref().map_or(0, |primitives| primitives.primitive[row]);
@@ -172,14 +173,32 @@ pub fn merge_contacts(
                     None => {}
                 }
             }
-            if let Some(contacts) = &mut contacts {
+            if let Some(contacts) = contacts.as_mut().filter(|_| !together.is_empty()) {
+                contacts.crossings.fill_to(row);
                 contacts.crossings.push(&together);
             }
+        }
+        if let Some(contacts) = &mut contacts {
+            contacts.crossings.fill_to(hits.rows());
         }
     }
 }
 
-/// The row of contacts of the shape that a ray hit, and the surface there, if any other is near.
+/// Lists the rows that hit glass which touches something; every row is written, and the next one overwrites it unless it
+/// counts.
+fn list_touching(table: &ContactTable, hits: &Hits, list: &mut Vec<u32>) {
+    let Some(last) = table.row.len().checked_sub(1) else { return list.clear() };
+    list.resize(hits.rows(), 0);
+    let (rows, mut length) = (&mut list[..], 0);
+    for (row, &shape) in hits.shape.iter().enumerate() {
+        rows[length] = row as u32;
+        // Neither a miss nor a scattering event is in the table.
+        length += usize::from((shape as usize <= last) & (table.row[last.min(shape as usize)] != NO_ROW));
+    }
+    list.truncate(length);
+}
+
+/// The row of contacts of the shape that a listed ray hit, and the surface there, if any other is near.
 #[inline(always)]
 fn touching(
     table: &ContactTable,
@@ -187,10 +206,8 @@ fn touching(
     hits: &Hits,
     (row, primitive, time): (usize, u32, f64),
 ) -> Option<(usize, SurfacePoint)> {
-    let shape = hits.shape[row];
-    // Neither a miss nor a scattering event is in the table.
-    let own = table.row.get(shape as usize).copied().unwrap_or(NO_ROW);
-    if own == NO_ROW || !table.is_near_any(own as usize, rays.point_at(row, hits.t[row]), time) {
+    let own = table.row[hits.shape[row] as usize];
+    if !table.is_near_any(own as usize, rays.point_at(row, hits.t[row]), time) {
         return None;
     }
     let Contact { body, velocity, .. } = &table.contact[own as usize];

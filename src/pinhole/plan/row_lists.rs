@@ -30,6 +30,11 @@ impl<T: Clone> RowLists<T> {
         self.end.resize(rows, 0);
     }
 
+    /// Appends rows with empty lists up to so many rows.
+    pub fn fill_to(&mut self, rows: usize) {
+        self.end.resize(rows, self.entry.len() as u32);
+    }
+
     /// Appends a row with this list.
     pub fn push(&mut self, list: &[T]) {
         self.entry.extend_from_slice(list);

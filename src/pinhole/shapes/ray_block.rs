@@ -128,44 +128,50 @@ impl RayBlock {
         for axis in 0..3 {
             let of = [&rays.origin[axis][start..end], &rays.direction[axis][start..end]];
             for (to, from) in [&mut o[axis], &mut d[axis]].into_iter().zip(of) {
-                fill_lanes(to, from, |&component| f64::from(component));
+                fill_lanes(to, from);
             }
         }
         Self { o, d }
     }
 
-    /// The rays of the listed rows, at most one per lane.
+    /// The rays of the listed rows, at most one per lane, and 1 / R·R of each.
     #[inline(always)]
-    pub fn of_rows(rays: RaySlices<'_>, rows: &[u32]) -> Self {
+    pub fn of_rows(rays: RaySlices<'_>, rows: &[u32]) -> (Self, [f64; LANES]) {
         let ([ox, oy, oz], [dx, dy, dz]) = (rays.origin, rays.direction);
         let (mut o, mut d) = ([[0.0_f64; LANES]; 3], [[1.0_f64; LANES]; 3]);
-        for (lane, &row) in (0..LANES).zip(rows) {
+        for (lane, &row) in rows.iter().enumerate() {
             let row = row as usize;
             (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
             (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
         }
-        Self { o, d }
+        let inverse = inverses(&d);
+        (Self { o, d }, inverse)
     }
+}
 
-    /// 1 / R·R of each, which culling spheres are tested with.
-    #[inline(always)]
-    pub fn inverses(&self) -> [f64; LANES] {
-        let mut inverse = [1.0_f64; LANES];
-        for (lane, inverse) in inverse.iter_mut().enumerate() {
-            *inverse = 1.0 / vector(&self.d, lane).dot(vector(&self.d, lane));
-        }
-        inverse
+/// 1 / R·R of each of these directions, which culling spheres are tested with.
+#[inline(always)]
+fn inverses(d: &BlockVectors) -> [f64; LANES] {
+    let mut inverse = [1.0_f64; LANES];
+    for (lane, inverse) in inverse.iter_mut().enumerate() {
+        *inverse = 1.0 / vector(d, lane).dot(vector(d, lane));
     }
+    inverse
 }
 
 /// Fills the first lanes, as many as there are numbers.
 ///
 /// Of a whole block the number is known when this is compiled, so that it is a few instructions and not a loop.
 #[inline(always)]
-pub(super) fn fill_lanes<T, U>(to: &mut [U; LANES], from: &[T], of: impl Fn(&T) -> U) {
-    match from.first_chunk::<LANES>() {
-        Some(from) => (0..LANES).for_each(|lane| to[lane] = of(&from[lane])),
-        None => to.iter_mut().zip(from).for_each(|(to, from)| *to = of(from)),
+pub(super) fn fill_lanes<T: Copy, U: From<T>>(to: &mut [U; LANES], from: &[T]) {
+    if let Some(from) = from.first_chunk::<LANES>() {
+        for lane in 0..LANES {
+            to[lane] = from[lane].into();
+        }
+    } else {
+        for (to, &from) in to.iter_mut().zip(from) {
+            *to = from.into();
+        }
     }
 }
 
@@ -198,8 +204,8 @@ impl BlockHits {
     pub fn of(t: &[f64], shape: &[u32]) -> Self {
         // Nothing is closer to a lane without a row.
         let mut own = Self { t: [f64::NEG_INFINITY; LANES], shape: [0; LANES] };
-        fill_lanes(&mut own.t, t, |&t| t);
-        fill_lanes(&mut own.shape, shape, |&shape| shape);
+        fill_lanes(&mut own.t, t);
+        fill_lanes(&mut own.shape, shape);
         own
     }
 
@@ -207,7 +213,7 @@ impl BlockHits {
     #[inline(always)]
     pub fn of_rows(t: &[f64], shape: &[u32], rows: &[u32]) -> Self {
         let mut own = Self { t: [f64::NEG_INFINITY; LANES], shape: [0; LANES] };
-        for (lane, &row) in (0..LANES).zip(rows) {
+        for (lane, &row) in rows.iter().enumerate() {
             (own.t[lane], own.shape[lane]) = (t[row as usize], shape[row as usize]);
         }
         own
@@ -216,7 +222,7 @@ impl BlockHits {
     /// Writes them to the listed rows.
     #[inline(always)]
     pub fn write_rows(&self, t: &mut [f64], shape: &mut [u32], rows: &[u32]) {
-        for (lane, &row) in (0..LANES).zip(rows) {
+        for (lane, &row) in rows.iter().enumerate() {
             (t[row as usize], shape[row as usize]) = (self.t[lane], self.shape[lane]);
         }
     }
@@ -286,7 +292,7 @@ pub(super) fn keep_closest_rows<S: Shape>(
     while start < rows {
         let end = rows.min(start + LANES);
         let block = RayBlock::of(rays, start, end);
-        let inverse = if has_spheres { block.inverses() } else { [1.0; LANES] };
+        let inverse = if has_spheres { inverses(&block.d) } else { [1.0; LANES] };
         let mut closest = BlockHits::of(&t[start..end], &shape[start..end]);
         for (one, &number) in shapes.iter().zip(numbers) {
             if is_near_any(&block, &inverse, one) {

@@ -192,8 +192,7 @@ fn rows_along<const Z: usize>(
     shape: &mut [u32],
 ) {
     for rows in rows.chunks(LANES) {
-        let block = RayBlock::of_rows(rays, rows);
-        let (inverse, RayBlock { o, d }) = (block.inverses(), block);
+        let (RayBlock { o, d }, inverse) = RayBlock::of_rows(rays, rows);
         let (mut x, mut y, mut z, mut size) = ([0.0; LANES], [0.0; LANES], [1.0; LANES], [0.0; LANES]);
         let (mut own_t, mut own_shape) = ([f64::NEG_INFINITY; LANES], [0; LANES]);
         for (lane, &row) in rows.iter().enumerate() {

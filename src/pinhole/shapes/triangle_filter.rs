@@ -422,12 +422,15 @@ fn filtered_rows<const FUSED: bool>(
     for start in (0..t.len()).step_by(LANES) {
         let count = LANES.min(t.len() - start);
         let mut block: Rays = [[[0.0; LANES]; 3], [[1.0; LANES]; 3]];
-        let mut until = [0.0; LANES];
+        let (mut until, mut before) = ([0.0; LANES], [0.0_f64; LANES]);
         for axis in 0..3 {
-            fill_lanes(&mut block[0][axis], &rays.origin[axis][start..start + count], |&component| component);
-            fill_lanes(&mut block[1][axis], &rays.direction[axis][start..start + count], |&component| component);
+            fill_lanes(&mut block[0][axis], &rays.origin[axis][start..start + count]);
+            fill_lanes(&mut block[1][axis], &rays.direction[axis][start..start + count]);
         }
-        fill_lanes(&mut until, &t[start..start + count], |&t| t as f32);
+        fill_lanes(&mut before, &t[start..start + count]);
+        for lane in 0..LANES {
+            until[lane] = before[lane] as f32;
+        }
         let candidates = first_hits::<FUSED>((polygons, planes), &block, &until);
         let in_doubt = candidates.in_doubt(numbers_used);
         for (row, lane) in (start as u32..).zip(0..count) {
