@@ -58,7 +58,8 @@ impl<S: Shape> ShapeLeaves<'_, '_, S> {
         for (row, &ray) in rows.iter_mut().zip(rays) {
             *row = (self.start + usize::from(ray)) as u32;
         }
-        let (block, inverse) = RayBlock::of_rows(self.rays, rows);
+        let block = RayBlock::of_rows(self.rays, rows);
+        let inverse = block.inverses();
         let mut closest = BlockHits::of_rows(self.hits.t, self.hits.shape, rows);
         for &place in self.bvh.primitives(leaf) {
             let (shape, number) = (&self.shapes[place as usize], self.numbers[place as usize]);

@@ -122,41 +122,43 @@ pub(crate) struct RayBlock {
 }
 
 impl RayBlock {
+    const DUMMIES: Self = Self { o: [[0.0; LANES]; 3], d: [[1.0; LANES]; 3] };
+
     #[inline(always)]
     pub fn of(rays: RaySlices<'_>, start: usize, end: usize) -> Self {
-        let (mut o, mut d) = ([[0.0_f64; LANES]; 3], [[1.0_f64; LANES]; 3]);
+        let mut block = Self::DUMMIES;
         for axis in 0..3 {
-            let of = [&rays.origin[axis][start..end], &rays.direction[axis][start..end]];
-            for (to, from) in [&mut o[axis], &mut d[axis]].into_iter().zip(of) {
-                fill_lanes(to, from);
-            }
+            fill_lanes(&mut block.o[axis], &rays.origin[axis][start..end]);
+            fill_lanes(&mut block.d[axis], &rays.direction[axis][start..end]);
         }
-        Self { o, d }
+        block
     }
 
-    /// The rays of the listed rows, at most one per lane, and 1 / R·R of each.
+    /// The rays of the listed rows, at most one per lane.
     #[inline(always)]
-    pub fn of_rows(rays: RaySlices<'_>, rows: &[u32]) -> (Self, [f64; LANES]) {
+    pub fn of_rows(rays: RaySlices<'_>, rows: &[u32]) -> Self {
+        let mut block = Self::DUMMIES;
         let ([ox, oy, oz], [dx, dy, dz]) = (rays.origin, rays.direction);
-        let (mut o, mut d) = ([[0.0_f64; LANES]; 3], [[1.0_f64; LANES]; 3]);
+        // All of one length: one check of a row's number serves them all.
+        let all = ox.len();
+        let (oy, oz, dx, dy, dz) = (&oy[..all], &oz[..all], &dx[..all], &dy[..all], &dz[..all]);
         for (lane, &row) in rows.iter().enumerate() {
-            let row = row as usize;
+            let (row, RayBlock { o, d }) = (row as usize, &mut block);
             (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
             (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
         }
-        let inverse = inverses(&d);
-        (Self { o, d }, inverse)
+        block
     }
-}
 
-/// 1 / R·R of each of these directions, which culling spheres are tested with.
-#[inline(always)]
-fn inverses(d: &BlockVectors) -> [f64; LANES] {
-    let mut inverse = [1.0_f64; LANES];
-    for (lane, inverse) in inverse.iter_mut().enumerate() {
-        *inverse = 1.0 / vector(d, lane).dot(vector(d, lane));
+    /// 1 / R·R of each, which culling spheres are tested with.
+    #[inline(always)]
+    pub fn inverses(&self) -> [f64; LANES] {
+        let mut inverse = [1.0_f64; LANES];
+        for (lane, inverse) in inverse.iter_mut().enumerate() {
+            *inverse = 1.0 / vector(&self.d, lane).dot(vector(&self.d, lane));
+        }
+        inverse
     }
-    inverse
 }
 
 /// Fills the first lanes, as many as there are numbers.
@@ -292,7 +294,7 @@ pub(super) fn keep_closest_rows<S: Shape>(
     while start < rows {
         let end = rows.min(start + LANES);
         let block = RayBlock::of(rays, start, end);
-        let inverse = if has_spheres { inverses(&block.d) } else { [1.0; LANES] };
+        let inverse = if has_spheres { block.inverses() } else { [1.0; LANES] };
         let mut closest = BlockHits::of(&t[start..end], &shape[start..end]);
         for (one, &number) in shapes.iter().zip(numbers) {
             if is_near_any(&block, &inverse, one) {

@@ -192,25 +192,26 @@ fn rows_along<const Z: usize>(
     shape: &mut [u32],
 ) {
     for rows in rows.chunks(LANES) {
-        let (RayBlock { o, d }, inverse) = RayBlock::of_rows(rays, rows);
+        let block = RayBlock::of_rows(rays, rows);
+        let (inverse, RayBlock { o, d }) = (block.inverses(), &block);
         let (mut x, mut y, mut z, mut size) = ([0.0; LANES], [0.0; LANES], [1.0; LANES], [0.0; LANES]);
         let (mut own_t, mut own_shape) = ([f64::NEG_INFINITY; LANES], [0; LANES]);
         for (lane, &row) in rows.iter().enumerate() {
-            let shear = Shear::along::<Z>(vector(&d, lane));
+            let shear = Shear::along::<Z>(vector(d, lane));
             (x[lane], y[lane], z[lane]) = (shear.x, shear.y, shear.z);
-            size[lane] = vector(&o, lane).abs().element_sum();
+            size[lane] = vector(o, lane).abs().element_sum();
             (own_t[lane], own_shape[lane]) = (t[row as usize], shape[row as usize]);
         }
         let sheared = [x, y, z, size];
         for (triangle, &number) in triangles.iter().zip(numbers) {
             let mut nearest = [f64::NEG_INFINITY; LANES];
             for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
-                let f = triangle.centre - vector(&o, lane);
-                *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], triangle.bounding_radius);
+                let f = triangle.centre - vector(o, lane);
+                *nearness_of_lane = nearness(f, vector(d, lane), inverse[lane], triangle.bounding_radius);
             }
             if nearest.iter().any(|&nearness| nearness >= 0.0) {
                 let (t, shape) = (&mut own_t[..rows.len()], &mut own_shape[..rows.len()]);
-                keep_closest::<Z>([&o, &d], &sheared, triangle, number, t, shape);
+                keep_closest::<Z>([o, d], &sheared, triangle, number, t, shape);
             }
         }
         for (lane, &row) in rows.iter().enumerate() {
