@@ -290,7 +290,7 @@ pub fn classify_bsdf<B: Bsdf>(
     // A shape without a material has a row that no table has.
     let has_bsdf = |shape: usize| materials.kind.get(shapes.material[shape] as usize) == Some(&B::KIND);
     for (hits, mut list) in &mut tiles {
-        list_rows(hits, &shapes, &mut list.row, has_bsdf);
+        list_rows(hits, shapes.kind.len(), &mut list.row, has_bsdf);
     }
 }
 

@@ -31,7 +31,7 @@ macro_rules! shape_lists {
 
         fn list_shapes(hits: &Hits, shapes: &ShapeTable, lists: ShapeListsViewItem<'_, '_>) {
             $(if let Some(mut list) = lists.$field {
-                list_rows(hits, shapes, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::$kind);
+                list_rows(hits, shapes.kind.len(), &mut list.row, |shape| shapes.kind[shape] == ShapeKind::$kind);
             })+
         }
     };
@@ -45,11 +45,11 @@ pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(ShapeLis
     for (lists, HitListsViewItem { hits, materials, emissive, surfaces, uvs, sides }) in &mut tiles {
         list_shapes(hits, &shapes, lists);
         if let Some(mut list) = materials {
-            list_rows(hits, &shapes, &mut list.row, |shape| shapes.non_specular[shape]);
+            list_rows(hits, shapes.kind.len(), &mut list.row, |shape| shapes.non_specular[shape]);
         }
         if let Some(mut list) = emissive {
             let list = &mut *list;
-            list_rows(hits, &shapes, &mut list.row, |shape| shapes.emissive[shape] != NO_ROW);
+            list_rows(hits, shapes.kind.len(), &mut list.row, |shape| shapes.emissive[shape] != NO_ROW);
             list.emissive.clear();
             list.emissive.extend(list.row.iter().map(|&row| shapes.emissive[hits.shape[row as usize] as usize]));
         }
@@ -65,12 +65,12 @@ pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(ShapeLis
     }
 }
 
-/// Lists the rows that hit a shape of a kind: every row is written, and the next overwrites it unless it counts (stream
+/// Lists the rows that hit a shape of a kind, of so many shapes: every row is written, and the next overwrites it unless it counts (stream
 /// compaction), so that no branch depends on what was hit.
 ///
 /// A row that hit nothing has a number that no shape has: it is asked like the last one, and does not count.
-pub fn list_rows(hits: &Hits, shapes: &ShapeTable, list: &mut Vec<u32>, of_kind: impl Fn(usize) -> bool) {
-    let Some(last) = shapes.kind.len().checked_sub(1) else { return list.clear() };
+pub fn list_rows(hits: &Hits, shapes: usize, list: &mut Vec<u32>, of_kind: impl Fn(usize) -> bool) {
+    let Some(last) = shapes.checked_sub(1) else { return list.clear() };
     list.resize(hits.rows(), 0);
     let (rows, mut length) = (&mut list[..], 0);
     for (row, &shape) in hits.shape.iter().enumerate() {
@@ -92,7 +92,7 @@ fn clear_surfaces(surfaces: &mut Surfaces, rows: usize) {
 /// Lists the rows that hit one kind of shape, one that a program adds.
 pub fn classify_shape<S: Listed>(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(&Hits, &mut ShapeRows<S>)>) {
     for (hits, mut list) in &mut tiles {
-        list_rows(hits, &shapes, &mut list.row, |shape| shapes.kind[shape] == S::KIND);
+        list_rows(hits, shapes.kind.len(), &mut list.row, |shape| shapes.kind[shape] == S::KIND);
     }
 }
 

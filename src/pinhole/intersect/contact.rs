@@ -1,6 +1,6 @@
 //! Surfaces that coincide with a hit within rounding: they are crossed, or hit, in one event.
 
-use super::{HitPrimitives, Hits, Surfaces};
+use super::{HitPrimitives, Hits, Surfaces, list_rows};
 use crate::extract::{Contact, ContactTable, NO_ROW, contact_evidence};
 use crate::plan::{
     Column, ColumnComponent, ComponentValues, Lifetime, RowLists, Shared, Stage, TileSystems, column_component,
@@ -145,7 +145,8 @@ pub fn merge_contacts(
             contacts.crossings.start(0);
             contacts.behind.clear();
         }
-        list_touching(&table, &hits, &mut list);
+        // Neither a miss nor a scattering event is in the table.
+        list_rows(&hits, table.row.len(), &mut list, |shape| table.row[shape] != NO_ROW);
         for row in list.iter().map(|&row| row as usize) {
             together.clear();
             let time = times.map_or(0.0, |times| times.time[row]);
@@ -182,20 +183,6 @@ pub fn merge_contacts(
             contacts.crossings.fill_to(hits.rows());
         }
     }
-}
-
-/// Lists the rows that hit glass which touches something; every row is written, and the next one overwrites it unless it
-/// counts.
-fn list_touching(table: &ContactTable, hits: &Hits, list: &mut Vec<u32>) {
-    let Some(last) = table.row.len().checked_sub(1) else { return list.clear() };
-    list.resize(hits.rows(), 0);
-    let (rows, mut length) = (&mut list[..], 0);
-    for (row, &shape) in hits.shape.iter().enumerate() {
-        rows[length] = row as u32;
-        // Neither a miss nor a scattering event is in the table.
-        length += usize::from((shape as usize <= last) & (table.row[last.min(shape as usize)] != NO_ROW));
-    }
-    list.truncate(length);
 }
 
 /// The row of contacts of the shape that a listed ray hit, and the surface there, if any other is near.

@@ -7,13 +7,13 @@ use crate::extract::{
     HierarchyOf, ShapeTable, ShapesOf, UvSpaceTable, hierarchy_evidence, kind_evidence, primitive_evidence,
     rasterising_camera,
 };
-use crate::plan::{Column, ColumnArrays, Shared, Stage, TileSystems, VectorRows, VectorRowsMut};
+use crate::plan::{Column, Shared, Stage, TileSystems, VectorRowsMut};
 use crate::rays::WorldRays;
 use crate::shapes::{
     ClosestHits, HITS, HierarchyRoom, HitBlock, Listed, RayHit, RaySlices, ShapeVisitor, keep_closest_of, visit_shapes,
 };
 use bevy_ecs::prelude::*;
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 /// Intersects any column of rays with all shapes of one kind and keeps the closest hits.
 pub fn intersect_shapes<S: Listed, R: RayColumn, H: HitColumn>(
@@ -65,21 +65,17 @@ pub fn fill_surfaces<S: Listed>(
 ) {
     for SurfaceViewItem { rays, hits, primitives, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
         let (mut position, mut normal, bound, material) = surfaces.slices_mut(hits.rows());
-        // All of one length: one check of a row's number serves them all.
-        let [origin, direction] = [&rays.origin, &rays.direction].map(|vectors| vectors.slices(hits.rows()));
-        let (t, shape) = hits.slices();
         for rows in list.row.chunks(if S::IS_TRIANGULAR { HITS } else { 1 }) {
             for (lane, &row) in (0..HITS).zip(rows) {
                 let row = row as usize;
                 let primitive = primitives.map_or(0, |primitives| primitives.primitive[row]);
-                let [origin, direction] = [&origin, &direction].map(|vectors| Vec3::from(vectors.at(row)).as_dvec3());
-                let hit = RayHit { primitive, ..RayHit::at_rest(origin, direction, t[row]) };
-                block.set_hit(lane, all.row[shape[row] as usize], &hit);
+                let hit = RayHit::at_rest(rays.origin_of(row), rays.direction_of(row), hits.t[row]);
+                block.set_hit(lane, all.row[hits.shape[row] as usize], &RayHit { primitive, ..hit });
             }
             S::fill_surfaces(&shapes.row, &shapes.surface_data, &mut block, rows.len());
             for (lane, &row) in (0..HITS).zip(rows) {
                 let row = row as usize;
-                let (number, surface) = (shape[row] as usize, block.surface(lane));
+                let (number, surface) = (hits.shape[row] as usize, block.surface(lane));
                 position.put(row, surface.point.as_vec3());
                 normal.put(row, surface.normal.as_vec3());
                 (bound[row], material[row]) = (surface.bound, all.material[number]);
@@ -87,13 +83,13 @@ pub fn fill_surfaces<S: Listed>(
                     sides.outside[row] = u32::from(surface.outside);
                 }
                 if let Some(uvs) = &mut uvs {
-                    let (of_kind, hit) = block.hit(lane);
+                    let (shape, hit) = block.hit(lane);
                     let own = match &uv_spaces {
                         Some(spaces) if S::HAS_UV_SPACE => spaces.point(number, hit.point()),
                         _ => DVec3::ZERO,
                     };
-                    let of_kind = of_kind as usize;
-                    uvs.set(row, shapes.row[of_kind].uv(&shapes.surface_data[of_kind], &hit, surface.at, own));
+                    let shape = shape as usize;
+                    uvs.set(row, shapes.row[shape].uv(&shapes.surface_data[shape], &hit, surface.at, own));
                 }
             }
         }

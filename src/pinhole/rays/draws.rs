@@ -1,6 +1,5 @@
 //! Random numbers of rays.
 
-use super::paths::row_of_film;
 use super::{Depth, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
 use crate::extract::SamplingTable;
 use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
@@ -104,11 +103,12 @@ impl Draws<'_> {
     /// The pixels of at most so many rows, x and y.
     #[inline(always)]
     fn pixels(&self, rows: impl Iterator<Item = usize>) -> [[u32; AT_ONCE]; 2] {
-        let mut of_tile = [0; AT_ONCE];
-        for (of_tile, row) in of_tile.iter_mut().zip(rows) {
-            *of_tile = row_of_film(self.samples, self.paths, row) as u32;
+        let mut pixels = [[0; AT_ONCE]; 2];
+        for (lane, row) in rows.take(AT_ONCE).enumerate() {
+            let [x, y] = pixel_of_row(self.tile, self.samples, self.paths, row);
+            (pixels[0][lane], pixels[1][lane]) = (x, y);
         }
-        self.tile.pixels_of(&of_tile)
+        pixels
     }
 }
 

@@ -49,14 +49,8 @@ pub struct Depth(pub u32);
 /// The pixel of the image that a row of a tile belongs to, and whose random numbers it therefore uses.
 #[inline(always)]
 pub fn pixel_of_row(tile: &Tile, samples: Option<&PixelSamples>, paths: Option<&Paths>, row: usize) -> [u32; 2] {
-    tile.pixel_of(row_of_film(samples, paths, row))
-}
-
-/// The row of a tile's film that a row of its rays belongs to.
-#[inline(always)]
-pub(super) fn row_of_film(samples: Option<&PixelSamples>, paths: Option<&Paths>, row: usize) -> usize {
     let first = paths.map_or(row, |paths| paths.first[row] as usize);
-    samples.map_or(first, |samples| samples.pixel[first] as usize)
+    tile.pixel_of(samples.map_or(first, |samples| samples.pixel[first] as usize))
 }
 
 column! {

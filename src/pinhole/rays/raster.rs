@@ -36,21 +36,6 @@ impl Tile {
         [self.x + row % self.width, self.y + row / self.width]
     }
 
-    /// The same of many rows, x and y.
-    ///
-    /// Whole tiles are as wide as a power of two, for which several rows at once are divided by shifting them.
-    #[inline(always)]
-    pub(super) fn pixels_of<const N: usize>(&self, rows: &[u32; N]) -> [[u32; N]; 2] {
-        let (mut pixels, shift) = ([[0; N]; 2], self.width.trailing_zeros());
-        let [xs, ys] = &mut pixels;
-        for ((&row, x), y) in rows.iter().zip(xs).zip(ys) {
-            *y = if self.width.is_power_of_two() { row >> shift } else { row / self.width };
-            *x = self.x + (row - *y * self.width);
-            *y += self.y;
-        }
-        pixels
-    }
-
     /// Splits rows in ascending order where a line of the tile ends or a row is left out: a range of `rows`, and the pixel
     /// that the first of it stands for, each with its neighbours to the right.
     #[inline(always)]
@@ -163,22 +148,5 @@ mod tests {
         }
         assert_eq!(tile.row_of(63, 32), None);
         assert_eq!(tile.row_of(71, 32), None);
-    }
-
-    #[test]
-    fn pixels_of_many_rows_are_those_of_each() {
-        let mut tried = 0;
-        for width in (1..70).chain([1 << 20, (1 << 20) + 1]) {
-            let tile = Tile { x: 5, y: 9, width, height: 1 << 11 };
-            for last in [255, width, width * 7 + 3, width << 11].map(|end| end.max(256)) {
-                let rows: [u32; 256] = std::array::from_fn(|row| last - 256 + row as u32);
-                let [xs, ys] = tile.pixels_of(&rows);
-                for ((x, y), row) in xs.into_iter().zip(ys).zip(rows) {
-                    assert_eq!([x, y], tile.pixel_of(row as usize), "row {row} of a tile {width} wide");
-                    tried += 1;
-                }
-            }
-        }
-        eprintln!("pixels: {tried} rows");
     }
 }
