@@ -11,6 +11,7 @@ const ORDER: &[(&str, &[&str])] = &[
     (
         "pinhole",
         &[
+            "each",
             "scene",
             "plan",
             "check",

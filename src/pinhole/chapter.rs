@@ -1,3 +1,4 @@
+use crate::each::Each;
 use crate::extract::{camera_entity, integrator_of};
 use crate::look::view_stage;
 use crate::plan::{Census, Column, Stage};
@@ -171,7 +172,7 @@ impl Size {
     /// The resolution that results for a scene whose own is given; each side is rounded to a whole number of at least
     /// 1.
     pub fn of(self, own: Resolution) -> Resolution {
-        let [width, height] = [own.width, own.height].map(f64::from);
+        let [width, height] = [own.width, own.height].each(f64::from);
         let whole = |pixels: f64| (pixels.round() as u32).max(1);
         match self {
             Self::Pixels(resolution) => resolution,

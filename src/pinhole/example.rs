@@ -1,3 +1,4 @@
+use crate::each::Each;
 use crate::film::{write_exr_with, write_png};
 use crate::render::{Execution, render};
 use crate::scene::{Resolution, printable_message};
@@ -69,7 +70,7 @@ fn parse(words: &[OsString]) -> std::result::Result<Wanted, &OsString> {
 fn save(chapter: &Chapter, wanted: &Wanted) -> Result<String> {
     let files = match &wanted.file {
         Some(file) => vec![file.clone()],
-        None => ["png", "exr"].map(|ending| Path::new("out").join(format!("{}.{ending}", chapter.name))).to_vec(),
+        None => ["png", "exr"].each(|ending| Path::new("out").join(format!("{}.{ending}", chapter.name))).to_vec(),
     };
     let scene = chapter.world(&wanted.overrides);
     let rendered = render(&scene, &chapter.stages(), &Execution::default(), &())?;

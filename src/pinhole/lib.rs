@@ -127,6 +127,7 @@ pub mod extend;
 
 mod chapter;
 mod check;
+mod each;
 mod error;
 mod example;
 

@@ -1,3 +1,4 @@
+use crate::each::Each;
 use glam::DVec3;
 
 /// An axis-aligned bounding box in f32, as the nodes of a hierarchy hold it.
@@ -20,7 +21,7 @@ impl Default for BoundingBox {
 impl BoundingBox {
     /// The smallest box of f32 coordinates around one of f64 coordinates.
     pub fn around(low: DVec3, high: DVec3) -> Self {
-        Self { low: low.to_array().map(rounded_down), high: high.to_array().map(rounded_up) }
+        Self { low: low.to_array().each(rounded_down), high: high.to_array().each(rounded_up) }
     }
 
     /// Enlarges it such that it contains another.

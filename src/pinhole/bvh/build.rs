@@ -4,6 +4,7 @@ use super::bounding_box::BoundingBox;
 use super::entry::{Entry, Extent, PackedBox};
 use super::wide_node::{Child, WIDTH, WideNode};
 use super::{Bvh, MAX_LEVELS, Range};
+use crate::each::lanes;
 use multiversion::multiversion;
 use rayon::prelude::*;
 
@@ -134,13 +135,13 @@ impl Bins {
     #[inline(always)]
     fn add(&mut self, entries: &[Entry], grid: &Grid) {
         for entry in entries {
-            let bins: [u32; 4] = std::array::from_fn(|axis| grid.bin(entry, axis));
+            let bins: [u32; 4] = lanes(|axis| grid.bin(entry, axis));
             for (axis, bin) in bins.into_iter().enumerate().take(3) {
                 let bin = bin as usize % BINS;
                 let (old, new) = (self.around[axis][bin].0, entry.0.0);
                 // Without + 0.0, which changes no value, the minimum would be stored under the mask of the comparison,
                 // and the next load from there would have to wait for that.
-                let min = std::array::from_fn(|i| (if new[i] < old[i] { new[i] } else { old[i] }) + 0.0);
+                let min = lanes(|i| (if new[i] < old[i] { new[i] } else { old[i] }) + 0.0);
                 self.around[axis][bin] = PackedBox(min);
                 self.count[axis][bin] += 1;
             }

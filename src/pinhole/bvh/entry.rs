@@ -2,6 +2,8 @@
 
 use super::bounding_box::BoundingBox;
 
+use crate::each::{Each, lanes};
+
 /// A bounding box as eight numbers: the lower corner, one to spare, the negated upper corner, and one to spare.
 ///
 /// Since the upper corner is negated, the union of two boxes is one minimum of eight lanes.
@@ -17,13 +19,13 @@ impl PackedBox {
     #[inline(always)]
     pub fn enclose(&mut self, Self(other): &Self) {
         let own = self.0;
-        self.0 = std::array::from_fn(|i| if other[i] < own[i] { other[i] } else { own[i] });
+        self.0 = lanes(|i| if other[i] < own[i] { other[i] } else { own[i] });
     }
 
     /// Twice its centre, as a box that holds only this point.
     #[inline(always)]
     fn doubled_centre(&self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] - self.0[i ^ 4]))
+        Self(lanes(|i| self.0[i] - self.0[i ^ 4]))
     }
 
     /// Its extent along an axis.
@@ -35,7 +37,7 @@ impl PackedBox {
     /// Half its surface area, to which the probability that a ray hits it is proportional; it must not be empty.
     #[inline(always)]
     pub fn half_area(&self) -> f32 {
-        let [x, y, z] = [0, 1, 2].map(|axis| self.extent(axis));
+        let [x, y, z] = [0, 1, 2].each(|axis| self.extent(axis));
         x * (y + z) + y * z
     }
 

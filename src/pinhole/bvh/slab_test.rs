@@ -5,6 +5,8 @@ use super::by_axis;
 use super::wide_node::{WIDTH, WideNode};
 use glam::DVec3;
 
+use crate::each::Each;
+
 // ANCHOR: far
 /// u = 2⁻²⁴, the unit roundoff of f32.
 const UNIT_ROUNDOFF: f32 = 1.0 / (1_u64 << 24) as f32;
@@ -113,9 +115,9 @@ impl BoxRay {
             far_away[i] = far[0] | far[1] | far[2];
         }
         let (mut moved, mut error) = ([0.0; N], [0.0; N]);
-        if far_away.contains(&true) {
+        if far_away.iter().fold(false, |any, is| any | is) {
             for i in (0..N).filter(|&i| far_away[i]) {
-                let [origin, direction] = [o, d].map(|of| DVec3::from(by_axis(|axis| of[axis][i])));
+                let [origin, direction] = [o, d].each(|of| DVec3::from(by_axis(|axis| of[axis][i])));
                 (moved[i], error[i]) = moved_towards(DVec3::from(centre), extent, origin, direction / unit[i]);
             }
         }

@@ -1,6 +1,8 @@
 use super::bounding_box::BoundingBox;
 use super::by_axis;
 
+use crate::each::Each;
+
 /// The children of a node.
 pub const WIDTH: usize = 8;
 /// Marks a child that is a leaf.
@@ -73,7 +75,7 @@ impl WideNode {
     /// A node without children.
     pub fn empty() -> Self {
         let none = BoundingBox::default();
-        let planes = [none.low.map(|low| [low; WIDTH]), none.high.map(|high| [high; WIDTH])];
+        let planes = [none.low.each(|low| [low; WIDTH]), none.high.each(|high| [high; WIDTH])];
         Self { planes, child: [Child::NONE; WIDTH] }
     }
 

@@ -5,6 +5,7 @@ use super::material::material_kind_evidence;
 use super::non_opaque::is_non_opaque;
 use super::shapes::{is_shape, listed_kind, one_shape};
 use super::{MeshTable, NO_ROW, ShapeTable, bidirectional_evidence, moves_while_open, shape_entities};
+use crate::each::Each;
 use crate::lights::{LightBounds, LightHierarchy, Receiver, luminance};
 use crate::plan::{Census, Evidence, Table, counted};
 use crate::scene::{
@@ -223,7 +224,7 @@ impl Table for AreaLightTable {
         let mut table = Self { light_of_shape: vec![NO_ROW; shapes.kind.len()], ..Self::default() };
         let (mut boxes, mut meshes) = (Vec::new(), Vec::new());
         for (shape, &emits) in shapes.emissive.iter().enumerate().filter(|(_, emits)| **emits != NO_ROW) {
-            let radiance = emissive.radiance[emits as usize].map(f64::from);
+            let radiance = emissive.radiance[emits as usize].each(f64::from);
             if radiance == [0.0; 3] || emissive.mapped.get(emits as usize) == Some(&true) {
                 continue;
             }
@@ -362,7 +363,7 @@ impl Table for EmissiveTable {
             let emissive = scene.get::<Emissive>(entity).copied().unwrap_or_default();
             let who = kind_and_name(scene, "emissive", entity);
             let radiance = light_colour(&who, "radiance", emissive.radiance)?.to_array();
-            table.radiance.push(radiance.map(|part| part as f32));
+            table.radiance.push(radiance.each(|part| part as f32));
             table.one_sided.push(emissive.sides == Sides::Front);
             table.mapped.push(scene.get::<EmissionMap>(entity).is_some() || is_non_opaque(entity));
         }

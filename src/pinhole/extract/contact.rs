@@ -3,6 +3,7 @@
 use super::motion::{moves_while_open, velocity_of};
 use super::shapes::{listed_kind, one_shape, shape_entities};
 use super::{MaterialTable, NO_ROW, ShapeTable, ShutterTable, eye, followed_evidence, glass_evidence};
+use crate::each::Each;
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{SceneError, called};
 use crate::shapes::{AnyShape, Bounds, l1_norm, offset_bound};
@@ -145,7 +146,7 @@ fn evidence_of(scene: &Census<'_>, none: &str, such: impl Fn(u32) -> bool) -> Ev
         return Evidence { needed: false, reason: none.into(), count: 0 };
     };
     let entities = shape_entities(scene);
-    let [of, with] = [one, other].map(|shape| entities.get(shape).map_or_else(String::new, |&e| called(scene, e)));
+    let [of, with] = [one, other].each(|shape| entities.get(shape).map_or_else(String::new, |&e| called(scene, e)));
     let reason = if one == other { format!("thin glass: {of}") } else { format!("{of} may touch {with}") };
     Evidence { needed: true, reason, count: 1 + found.count() }
 }
@@ -229,7 +230,7 @@ fn find_pairs(scene: &Census<'_>) -> Result<ContactPairs, SceneError> {
     let (mut bounded, infinite): (Vec<Boxed>, Vec<Boxed>) = boxed.into_iter().partition(|own| own.bounds.is_some());
     let grown = |own: &Boxed| own.bounds.map(|bounds| grow(&bounds)).unwrap_or(Bounds::ALL);
     bounded.sort_by(|a, b| {
-        let [a_least, b_least] = [a, b].map(|own| grown(own).min.x);
+        let [a_least, b_least] = [a, b].each(|own| grown(own).min.x);
         a_least.partial_cmp(&b_least).unwrap_or(Ordering::Equal).then(a.shape.cmp(&b.shape))
     });
     let mut candidates = Vec::new();
@@ -253,8 +254,8 @@ fn find_pairs(scene: &Census<'_>) -> Result<ContactPairs, SceneError> {
                 place.insert(body_of(scene, shape)?);
             }
         }
-        let [one, other] = pair.map(|shape| velocity_while_open(scene, shape));
-        if one != other || may_touch(pair.map(|shape| &bodies[&shape]), pair.map(|shape| glass[shape])) {
+        let [one, other] = pair.each(|shape| velocity_while_open(scene, shape));
+        if one != other || may_touch(pair.each(|shape| &bodies[&shape]), pair.each(|shape| glass[shape])) {
             let glassy = [pair, [pair[1], pair[0]]].into_iter().filter(|&[first, _]| is_glass(first));
             pairs.touching.extend(glassy);
         }

@@ -6,6 +6,7 @@ use super::cameras::eye;
 use super::image_files::shown_name;
 use super::pose::pose;
 use crate::check::{finite_point, number, positive_length, triple};
+use crate::each::Each;
 use crate::plan::Census;
 use crate::scene::{
     DENSITY_FILE, DensityGrid, EmbeddedFiles, FileStore, MAX_VOXELS, SceneError, SceneFolder, Undecoded, check_memory,
@@ -74,7 +75,7 @@ pub(super) fn grid_beside(scene: &Census<'_>, who: &str, medium: Entity) -> Resu
         return Err(SceneError::new(who, "max", triple(max), accepted));
     }
     positive_length(who, "edge of the density grid's box", edges.min_element())?;
-    let size = DVec3::from_array(grid.size.map(|side| side as f64));
+    let size = DVec3::from_array(grid.size.each(|side| side as f64));
     let index_from_entity = DMat3::from_diagonal(size / edges);
     Ok(Some(BoxedGrid { grid, index_from_entity, min }))
 }
@@ -105,7 +106,7 @@ fn grid_of(scene: &Census<'_>, who: &str, own: &DensityGrid) -> Result<Arc<Grid>
     static GRIDS: FileStore<Grid> = FileStore::new();
     let refused = |field, value: String, accepted: String| SceneError::new(who, field, value, accepted);
     if own.file.is_empty() {
-        let size = own.size.map(|side| side as usize);
+        let size = own.size.each(|side| side as usize);
         let needed = own.size.iter().try_fold(1_u64, |all, &side| all.checked_mul(u64::from(side)));
         let needed = needed.filter(|voxels| (1..=MAX_VOXELS).contains(voxels)).ok_or_else(|| {
             let [x, y, z] = own.size;
@@ -151,7 +152,7 @@ fn read_vol(bytes: &[u8]) -> Result<Grid, String> {
     if !bytes.starts_with(b"VOL") || bytes.len() < HEAD {
         return Err("it is no .vol file, which begins with VOL and a head of 48 bytes".into());
     }
-    let word = |at: usize| [0, 1, 2, 3].map(|byte| bytes[at + byte]);
+    let word = |at: usize| [0, 1, 2, 3].each(|byte| bytes[at + byte]);
     let [kind, x, y, z, channels] = [4, 8, 12, 16, 20].map(|at| i32::from_le_bytes(word(at)));
     if (bytes[3], kind, channels) != (3, 1, 1) {
         let version = bytes[3];
@@ -179,7 +180,7 @@ fn read_vol(bytes: &[u8]) -> Result<Grid, String> {
     }
     let below = values.iter().filter(|value| **value < 0.0).count();
     values.iter_mut().for_each(|value| *value = value.max(0.0));
-    let mut grid = Grid::new(size.map(|side| side as usize), values);
+    let mut grid = Grid::new(size.each(|side| side as usize), values);
     if below > 0 {
         grid.remarks.push(format!("{below} of its {voxels} densities are below 0, and count as 0"));
     }
@@ -190,7 +191,7 @@ impl Grid {
     /// A grid of so many voxels along x, y and z, and the density of each, those along x first.
     pub fn new(size: [usize; 3], values: Vec<f32>) -> Self {
         let block = size.into_iter().max().unwrap_or(1).div_ceil(BLOCKS);
-        let blocks = size.map(|side| side.div_ceil(block));
+        let blocks = size.each(|side| side.div_ceil(block));
         let mut bordered = Vec::with_capacity(size.iter().map(|side| side + 2).product());
         let places = |side: usize| (0..side + 2).map(move |place| place.saturating_sub(1).min(side - 1));
         for z in places(size[2]) {
@@ -217,7 +218,7 @@ impl Grid {
 
     /// The greatest value that the density within a block is interpolated between: the block's own voxels, and those around.
     fn max_within(&self, at: [usize; 3]) -> f32 {
-        let [x, y, z] = [0, 1, 2].map(|axis| {
+        let [x, y, z] = [0, 1, 2].each(|axis| {
             let first = at[axis] * self.block;
             first..(first + self.block + 2).min(self.size[axis] + 2)
         });
@@ -239,7 +240,7 @@ impl Grid {
     /// beyond them, and 0 outside the box.
     #[inline]
     pub fn density(&self, point: DVec3) -> f64 {
-        let size = DVec3::from_array(self.size.map(|side| side as f64));
+        let size = DVec3::from_array(self.size.each(|side| side as f64));
         if !(point.cmpge(DVec3::ZERO).all() && point.cmple(size).all()) {
             return 0.0;
         }
@@ -260,8 +261,8 @@ impl Grid {
             bordered(x, self.size[0]) + bordered(y, self.size[1]) * along_y + bordered(z, self.size[2]) * along_z;
         let [near, far] = [first, first + along_z];
         let [a, b, c, d] =
-            [near, near + along_y, far, far + along_y].map(|row| [self.values[row], self.values[row + 1]]);
-        [a[0], a[1], b[0], b[1], c[0], c[1], d[0], d[1]].map(f64::from)
+            [near, near + along_y, far, far + along_y].each(|row| [self.values[row], self.values[row + 1]]);
+        [a[0], a[1], b[0], b[1], c[0], c[1], d[0], d[1]].each(f64::from)
     }
 
     /// The integral of the density along a ray of index space, from one distance to another.
@@ -291,7 +292,7 @@ impl Grid {
         let edge = self.block as f64;
         cells_along([origin / edge, direction / edge], range, |cell, range| {
             // A ray along a face of the box is in the last block, whatever rounding says.
-            let [x, y, z] = [0, 1, 2].map(|axis| cell[axis].clamp(0, self.blocks[axis] as i64 - 1) as usize);
+            let [x, y, z] = [0, 1, 2].each(|axis| cell[axis].clamp(0, self.blocks[axis] as i64 - 1) as usize);
             let max = self.max[(z * self.blocks[1] + y) * self.blocks[0] + x];
             if max > 0.0 {
                 found(range, f64::from(max));
@@ -325,7 +326,7 @@ impl Grid {
 fn cells_along(ray: [DVec3; 2], [from, to]: [f64; 2], mut visit: impl FnMut([i64; 3], [f64; 2])) {
     let [x, y, z] = (ray[0] + from * ray[1]).floor().to_array();
     let mut cell = [x as i64, y as i64, z as i64];
-    let [origin, direction] = ray.map(|of| of.to_array());
+    let [origin, direction] = ray.each(|of| of.to_array());
     let leaves = |axis: usize, place: i64| match direction[axis] {
         along if along > 0.0 => ((place + 1) as f64 - origin[axis]) / along,
         along if along < 0.0 => (place as f64 - origin[axis]) / along,

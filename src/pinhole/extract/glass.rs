@@ -7,6 +7,7 @@ use super::shapes::{listed_kind, moving_shapes, one_shape, shape_name, shapes_wi
 use super::{
     MaterialTable, NO_ROW, ShapeTable, ShutterTable, TriangleTable, eye, followed_evidence, needed_if, shape_entities,
 };
+use crate::each::Each;
 use crate::material::{D_LINE, IndexCurve, Interior, checked_curve, interior_of, material_entities, one_material};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Dispersion, SceneError, called};
@@ -184,7 +185,7 @@ impl GlassBody {
             Enclosure::Shape(body) => body.windings(at_rest),
             Enclosure::Triangles(triangles) => {
                 let signed = |(corners, normal): &([DVec3; 3], DVec3)| {
-                    let seen = corners.map(|corner| corner - at_rest);
+                    let seen = corners.each(|corner| corner - at_rest);
                     let angle = triangle_solid_angle(&seen);
                     if angle.is_finite() { angle.copysign(normal.dot(seen[0])) } else { 0.0 }
                 };
@@ -324,7 +325,7 @@ pub fn glass_overlaps(scene: &Census<'_>) -> Evidence {
             Some(pair) => {
                 let entities = shape_entities(scene);
                 let [one, other] =
-                    pair.map(|shape| entities.get(shape).map_or_else(String::new, |&e| called(scene, e)));
+                    pair.each(|shape| entities.get(shape).map_or_else(String::new, |&e| called(scene, e)));
                 let reason = format!("shapes of glass may overlap: {one}, {other}");
                 Evidence { needed: true, reason, count: 2 }
             }
@@ -478,7 +479,7 @@ fn sums(
 ) -> HashMap<Edge, (i64, (usize, usize))> {
     let mut sums = HashMap::new();
     for &row in rows {
-        let corners = triangles.row[row].corners.map(|corner| joined(bits(corner)));
+        let corners = triangles.row[row].corners.each(|corner| joined(bits(corner)));
         for (from, to) in [(0, 1), (1, 2), (2, 0)] {
             let [from, to] = [corners[from], corners[to]];
             let step = if (from < to) == triangles.surface_data[row].turned { -1 } else { 1 };
@@ -494,7 +495,7 @@ fn sums(
 
 fn bits(corner: DVec3) -> Corner {
     // −0 and 0 are one place.
-    corner.to_array().map(|part| (part + 0.0).to_bits())
+    corner.to_array().each(|part| (part + 0.0).to_bits())
 }
 
 /// For each of these corners the one that stands for all that may be the same.
@@ -502,7 +503,7 @@ fn joined(triangles: &TriangleTable, rows: &[usize], corners: Vec<Corner>) -> Ha
     let all = || rows.iter().flat_map(|&row| triangles.row[row].corners);
     let (min, max) = all().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), at| (min.min(at), max.max(at)));
     let apart = ONE_CORNER * (max - min).max_element();
-    let mut sorted: Vec<DVec3> = corners.into_iter().map(|corner| DVec3::from(corner.map(f64::from_bits))).collect();
+    let mut sorted: Vec<DVec3> = corners.into_iter().map(|corner| DVec3::from(corner.each(f64::from_bits))).collect();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
     sorted.dedup();
     let mut joined = HashMap::new();
@@ -603,7 +604,7 @@ mod closed_mesh_tests {
         });
         let cube = [x, y, z].into_iter().flat_map(|axis| [axis, -axis]).flat_map(|out| {
             let (u, v) = (DVec3::new(out.y, out.z, out.x), DVec3::new(out.z, out.x, out.y));
-            [[out + u + v, out - u + v, out - u - v], [out + u + v, out - u - v, out + u - v]].map(facing)
+            [[out + u + v, out - u + v, out - u - v], [out + u + v, out - u - v, out + u - v]].each(facing)
         });
         [("tetrahedron", tetrahedron.collect()), ("octahedron", octahedron.collect()), ("cube", cube.collect())]
     }

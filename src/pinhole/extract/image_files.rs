@@ -5,6 +5,7 @@ use super::{
     EmissionMapTable, EnvironmentTable, ImageTable, MetallicRoughnessTable, NormalMapTable, Pyramid, Texels,
     linear_from_srgb,
 };
+use crate::each::Each;
 use crate::plan::Census;
 use crate::scene::{
     EmbeddedFiles, FileStore, IMAGE_FILE, ModelFiles, SceneError, SceneFolder, TELLING_BYTES, TooLittleMemory,
@@ -257,11 +258,11 @@ fn linear(image: DynamicImage, numbers: Numbers) -> Vec<[f32; 3]> {
     match bytes_a_part {
         1 => {
             let light: Vec<f32> = (0..=255).map(|byte| decoded(f64::from(byte) / 255.0) as f32).collect();
-            image.into_rgb8().pixels().map(|texel| texel.0.map(|byte| light[usize::from(byte)])).collect()
+            image.into_rgb8().pixels().map(|texel| texel.0.each(|byte| light[usize::from(byte)])).collect()
         }
         2 => {
             let light = |part: u16| decoded(f64::from(part) / 65_535.0) as f32;
-            image.into_rgb16().pixels().map(|texel| texel.0.map(light)).collect()
+            image.into_rgb16().pixels().map(|texel| texel.0.each(light)).collect()
         }
         _ => image.into_rgb32f().pixels().map(|texel| texel.0).collect(),
     }
@@ -338,7 +339,7 @@ fn bytes_of(header: &Header) -> u64 {
     let samples = |channel: &exr::prelude::ChannelDescription| {
         let along = |pixels: usize, step: usize| (pixels / step.max(1)) as u64;
         let [width, height] = [(header.layer_size.0, channel.sampling.0), (header.layer_size.1, channel.sampling.1)]
-            .map(|(pixels, step)| along(pixels, step));
+            .each(|(pixels, step)| along(pixels, step));
         width.saturating_mul(height).saturating_mul(channel.sample_type.bytes_per_sample() as u64)
     };
     header.channels.list.iter().map(samples).fold(0, u64::saturating_add)
@@ -441,7 +442,7 @@ pub fn exr_texels(bytes: &[u8]) -> Result<(Texels, Vec<String>), String> {
         Wanted::Rgb(names) => {
             let layer = names[0].rsplit_once('.').map_or("", |(layer, _)| layer);
             remarks.push(format!("its layer {} is read", crate::scene::printable(layer, 80)));
-            read_channels(Cursor::new(bytes), names.each_ref().map(String::as_str))?
+            read_channels(Cursor::new(bytes), names.each_ref().each(String::as_str))?
         }
         Wanted::Grey(name) => {
             remarks.push(format!("its channel {} is read as grey", crate::scene::printable(name, 80)));
@@ -472,7 +473,7 @@ fn wanted(headers: &[Header]) -> Result<Wanted, String> {
     let names = |header: &Header| header.channels.list.iter().map(|own| own.name.to_string()).collect::<Vec<_>>();
     let all: Vec<String> = headers.iter().flat_map(names).collect();
     let has = |wanted: &Wanted| headers.iter().any(|header| self::has(header, wanted));
-    let of = |layer: &str, parts: [&str; 3]| Wanted::Rgb(parts.map(|part| format!("{layer}{part}")));
+    let of = |layer: &str, parts: [&str; 3]| Wanted::Rgb(parts.each(|part| format!("{layer}{part}")));
     let layers = || all.iter().filter_map(|name| Some(&name[..=name.rfind('.')?]));
     let mut candidates = vec![of("", ["R", "G", "B"]), of("", ["r", "g", "b"]), Wanted::Grey("Y".into())];
     candidates.extend(layers().map(|layer| of(layer, ["R", "G", "B"])));
@@ -544,7 +545,7 @@ fn framed(texels: Texels, data: IntegerBounds, display: IntegerBounds, remarks: 
     if data == display || is_odd {
         return texels;
     }
-    let offset = [data.position.0 - display.position.0, data.position.1 - display.position.1].map(i64::from);
+    let offset = [data.position.0 - display.position.0, data.position.1 - display.position.1].each(i64::from);
     let texel = |x: usize, y: usize| {
         let (x, y) = (x as i64 - offset[0], y as i64 - offset[1]);
         let inside = (0..texels.width as i64).contains(&x) && (0..texels.height as i64).contains(&y);
@@ -588,7 +589,7 @@ fn rec_709_from(own: [DVec3; 4]) -> DMat3 {
 }
 
 fn convert(texels: &mut Texels, from: &Chromaticities, remarks: &mut Vec<String>) {
-    let own = [from.red, from.green, from.blue, from.white].map(xyz);
+    let own = [from.red, from.green, from.blue, from.white].each(xyz);
     let apart = own.iter().zip(REC_709).map(|(own, other)| (*own - other).abs().max_element()).fold(0.0, f64::max);
     if apart < 1e-3 {
         return;
@@ -599,7 +600,7 @@ fn convert(texels: &mut Texels, from: &Chromaticities, remarks: &mut Vec<String>
         return;
     }
     for texel in &mut texels.rgb {
-        *texel = (matrix * DVec3::from(texel.map(f64::from))).as_vec3().to_array();
+        *texel = (matrix * DVec3::from(texel.each(f64::from))).as_vec3().to_array();
     }
     remarks.push("its colours are converted from its own primaries to those of Rec. 709".into());
 }

@@ -7,6 +7,7 @@ use super::{
     AreaLightTable, EnvironmentLightTable, EnvironmentTable, MaterialTable, MeshLights, NO_ROW, ShapeTable,
     bidirectional_evidence, environment_light_evidence, luminance,
 };
+use crate::each::Each;
 use crate::lights::{AnyLight, MAX_TARGETS, Target, Targets};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::SceneError;
@@ -40,7 +41,7 @@ fn environment_strength(environment: &EnvironmentTable) -> f64 {
     let image = &environment.image;
     let row_weight = |row: usize| libm::sin(PI * (row as f64 + 0.5) / image.height as f64);
     let rows = image.rgb.chunks(image.width).enumerate();
-    let sum = |row: &[[f32; 3]]| row.iter().map(|texel| luminance(texel.map(f64::from))).sum::<f64>();
+    let sum = |row: &[[f32; 3]]| row.iter().map(|texel| luminance(texel.each(f64::from))).sum::<f64>();
     let weighted: f64 = rows.map(|(at, row)| sum(row) * row_weight(at)).sum();
     4.0 * PI * weighted / (image.width as f64 * (0..image.height).map(row_weight).sum::<f64>())
 }

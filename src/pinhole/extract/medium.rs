@@ -9,6 +9,7 @@ use super::motion::{moves_while_open, velocity_of};
 use super::shapes::{bodies_in_words, listed_kinds, one_shape};
 use super::{GlassBodyTable, GlassTable, glass_evidence, many_area_lights_evidence, shape_entities};
 use crate::check::triple;
+use crate::each::Each;
 use crate::material::{Bsdf, PhaseTable, interior_of, is_material, material_entities, media_entities, one_material};
 use crate::plan::{Census, Evidence, Table, united};
 use crate::scene::{
@@ -101,8 +102,8 @@ impl Table for MediumTable {
             let own = scene.get::<Medium>(entity).copied().unwrap_or_default();
             let who = kind_and_name(scene, "medium", entity);
             PhaseTable::parameters(&own, &who)?;
-            let [absorption, scattering] = [own.absorption, own.scattering].map(|colour| colour.to_array());
-            let extinction = [0, 1, 2].map(|part| absorption[part] + scattering[part]);
+            let [absorption, scattering] = [own.absorption, own.scattering].each(|colour| colour.to_array());
+            let extinction = [0, 1, 2].each(|part| absorption[part] + scattering[part]);
             table.medium.push(Coefficients { extinction, scattering, emission: own.emission.to_array() });
             let shapes = shapes_of(scene, entity);
             let grid = grid_beside(scene, &who, entity)?;
@@ -236,7 +237,7 @@ fn body(scene: &Census<'_>, shape: Entity) -> Result<MediumPlace, SceneError> {
 /// Checks that what a medium without bounds emits remains finite.
 fn check_finite(own: &Medium, who: &str, filled: &str) -> Result<(), SceneError> {
     let [absorption, scattering, emission] =
-        [own.absorption, own.scattering, own.emission].map(|colour| colour.to_array());
+        [own.absorption, own.scattering, own.emission].each(|colour| colour.to_array());
     if (0..3).all(|part| emission[part] == 0.0 || absorption[part] + scattering[part] > 0.0) {
         return Ok(());
     }

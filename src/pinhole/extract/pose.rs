@@ -1,5 +1,6 @@
 use super::check::{finite_point, number, triple};
 use super::motion::displacement_at_opening;
+use crate::each::Each;
 use crate::plan::Census;
 use crate::scene::{ChildOf, LookAt, Placement, SceneError, called};
 use crate::shapes::Pose;
@@ -111,8 +112,8 @@ pub fn non_uniformly_scaled(scene: &Census<'_>, entity: Entity) -> bool {
 
 /// Whether a map lengthens every direction by the same factor, mirrored or not.
 fn is_even(world_from_entity: DMat3) -> bool {
-    let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_entity.col(axis).length()));
-    let [x, y, z] = [0, 1, 2].map(|axis| world_from_entity.col(axis));
+    let lengths = DVec3::from([0, 1, 2].each(|axis| world_from_entity.col(axis).length()));
+    let [x, y, z] = [0, 1, 2].each(|axis| world_from_entity.col(axis));
     let skew = x.dot(y).abs().max(y.dot(z).abs()).max(z.dot(x).abs());
     let non_uniform = (lengths - lengths.x).abs().max_element();
     non_uniform <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x
@@ -126,7 +127,7 @@ fn normalised(quaternion: DQuat) -> Option<DQuat> {
         return None;
     }
     let nearly_unit = (quaternion.length_squared() - 1.0).abs() <= UNIT_TOLERANCE;
-    let scaled = || DQuat::from_array(quaternion.to_array().map(|part| part / largest));
+    let scaled = || DQuat::from_array(quaternion.to_array().each(|part| part / largest));
     Some(if nearly_unit { quaternion } else { scaled() }.normalize())
 }
 

@@ -8,6 +8,7 @@ use super::motion::moves_while_open;
 use super::non_opaque::is_non_opaque;
 use super::pose::{non_uniformly_scaled, pose};
 use crate::bvh::Bvh;
+use crate::each::Each;
 use crate::material::{NO_ROW, NUMBERS, components_in_words, material_entities, material_kind, media_entities};
 use crate::plan::{Added, Census, Evidence, Table, TableKind, add_kind, check_is_added, counted, united, with_added};
 use crate::scene::{ChildOf, Placement, SceneError, Triangle, UsesMaterial, called};
@@ -64,8 +65,8 @@ impl Table for ShapeTable {
             }
             table.kind.push(kind);
             let used = scene.get::<UsesMaterial>(entity).map(|used| used.0);
-            let [own, of_used] = [Some(entity), used].map(|entity| row_in(&materials, entity));
-            let [emits, used_emits] = [Some(entity), used].map(|entity| row_in(&emissive, entity));
+            let [own, of_used] = [Some(entity), used].each(|entity| row_in(&materials, entity));
+            let [emits, used_emits] = [Some(entity), used].each(|entity| row_in(&emissive, entity));
             let material = if own == NO_ROW { of_used } else { own };
             // A shape that emits light need not reflect any, but a material that it uses must exist.
             let is_missing = material.min(if used.is_some() { used_emits } else { emits }) == NO_ROW;

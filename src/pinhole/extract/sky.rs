@@ -3,6 +3,7 @@
 use super::Texels;
 use super::check::{at_most_one, kind_and_name, light_colour, number};
 use super::image_files::background_image;
+use crate::each::Each;
 use crate::lights::luminance;
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Background, Environment, Gradient, Rgb, SceneError, called};
@@ -29,7 +30,7 @@ impl Table for BackgroundTable {
                 light_colour(&kind_and_name(scene, "background", entity), "colour", background.colour)?
             }
         };
-        Ok(Self { radiance: colour.to_array().map(|part| part as f32) })
+        Ok(Self { radiance: colour.to_array().each(|part| part as f32) })
     }
 
     fn bytes(&self) -> usize {
@@ -221,7 +222,7 @@ fn versine_of(angle: f64) -> f64 {
 /// continues in the one half a turn away.
 fn line_of(image: &Texels, line: usize) -> Vec<f64> {
     let row = line.clamp(1, image.height) - 1;
-    let texel = |column: usize| luminance(image.rgb[row * image.width + column % image.width].map(f64::from));
+    let texel = |column: usize| luminance(image.rgb[row * image.width + column % image.width].each(f64::from));
     let pole = line == 0 || line > image.height;
     let across = |column: usize| 0.5 * (texel(column + image.width / 2) + texel(column + image.width.div_ceil(2)));
     (0..image.width).map(|column| if pole { 0.5 * (texel(column) + across(column)) } else { texel(column) }).collect()

@@ -5,6 +5,7 @@ use super::cameras::{eye, named_camera};
 use super::check::{kind_and_name, number, triple};
 use super::pose::pose;
 use super::shapes::{listed_kind, one_shape, shape_entities};
+use crate::each::Each;
 use crate::plan::Census;
 use crate::scene::{LookAt, Plane, SceneError, Triangle};
 use bevy_ecs::prelude::*;
@@ -67,7 +68,7 @@ fn check_shape(
     }
     let (field, shown, at, size) = match scene.get::<Triangle>(shape) {
         Some(triangle) => {
-            let [a, b, c] = triangle.vertices.map(|vertex| pose.world_from_entity.transform_point3(vertex));
+            let [a, b, c] = triangle.vertices.each(|vertex| pose.world_from_entity.transform_point3(vertex));
             let size = a.distance(b).max(b.distance(c)).max(c.distance(a));
             let placed = position.abs().max_element() >= triangle.vertices[0].abs().max_element();
             let (field, shown) = if placed { ("position", position) } else { ("vertices", triangle.vertices[0]) };

@@ -3,6 +3,7 @@
 use super::cameras::camera_entity;
 use super::lights_of::light_kinds;
 use super::{GlassBodyTable, eye, glass_evidence, joined_evidence};
+use crate::each::Each;
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{SceneError, called};
 use crate::shapes::Bounds;
@@ -41,7 +42,7 @@ impl GlassBodyTable {
     /// around it tell.
     fn is_close(&self, point: DVec3, distance: f64) -> bool {
         let steps = [-1.0, 0.0, 1.0];
-        let around = steps.map(|x| steps.map(|y| steps.map(|z| DVec3::new(x, y, z))));
+        let around = steps.each(|x| steps.each(|y| steps.each(|z| DVec3::new(x, y, z))));
         let around = around.as_flattened().as_flattened();
         let within = Bounds { min: point - distance, max: point + distance };
         self.row.iter().filter(|body| body.bounds.overlaps(&within)).any(|body| {

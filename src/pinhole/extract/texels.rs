@@ -1,5 +1,7 @@
 //! Texels in linear light, and the pyramids made of them.
 
+use crate::each::Each;
+
 /// An image in linear light, its rows from top to bottom.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Texels {
@@ -107,7 +109,7 @@ pub fn normals_of_heights(heights: &Texels) -> Texels {
         let right = slope(at(x + 1, y) - at(x + width - 1, y), *width);
         let down = slope(at(x, y + 1) - at(x, y + height - 1), *height);
         let length = (right * right + down * down + 1.0).sqrt();
-        [-right, down, 1.0].map(|part| 0.5 + 0.5 * part / length)
+        [-right, down, 1.0].each(|part| 0.5 + 0.5 * part / length)
     };
     Texels { width: *width, height: *height, rgb: (0..width * height).map(texel).collect() }
 }
@@ -133,7 +135,7 @@ pub struct Pyramid {
 impl Pyramid {
     /// The pyramid of an image.
     pub fn on(image: Texels) -> Self {
-        let brightest = [0, 1, 2].map(|part| image.rgb.iter().map(|texel| texel[part]).fold(0.0, f32::max));
+        let brightest = [0, 1, 2].each(|part| image.rgb.iter().map(|texel| texel[part]).fold(0.0, f32::max));
         let mut levels = vec![image];
         while let Some(below) = levels.last().filter(|level| level.width * level.height > 1) {
             let next = halved(below);
@@ -164,7 +166,7 @@ pub fn halved(image: &Texels) -> Texels {
 
 /// The range of the larger side, in texels, that a texel of the smaller side covers.
 fn covered(at: usize, smaller: usize, larger: usize) -> [f64; 2] {
-    [at, at + 1].map(|edge| (edge * larger) as f64 / smaller as f64)
+    [at, at + 1].each(|edge| (edge * larger) as f64 / smaller as f64)
 }
 
 /// The mean of a rectangle of an image, in which texels count by the part that is covered.
@@ -173,7 +175,7 @@ fn covered(at: usize, smaller: usize, larger: usize) -> [f64; 2] {
 fn mean(image: &Texels, across: [f64; 2], down: [f64; 2]) -> [f32; 3] {
     let part = |range: [f64; 2], at: usize| range[1].min(at as f64 + 1.0) - range[0].max(at as f64);
     let whole = |range: [f64; 2]| range[0] as usize..range[1].ceil() as usize;
-    let base = image.rgb[whole(down).start * image.width + whole(across).start].map(f64::from);
+    let base = image.rgb[whole(down).start * image.width + whole(across).start].each(f64::from);
     let (mut sum, mut area) = ([0.0; 3], 0.0);
     for y in whole(down) {
         for x in whole(across) {
@@ -184,7 +186,7 @@ fn mean(image: &Texels, across: [f64; 2], down: [f64; 2]) -> [f32; 3] {
             }
         }
     }
-    [0, 1, 2].map(|channel| (base[channel] + sum[channel] / area) as f32)
+    [0, 1, 2].each(|channel| (base[channel] + sum[channel] / area) as f32)
 }
 // ANCHOR_END: halved
 

@@ -11,6 +11,7 @@ use super::image_files::{
 use super::material::{in_use, material_kind_evidence};
 use super::pose::pose;
 use super::shapes::shape_entities;
+use crate::each::Each;
 use crate::material::{
     components_in_words, is_material, material_entities, media_entities, one_material, registered_materials,
 };
@@ -406,7 +407,7 @@ fn image_of(scene: &Census<'_>, owner: Entity) -> Result<Arc<Pyramid>, SceneErro
     let file = scene.get::<ImageTexture>(owner).map_or("", |texture| &texture.file);
     let who = kind_and_name(scene, ImageTexture::WORD, owner);
     let image = texture_image(scene, &who, file)?;
-    let [r, g, b] = image.brightest.map(f64::from);
+    let [r, g, b] = image.brightest.each(f64::from);
     check_beside_colour(scene, owner, (&who, "file", shown_name(file)), Rgb::new(r, g, b))?;
     Ok(image)
 }
@@ -541,8 +542,8 @@ impl Table for MetallicRoughnessTable {
 /// Checks that the brightest texel of the last image times the radiance is a number that f32 holds.
 fn check_brightest(scene: &Census<'_>, emissive: Entity, images: &UvImages) -> Result<(), SceneError> {
     let radiance = scene.get::<Emissive>(emissive).map_or([0.0; 3], |own| own.radiance.to_array());
-    let brightest = images.pyramid.last().map_or([0.0; 3], |image| image.brightest.map(f64::from));
-    let max = [0, 1, 2].map(|part| radiance[part] * brightest[part]).into_iter().fold(0.0, f64::max);
+    let brightest = images.pyramid.last().map_or([0.0; 3], |image| image.brightest.each(f64::from));
+    let max = [0, 1, 2].each(|part| radiance[part] * brightest[part]).into_iter().fold(0.0, f64::max);
     if max <= f64::from(f32::MAX) {
         return Ok(());
     }

@@ -1,6 +1,7 @@
 //! Sums of samples, and their moments.
 
 use super::FilmTile;
+use crate::each::Each;
 use crate::extract::layer_evidence;
 use crate::plan::{
     Census, Column, ColumnArrays, ColumnComponent, Evidence, Lifetime, Stage, TileSystems, VectorRows, VectorRowsMut,
@@ -61,7 +62,7 @@ pub struct FilmMoments {
 impl FilmMoments {
     /// Moments without samples.
     pub fn new(rows: usize) -> Self {
-        Self { sum: [(); 3].map(|()| vec![0.0; rows]), ..Self::default() }
+        Self { sum: [(); 3].each(|()| vec![0.0; rows]), ..Self::default() }
     }
 
     /// Takes all samples away.
@@ -77,7 +78,7 @@ impl FilmMoments {
         if n == 0.0 || !film.accepts(radiance) {
             return;
         }
-        let mean = film.sum.at(row).map(|sum| sum / n);
+        let mean = film.sum.at(row).each(|sum| sum / n);
         let factor = n / (n + 1.0);
         let square = |channel: usize| {
             let deviation = f64::from(radiance[channel]) - mean[channel];
@@ -95,7 +96,7 @@ impl FilmMoments {
         let count = f64::from(film.count[row]);
         let ratio = if film.weight(row) > 0 { count / film.weight(row) as f64 } else { 1.0 };
         let factor = ratio * ratio / (count - 1.0).max(1.0);
-        self.squares(film, row).map(|sum| sum * factor)
+        self.squares(film, row).each(|sum| sum * factor)
     }
 }
 
@@ -118,7 +119,7 @@ impl Column for FilmMoments {
     }
 
     fn paint(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.sum.at(row).map(|sum| sum as f32)
+        self.sum.at(row).each(|sum| sum as f32)
     }
 }
 

@@ -6,6 +6,7 @@
 //! Whoever sums a block alone gets the same number, and adding it in its turn gives the same bits.
 
 use super::{FilmLayers, FilmMoments, FilmTile, Rejected};
+use crate::each::Each;
 use crate::plan::{Column, VectorRows};
 
 /// The number of samples of a pixel that are summed from zero.
@@ -132,10 +133,10 @@ impl FilmMoments {
         let (before, n) = (f64::from(earlier.count[row]), f64::from(film.count_in_block(row)));
         let squares = self.earlier.at(row);
         if n == 0.0 || before == 0.0 {
-            return [0, 1, 2].map(|channel| squares[channel] + own[channel]);
+            return [0, 1, 2].each(|channel| squares[channel] + own[channel]);
         }
         let (sums, sums_before) = (film.sum.at(row), earlier.sum.at(row));
-        [0, 1, 2].map(|channel| {
+        [0, 1, 2].each(|channel| {
             let apart = sums[channel] / n - sums_before[channel] / before;
             squares[channel] + own[channel] + apart * apart * (before * n / (before + n))
         })

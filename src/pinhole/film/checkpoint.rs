@@ -12,6 +12,7 @@ use super::plausible::is_plausible;
 use super::{
     EarlierBlocks, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, Rejected, Replaces, Target, write_whole,
 };
+use crate::each::Each;
 use crate::scene::{FileKind, LayerKind, Unopened, check_memory, open_file, printable_path};
 use crate::{Error, Result};
 use std::fs::File;
@@ -269,7 +270,7 @@ pub(super) fn write_tile<S: Write>(
     for rejected in &tile.first_rejected {
         out.write_u32s(&rejected.pixel)?;
         out.write_u32(rejected.sample)?;
-        out.write_u32s(&rejected.radiance.map(f32::to_bits))?;
+        out.write_u32s(&rejected.radiance.each(f32::to_bits))?;
     }
     out.write_u32(u32::from(tile.earlier.is_some()))?;
     if let Some(earlier) = &tile.earlier {
@@ -326,7 +327,7 @@ pub(super) fn read_tile<S: Read>(
         let sample = numbers.read_u32()?;
         let mut radiance = [0; 3];
         numbers.read_u32s(&mut radiance)?;
-        tile.first_rejected.push(Rejected { pixel, sample, radiance: radiance.map(f32::from_bits) });
+        tile.first_rejected.push(Rejected { pixel, sample, radiance: radiance.each(f32::from_bits) });
     }
     let zeros = || vec![0.0; rows];
     if numbers.read_u32()? != 0 {

@@ -1,6 +1,7 @@
 //! A picture of few samples, smoothed along its surfaces: the edge-avoiding à-trous wavelet filter.
 
 use super::{Film, FilmLayers};
+use crate::each::{Each, lanes};
 use crate::scene::LayerKind;
 use multiversion::multiversion;
 use rayon::prelude::*;
@@ -48,9 +49,9 @@ impl Guides {
         let width = film.width as usize;
         let origin = film.layers.iter().find_map(first_position).unwrap_or_default();
         let spare = spare.map_or_else(Default::default, |own| [own.position, own.normal, own.albedo]);
-        let [mut position, mut normal, mut albedo] = spare.map(|columns| in_place_of(columns, film));
+        let [mut position, mut normal, mut albedo] = spare.each(|columns| in_place_of(columns, film));
         let (tiles, pixels) = film.bands();
-        let [positions, normals, albedos] = [&mut position, &mut normal, &mut albedo].map(|own| bands(own, pixels));
+        let [positions, normals, albedos] = [&mut position, &mut normal, &mut albedo].each(|own| bands(own, pixels));
         (tiles, positions, normals, albedos).into_par_iter().for_each(
             |(tiles, mut position, mut normal, mut albedo)| {
                 for number in tiles {
@@ -90,8 +91,8 @@ struct TileGuides<'f> {
 
 impl<'f> TileGuides<'f> {
     fn of(layers: &'f FilmLayers) -> Self {
-        let sums = GUIDES.map(|kind| layers.sums_of(kind, &layers.sums));
-        let earlier = (!layers.earlier.is_empty()).then(|| GUIDES.map(|kind| layers.sums_of(kind, &layers.earlier)));
+        let sums = GUIDES.each(|kind| layers.sums_of(kind, &layers.sums));
+        let earlier = (!layers.earlier.is_empty()).then(|| GUIDES.each(|kind| layers.sums_of(kind, &layers.earlier)));
         Self { layers, sums, earlier }
     }
 
@@ -103,25 +104,25 @@ impl<'f> TileGuides<'f> {
         }
         let hits = f64::from(self.layers.hits[row]);
         let of_row = |sums: &[Vec<f64>]| [sums[0][row], sums[1][row], sums[2][row]];
-        let mut sums = self.sums.map(of_row);
+        let mut sums = self.sums.each(of_row);
         if let Some(earlier) = self.earlier {
-            let earlier = earlier.map(of_row);
+            let earlier = earlier.each(of_row);
             for (sum, before) in sums.iter_mut().flatten().zip(earlier.into_iter().flatten()) {
                 *sum += before;
             }
         }
-        let [[x, y, z], [nx, ny, nz], albedo] = sums.map(|sum| sum.map(|part| part / hits));
+        let [[x, y, z], [nx, ny, nz], albedo] = sums.each(|sum| sum.each(|part| part / hits));
         let length = (nx * nx + ny * ny + nz * nz).sqrt().max(f64::MIN_POSITIVE);
         let place = [(x - origin[0]) as f32, (y - origin[1]) as f32, (z - origin[2]) as f32];
         let normal = [(nx / length) as f32, (ny / length) as f32, (nz / length) as f32];
-        [place, normal, albedo.map(|part| (part as f32).max(MIN_ALBEDO))]
+        [place, normal, albedo.each(|part| (part as f32).max(MIN_ALBEDO))]
     }
 }
 
 /// The first position in a tile at which anything was hit.
 fn first_position(layers: &FilmLayers) -> Option<[f64; 3]> {
     let row = layers.hits.iter().position(|&hits| hits > 0)?;
-    Some([0, 1, 2].map(|channel| layers.mean(LayerKind::Position, channel, row)))
+    Some([0, 1, 2].each(|channel| layers.mean(LayerKind::Position, channel, row)))
 }
 
 /// Smooths a film's mean radiance; none if the film lacks one of the layers that guide the filter.
@@ -136,7 +137,7 @@ pub fn film_of_radiance(radiance: &[Vec<f32>; 3], of: &Film) -> Film {
         for row in 0..tile.tile.rows() {
             let [x, y] = tile.tile.pixel_of(row);
             let at = (y - of.origin[1]) as usize * of.width as usize + (x - of.origin[0]) as usize;
-            tile.add(row, radiance.each_ref().map(|part| part[at]));
+            tile.add(row, radiance.each_ref().each(|part| part[at]));
         }
     }
     film
@@ -144,7 +145,7 @@ pub fn film_of_radiance(radiance: &[Vec<f32>; 3], of: &Film) -> Film {
 
 /// Columns with a number for each pixel of a film, in the memory of others.
 pub(super) fn in_place_of(spare: [Vec<f32>; 3], film: &Film) -> [Vec<f32>; 3] {
-    spare.map(|mut column| {
+    spare.each(|mut column| {
         column.resize(film.width as usize * film.height as usize, 0.0);
         column
     })
@@ -190,7 +191,7 @@ pub fn denoise_radiance(mut radiance: [Vec<f32>; 3], guides: &Guides, levels: u3
 
 /// The same of radiance that has been divided by the albedo.
 pub(super) fn smoothed_in_levels(radiance: &[Vec<f32>; 3], guides: &Guides, levels: u32) -> [Vec<f32>; 3] {
-    let empty = || radiance.each_ref().map(|part| vec![0.0; part.len()]);
+    let empty = || radiance.each_ref().each(|part| vec![0.0; part.len()]);
     let (mut smoothed, mut spare) = (None, None);
     for level in 0..levels {
         let mut into = spare.take().unwrap_or_else(empty);
@@ -217,7 +218,7 @@ fn smooth_row(
     [red, green, blue]: [&mut [f32]; 3],
 ) {
     let width = guides.width;
-    let columns = [radiance, &guides.normal, &guides.position].map(|own| of_length(own, radiance[0].len()));
+    let columns = [radiance, &guides.normal, &guides.position].each(|own| of_length(own, radiance[0].len()));
     let inner = 2 * step..width.saturating_sub(2 * step);
     let mut x = 0;
     while x < width {
@@ -242,7 +243,7 @@ const AT_ONCE: usize = 8;
 /// Columns that all have the same length, so that one check of an index holds for all of them.
 #[inline(always)]
 pub(super) fn of_length(columns: &[Vec<f32>; 3], length: usize) -> [&[f32]; 3] {
-    columns.each_ref().map(|column| &column[..length])
+    columns.each_ref().each(|column| &column[..length])
 }
 
 /// Smooths some pixels of a line by radiance, normals and positions; several only where all of their neighbours are in
@@ -256,7 +257,7 @@ fn smooth_pixels<const N: usize>(
 ) -> [[f32; N]; 3] {
     let height = radiance[0].len() / width;
     let own = y * width + x;
-    let ([nx, ny, nz], [px, py, pz]) = (normals.map(|of| some::<N>(of, own)), positions.map(|of| some::<N>(of, own)));
+    let ([nx, ny, nz], [px, py, pz]) = (normals.each(|of| some::<N>(of, own)), positions.each(|of| some::<N>(of, own)));
     let (mut whole, mut sums) = ([0.0; N], [[0.0; N]; 3]);
     for down in -2_isize..=2 {
         let Some(line) = y.checked_add_signed(down * step as isize).filter(|&line| line < height) else { continue };
@@ -269,9 +270,9 @@ fn smooth_pixels<const N: usize>(
             let weight = if (down, right) == (0, 0) {
                 [kernel; N]
             } else {
-                let [mx, my, mz] = normals.map(|of| some::<N>(of, other));
-                let [qx, qy, qz] = positions.map(|of| some::<N>(of, other));
-                each(|at| {
+                let [mx, my, mz] = normals.each(|of| some::<N>(of, other));
+                let [qx, qy, qz] = positions.each(|of| some::<N>(of, other));
+                lanes(|at| {
                     let cosine = nx[at] * mx[at] + ny[at] * my[at] + nz[at] * mz[at];
                     let (dx, dy, dz) = (qx[at] - px[at], qy[at] - py[at], qz[at] - pz[at]);
                     let off = nx[at] * dx + ny[at] * dy + nz[at] * dz;
@@ -284,24 +285,19 @@ fn smooth_pixels<const N: usize>(
                     kernel * (alike * near / (near + off * off))
                 })
             };
-            whole = each(|at| whole[at] + weight[at]);
+            whole = lanes(|at| whole[at] + weight[at]);
             for (sum, radiance) in sums.iter_mut().zip(radiance) {
                 let light = some::<N>(radiance, other);
-                *sum = each(|at| sum[at] + weight[at] * light[at]);
+                *sum = lanes(|at| sum[at] + weight[at] * light[at]);
             }
         }
     }
-    sums.map(|sum| each(|at| sum[at] / whole[at]))
-}
-
-#[inline(always)]
-fn each<const N: usize>(of: impl Fn(usize) -> f32) -> [f32; N] {
-    std::array::from_fn(of)
+    sums.each(|sum| lanes(|at| sum[at] / whole[at]))
 }
 
 /// A few numbers of a column.
 #[inline(always)]
 fn some<const N: usize>(column: &[f32], start: usize) -> [f32; N] {
     let some = &column[start..start + N];
-    each(|at| some[at])
+    lanes(|at| some[at])
 }

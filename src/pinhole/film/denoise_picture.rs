@@ -3,6 +3,7 @@
 use super::denoise::{in_place_of, means};
 use super::develop::finite;
 use super::{Film, GUIDES, Guides};
+use crate::each::Each;
 use crate::scene::LayerKind;
 use rayon::prelude::*;
 
@@ -71,12 +72,12 @@ fn pixels(film: &Film, guides: &Guides, radiance: &[Vec<f32>; 3]) -> Vec<Pixel> 
         }
     }
     let own = |at: usize| {
-        let three = |columns: &[Vec<f32>; 3]| [0, 1, 2].map(|part| columns[part][at]);
-        let wide = |columns: &[Vec<f32>; 3]| three(columns).map(f64::from);
+        let three = |columns: &[Vec<f32>; 3]| [0, 1, 2].each(|part| columns[part][at]);
+        let wide = |columns: &[Vec<f32>; 3]| three(columns).each(f64::from);
         let (albedo, light, variance) = (wide(&guides.albedo), wide(radiance), wide(&variances));
         let is_hit = guides.normal.iter().any(|part| part[at] != 0.0);
         Pixel {
-            light: [0, 1, 2].map(|part| finite(light[part] / albedo[part])),
+            light: [0, 1, 2].each(|part| finite(light[part] / albedo[part])),
             variance: finite((0..3).map(|part| variance[part] / (albedo[part] * albedo[part])).sum()),
             normal: three(&guides.normal),
             position: three(&guides.position),
@@ -124,7 +125,7 @@ fn smoothed(pixels: &[Pixel], width: usize, step: i64) -> Vec<Pixel> {
             variance += weight * weight * f64::from(pixels[other].variance);
             whole += weight;
         }
-        Pixel { light: light.map(|sum| finite(sum / whole)), variance: finite(variance / (whole * whole)), ..*own }
+        Pixel { light: light.each(|sum| finite(sum / whole)), variance: finite(variance / (whole * whole)), ..*own }
     };
     (0..pixels.len()).into_par_iter().map(one).collect()
 }
@@ -135,9 +136,9 @@ fn alike(own: &Pixel, other: &Pixel) -> f64 {
         return 0.0;
     }
     let dot = |one: [f64; 3], other: [f64; 3]| one[0] * other[0] + one[1] * other[1] + one[2] * other[2];
-    let minus = |one: [f32; 3], other: [f32; 3]| [0, 1, 2].map(|part| f64::from(one[part]) - f64::from(other[part]));
-    let normal = own.normal.map(f64::from);
-    let cosine = dot(normal, other.normal.map(f64::from)).max(0.0);
+    let minus = |one: [f32; 3], other: [f32; 3]| [0, 1, 2].each(|part| f64::from(one[part]) - f64::from(other[part]));
+    let normal = own.normal.each(f64::from);
+    let cosine = dot(normal, other.normal.each(f64::from)).max(0.0);
     let by_normal = (0..5).fold(cosine, |power, _| power * power);
     let along = minus(other.position, own.position);
     let (off, near) = (dot(normal, along), OFF_PLANE * OFF_PLANE * dot(along, along) + f64::MIN_POSITIVE);

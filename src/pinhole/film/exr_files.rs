@@ -4,6 +4,7 @@ use super::cryptomatte::hashes;
 use super::exr_channels::{ExrChannel, channels};
 use super::{FileAttributes, Film, Target, write_whole};
 use crate::Result;
+use crate::each::Each;
 use crate::scene::{LayerKind, check_workers};
 use exr::block::writer::ChunksWriter;
 use exr::block::{BlockIndex, UncompressedBlock};
@@ -97,7 +98,7 @@ fn sorted(header: &[u8]) -> Vec<u8> {
     while header[at] != 0 {
         let name = end_of(at);
         let size = end_of(name + 1) + 1;
-        let bytes = [0, 1, 2, 3].map(|byte| header[size + byte]);
+        let bytes = [0, 1, 2, 3].each(|byte| header[size + byte]);
         let next = size + 4 + u32::from_le_bytes(bytes) as usize;
         attributes.push((header[at..name] != *b"software", &header[at..name], &header[at..next]));
         at = next;

@@ -4,6 +4,7 @@ use super::LayerNames;
 use super::cryptomatte::{float_hash, hex_of, manifest};
 use crate::cameras::{ImageFrame, RaySpread};
 use crate::check::kind_and_name;
+use crate::each::Each;
 use crate::extract::{CameraAxes, LayerTable, camera_spread, eye, shape_entities, shape_name, sky_evidence};
 use crate::material::media_entities;
 use crate::plan::Census;
@@ -76,7 +77,7 @@ impl FileAttributes {
             ("conversion", "uint32_to_float32".into()),
             ("manifest", manifest(self.shapes.iter().map(|shape| shape.plain.as_str()))),
         ];
-        said.map(|(word, text)| (format!("cryptomatte/{key}/{word}"), text))
+        said.each(|(word, text)| (format!("cryptomatte/{key}/{word}"), text))
     }
 }
 
@@ -103,9 +104,9 @@ impl CameraMatrices {
         let forward = -axes.z_axis;
         // Columns: what a point's x, y, z and 1 contribute to a coordinate.
         let along = |axis: glam::DVec3| [axis.x, axis.y, axis.z, -axis.dot(eye)];
-        let [right, up, depth] = [axes.x_axis, axes.y_axis, forward].map(along);
+        let [right, up, depth] = [axes.x_axis, axes.y_axis, forward].each(along);
         const ONE: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
-        let sum = |a: f64, one: [f64; 4], b: f64, other: [f64; 4]| [0, 1, 2, 3].map(|at| a * one[at] + b * other[at]);
+        let sum = |a: f64, one: [f64; 4], b: f64, other: [f64; 4]| [0, 1, 2, 3].each(|at| a * one[at] + b * other[at]);
         let ndc = |half_height: f64, weight: [f64; 4]| {
             let x = sum(0.5 / (half_height * image.aspect()), right, 0.5, weight);
             let y = sum(-0.5 / half_height, up, 0.5, weight);

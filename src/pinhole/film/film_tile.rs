@@ -2,6 +2,7 @@
 
 use super::develop::shown;
 use super::{EarlierBlocks, FilmLayers, FilmMoments, FilmSplats};
+use crate::each::Each;
 use crate::plan::{Column, ColumnArrays, ColumnComponent, Lifetime, VectorRowsMut, column_component};
 use crate::rays::Tile;
 use rayon::prelude::*;
@@ -65,7 +66,7 @@ impl FilmTile {
     /// An empty film of a tile.
     pub fn new(tile: Tile) -> Self {
         let rows = tile.rows();
-        Self { tile, sum: [(); 3].map(|()| vec![0.0; rows]), count: vec![0; rows], ..Self::default() }
+        Self { tile, sum: [(); 3].each(|()| vec![0.0; rows]), count: vec![0; rows], ..Self::default() }
     }
 
     /// Takes all samples away, and keeps the memory.
@@ -82,7 +83,7 @@ impl FilmTile {
     /// Whether a sample is valid: all components are finite, and not negative unless they may be.
     #[inline(always)]
     pub fn accepts(&self, radiance: [f32; 3]) -> bool {
-        let [r, g, b] = radiance.map(|value| (value >= self.min) & (value < f32::INFINITY));
+        let [r, g, b] = radiance.each(|value| (value >= self.min) & (value < f32::INFINITY));
         r & g & b
     }
 
@@ -90,7 +91,7 @@ impl FilmTile {
     #[inline(always)]
     pub fn add(&mut self, row: usize, radiance: [f32; 3]) {
         if self.accepts(radiance) {
-            self.sum.add(row, radiance.map(f64::from));
+            self.sum.add(row, radiance.each(f64::from));
             self.count[row] += 1;
         } else {
             self.reject(row, radiance);
@@ -147,7 +148,7 @@ impl FilmTile {
     /// is the unweighted mean.
     /// Negative values, where such a filter rings, become 0.
     pub fn mean(&self, row: usize) -> [f32; 3] {
-        self.shown_f64(row).map(shown)
+        self.shown_f64(row).each(shown)
     }
 
     /// The same, unrounded, and negative where a filter rings.
@@ -168,20 +169,20 @@ impl FilmTile {
         if weight <= 0 {
             return None;
         }
-        Some(self.weighted_sums(row).map(|sum| sum / weight as f64))
+        Some(self.weighted_sums(row).each(|sum| sum / weight as f64))
     }
 
     /// The weighted sums of a row.
     pub fn weighted_sums(&self, row: usize) -> [f64; 3] {
         let sums = self.sums(row);
-        [0, 1, 2].map(|channel| sums[channel] - 2.0 * self.negative_sum(channel, row))
+        [0, 1, 2].each(|channel| sums[channel] - 2.0 * self.negative_sum(channel, row))
     }
 
     /// The unweighted mean of a row's samples, unrounded.
     #[inline(always)]
     pub fn mean_f64(&self, row: usize) -> [f64; 3] {
         let count = f64::from(self.count[row].max(1));
-        self.sums(row).map(|sum| sum / count)
+        self.sums(row).each(|sum| sum / count)
     }
 }
 
@@ -324,16 +325,16 @@ impl Film {
         let waiting =
             self.tiles[tile].count[row] == 0 && self.done.get(tile).is_some_and(|&done| done < FIRST_SAMPLE_STEPS);
         if !waiting {
-            return self.with_splats(x, y, &self.tiles[tile], row).map(shown);
+            return self.with_splats(x, y, &self.tiles[tile], row).each(shown);
         }
-        let coarser = [2, 4, 8].map(|side| {
+        let coarser = [2, 4, 8].each(|side| {
             let [left, top] = self.origin;
             let (x, y) = ((x + left) / side * side, (y + top) / side * side);
             Some(self.place(x.checked_sub(left)?, y.checked_sub(top)?))
         });
         let traced = |&(tile, row): &(usize, usize)| self.tiles[tile].count[row] > 0;
         let (tile, row) = coarser.into_iter().flatten().find(traced).unwrap_or((tile, row));
-        self.with_splats(x, y, &self.tiles[tile], row).map(shown)
+        self.with_splats(x, y, &self.tiles[tile], row).each(shown)
     }
 
     /// Hands the mean of each pixel of a tile to `each`, with its place in the band of the film that the tile is in: the
@@ -350,12 +351,12 @@ impl Film {
             let start = (line * self.width + x) as usize;
             let rows = (line * width) as usize..((line + 1) * width) as usize;
             if is_plain {
-                let [red, green, blue] = [0, 1, 2].map(|channel| &own.sum[channel][rows.clone()]);
+                let [red, green, blue] = [0, 1, 2].each(|channel| &own.sum[channel][rows.clone()]);
                 let parts = red.iter().zip(green).zip(blue).zip(&own.count[rows]);
                 for (at, (((&red, &green), &blue), &count)) in parts.enumerate() {
                     let sums = [red, green, blue];
-                    let means = if count > 1 { sums.map(|sum| sum / f64::from(count)) } else { sums };
-                    each(start + at, means.map(shown));
+                    let means = if count > 1 { sums.each(|sum| sum / f64::from(count)) } else { sums };
+                    each(start + at, means.each(shown));
                 }
             } else {
                 for (at, row) in rows.enumerate() {
@@ -377,7 +378,7 @@ impl Film {
     /// The mean of a tile's row plus the splats of a pixel.
     fn with_splats(&self, x: u32, y: u32, tile: &FilmTile, row: usize) -> [f64; 3] {
         let (camera, splats) = (tile.shown_f64(row), self.splats.as_ref().map(|splats| splats.mean(x, y)));
-        splats.map_or(camera, |splats| [0, 1, 2].map(|channel| camera[channel] + splats[channel]))
+        splats.map_or(camera, |splats| [0, 1, 2].each(|channel| camera[channel] + splats[channel]))
     }
 
     /// The number of pixels whose radiance exceeds the range of f32, and which are shown with its largest value.
@@ -418,11 +419,11 @@ impl Film {
         match film.weighted(row) {
             Some(weighted) if weight < i64::from(count) => {
                 let mean = film.mean_f64(row);
-                let difference = [0, 1, 2].map(|channel| mean[channel] - weighted[channel]);
+                let difference = [0, 1, 2].each(|channel| mean[channel] - weighted[channel]);
                 let factor = n / (weight as f64 * weight as f64);
-                [0, 1, 2].map(|channel| variance[channel] / n + difference[channel] * difference[channel] * factor)
+                [0, 1, 2].each(|channel| variance[channel] / n + difference[channel] * difference[channel] * factor)
             }
-            _ => variance.map(|value| value / n),
+            _ => variance.each(|value| value / n),
         }
     }
 

@@ -1,3 +1,4 @@
+use crate::each::Each;
 use crate::extract::{LayerTable, MaterialTable, layer_evidence};
 use crate::intersect::{Hits, NO_SHAPE, ShadingNormals, SurfaceUvs, Surfaces};
 use crate::plan::{
@@ -128,7 +129,7 @@ impl Column for FilmLayers {
     fn components(&self) -> Vec<ColumnComponent<'_>> {
         let names = self.kinds.iter().filter(|kind| kind.is_mean()).flat_map(|kind| kind.channels());
         let counts = [("taken", &self.taken), ("hits", &self.hits), ("entity", &self.entity)];
-        let counts = counts.map(|(name, component)| ColumnComponent { name, values: ComponentValues::U32(component) });
+        let counts = counts.each(|(name, component)| ColumnComponent { name, values: ComponentValues::U32(component) });
         let sums = names
             .zip(&self.sums)
             .map(|(&name, component)| ColumnComponent { name, values: ComponentValues::F64(component) });

@@ -4,6 +4,7 @@ use super::develop::{SrgbBytes, sixteen_bits, straight_byte};
 use super::tone::Exposed;
 use super::{Curve, Film, Target, byte_from_linear, write_whole};
 use crate::Result;
+use crate::each::Each;
 use rayon::prelude::*;
 use std::io::{self, Write};
 
@@ -56,11 +57,11 @@ pub fn png_bytes_by(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8) -> i
 pub fn rgba_bytes(film: &Film, curve: Curve) -> Vec<u8> {
     let srgb = SrgbBytes::get();
     match curve {
-        Curve::Srgb => rgba_by(film, |mean| mean.map(|linear| srgb.byte(linear))),
-        Curve::Straight => rgba_by(film, |mean| mean.map(straight_byte)),
+        Curve::Srgb => rgba_by(film, |mean| mean.each(|linear| srgb.byte(linear))),
+        Curve::Straight => rgba_by(film, |mean| mean.each(straight_byte)),
         Curve::Exposed(exposure, tone_mapping) => {
             let exposed = Exposed::of_film(film, exposure, tone_mapping);
-            rgba_by(film, |mean| exposed.light(mean).map(|linear| srgb.byte(linear)))
+            rgba_by(film, |mean| exposed.light(mean).each(|linear| srgb.byte(linear)))
         }
     }
 }
@@ -80,11 +81,11 @@ fn rgba_by(film: &Film, bytes_of: impl Fn([f32; 3]) -> [u8; 3] + Sync) -> Vec<u8
 pub fn rgba_of(radiance: &[Vec<f32>; 3], curve: Curve) -> Vec<u8> {
     let srgb = SrgbBytes::get();
     match curve {
-        Curve::Srgb => rgba_of_by(radiance, |mean| mean.map(|linear| srgb.byte(linear))),
-        Curve::Straight => rgba_of_by(radiance, |mean| mean.map(straight_byte)),
+        Curve::Srgb => rgba_of_by(radiance, |mean| mean.each(|linear| srgb.byte(linear))),
+        Curve::Straight => rgba_of_by(radiance, |mean| mean.each(straight_byte)),
         Curve::Exposed(exposure, tone_mapping) => {
             let exposed = Exposed::of_rows(radiance, exposure, tone_mapping);
-            rgba_of_by(radiance, |mean| exposed.light(mean).map(|linear| srgb.byte(linear)))
+            rgba_of_by(radiance, |mean| exposed.light(mean).each(|linear| srgb.byte(linear)))
         }
     }
 }
@@ -109,7 +110,7 @@ fn encode_png(film: &Film, curve: Curve, kind: &PngKind, out: impl Write) -> io:
         let scaled = png::ScaledFloat::from_scaled;
         encoder.set_source_gamma(scaled(45_455));
         let [white, red, green, blue] = [(31_270, 32_900), (64_000, 33_000), (30_000, 60_000), (15_000, 6_000)]
-            .map(|(x, y)| (scaled(x), scaled(y)));
+            .each(|(x, y)| (scaled(x), scaled(y)));
         encoder.set_source_chromaticities(png::SourceChromaticities { white, red, green, blue });
     }
     for (keyword, text) in &kind.text {
@@ -123,9 +124,9 @@ fn encode_png(film: &Film, curve: Curve, kind: &PngKind, out: impl Write) -> io:
     let light = |mean| exposed.as_ref().map_or(mean, |exposed| exposed.light(mean));
     if kind.is_deep {
         let deep = |part| sixteen_bits(part, curve).to_be_bytes();
-        write_lines(film, encoder, |line, mean| line.extend(light(mean).map(deep).as_flattened()))
+        write_lines(film, encoder, |line, mean| line.extend(light(mean).each(deep).as_flattened()))
     } else {
-        write_lines(film, encoder, |line, mean| line.extend(light(mean).map(|part| byte_from_linear(part, curve))))
+        write_lines(film, encoder, |line, mean| line.extend(light(mean).each(|part| byte_from_linear(part, curve))))
     }
 }
 

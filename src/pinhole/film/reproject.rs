@@ -2,6 +2,7 @@
 
 use super::Film;
 use super::denoise::{Guides, PIXELS, bands, means, of_length, smoothed_in_levels};
+use crate::each::Each;
 use crate::rasterise::Projection;
 use glam::{DVec2, DVec3, Vec3};
 use multiversion::multiversion;
@@ -138,7 +139,7 @@ impl<'h> Pixels<'h> {
     #[inline(always)]
     fn of(guides: &'h Guides, radiance: &'h [Vec<f32>; 3], samples: &'h [f32]) -> Self {
         let [normal, position, radiance] =
-            [&guides.normal, &guides.position, radiance].map(|columns| of_length(columns, samples.len()));
+            [&guides.normal, &guides.position, radiance].each(|columns| of_length(columns, samples.len()));
         let size = [guides.width as i64, (samples.len() / guides.width.max(1)) as i64];
         Self { size, origin: guides.origin.into(), normal, position, radiance, samples }
     }
@@ -157,7 +158,8 @@ impl<'h> Pixels<'h> {
         let mut sum = Known { radiance: [0.0; 3], samples: 0.0 };
         let mut whole = 0.0;
         let (columns, lines) = ([(x, 1.0 - right), (x + 1, right)], [(y, 1.0 - down), (y + 1, down)]);
-        for ((column, across), (line, along)) in lines.into_iter().flat_map(|line| columns.map(|column| (column, line)))
+        for ((column, across), (line, along)) in
+            lines.into_iter().flat_map(|line| columns.each(|column| (column, line)))
         {
             // A pixel beyond the image is that of its edge, and has no weight.
             let is_inside = (column >= 0) & (line >= 0) & (column < width) & (line < height);
@@ -173,7 +175,8 @@ impl<'h> Pixels<'h> {
             whole += weight;
         }
         let is_known = whole >= MIN_PART;
-        is_known.then(|| Known { radiance: sum.radiance.map(|sum| sum / whole), samples: MAX.min(sum.samples / whole) })
+        is_known
+            .then(|| Known { radiance: sum.radiance.each(|sum| sum / whole), samples: MAX.min(sum.samples / whole) })
     }
 
     /// Whether a pixel shows the surface that has this normal where `offset` leads to the origin of the positions.

@@ -1,3 +1,4 @@
+use crate::each::Each;
 use crate::extract::{filter_area, filter_value, radius_of};
 use crate::scene::Filter;
 
@@ -41,7 +42,7 @@ impl FilmSplats {
             self.rejected += 1;
             return;
         }
-        let [width, height] = self.size.map(i64::from);
+        let [width, height] = self.size.each(i64::from);
         let (columns, lines) = (filter.covered(x, width), filter.covered(y, height));
         let mut across = std::mem::take(&mut filter.across);
         across.clear();
@@ -62,7 +63,7 @@ impl FilmSplats {
     pub fn mean(&self, x: u32, y: u32) -> [f64; 3] {
         let pixel = (y * self.size[0] + x) as usize;
         let paths = self.paths.max(1) as f64;
-        [0, 1, 2].map(|channel| self.sums[channel][pixel] / paths)
+        [0, 1, 2].each(|channel| self.sums[channel][pixel] / paths)
     }
 
     /// Its memory in bytes.

@@ -2,6 +2,7 @@
 
 use super::Film;
 use super::develop::shown;
+use crate::each::Each;
 use crate::extract::luminance;
 use crate::scene::{Exposure, ToneMapping};
 use rayon::prelude::*;
@@ -52,8 +53,8 @@ impl Exposed {
     /// The light of a pixel, each component from 0 on; above 1 is as bright as 1.
     #[inline(always)]
     pub fn light(&self, mean: [f32; 3]) -> [f32; 3] {
-        let light = mean.map(|part| f64::from(part) * self.scale);
-        tone_mapped(light, self.tone_mapping).map(shown)
+        let light = mean.each(|part| f64::from(part) * self.scale);
+        tone_mapped(light, self.tone_mapping).each(shown)
     }
 }
 
@@ -79,7 +80,7 @@ impl LogMean {
 
     #[inline(always)]
     fn add(&mut self, mean: [f32; 3]) {
-        let luminance = luminance(mean.map(f64::from));
+        let luminance = luminance(mean.each(f64::from));
         if luminance > 0.0 {
             self.sum += i128::from((libm::log2(luminance) * Self::STEPS) as i64);
             self.pixels += 1;
@@ -116,13 +117,13 @@ pub fn tone_mapped(light: [f64; 3], tone_mapping: ToneMapping) -> [f64; 3] {
 fn reinhard(light: [f64; 3], white: f64) -> [f64; 3] {
     let l = luminance(light);
     let scale = (1.0 + l / (white * white)) / (1.0 + l);
-    light.map(|part| part * scale)
+    light.each(|part| part * scale)
 }
 // ANCHOR_END: reinhard
 
 /// A matrix, row by row, times a colour.
 fn times(matrix: &[[f64; 3]; 3], [r, g, b]: [f64; 3]) -> [f64; 3] {
-    matrix.map(|[in_r, in_g, in_b]| in_r * r + in_g * g + in_b * b)
+    matrix.each(|[in_r, in_g, in_b]| in_r * r + in_g * g + in_b * b)
 }
 
 /// Stephen Hill's fit: from linear sRGB to the primaries of ACES with desaturation, a rational function, and back.
@@ -131,7 +132,7 @@ fn aces(light: [f64; 3]) -> [f64; 3] {
     const OUT: [[f64; 3]; 3] =
         [[1.60475, -0.53108, -0.07367], [-0.10208, 1.10813, -0.00605], [-0.00327, -0.07276, 1.07602]];
     let fit = |v: f64| (v * (v + 0.024_578_6) - 0.000_090_537) / (v * (0.983_729 * v + 0.432_951_0) + 0.238_081);
-    times(&OUT, times(&IN, light).map(fit)).map(|part| part.clamp(0.0, 1.0))
+    times(&OUT, times(&IN, light).each(fit)).each(|part| part.clamp(0.0, 1.0))
 }
 
 /// The Khronos PBR Neutral tone mapper, in the symbols of its specification: F₉₀, K_s and K_d.
@@ -142,14 +143,14 @@ fn pbr_neutral(light: [f64; 3]) -> [f64; 3] {
     let [r, g, b] = light;
     let least = r.min(g).min(b);
     let toe = if least <= 2.0 * F90 { least - least * least / (4.0 * F90) } else { F90 };
-    let [r, g, b] = light.map(|part| part - toe);
+    let [r, g, b] = light.each(|part| part - toe);
     let peak = r.max(g).max(b);
     if peak <= KS {
         return [r, g, b];
     }
     let lower = 1.0 - (1.0 - KS) * (1.0 - KS) / (peak + 1.0 - 2.0 * KS);
     let kept = 1.0 / (KD * (peak - lower) + 1.0);
-    [r, g, b].map(|part| part * (lower / peak) * kept + lower * (1.0 - kept))
+    [r, g, b].each(|part| part * (lower / peak) * kept + lower * (1.0 - kept))
 }
 
 /// The exposures between which AgX tells light apart, in stops from 1.
@@ -170,10 +171,10 @@ const AGX_OUTSET: [[f64; 3]; 3] = [
 /// AgX: the logarithm of light in other primaries by an S-shaped curve, which gives what is sent to a display of gamma
 /// 2.2.
 fn agx(light: [f64; 3]) -> [f64; 3] {
-    static TABLES: LazyLock<[Vec<f64>; 2]> = LazyLock::new(|| [agx_curve, |x| libm::pow(x, 2.2)].map(tabulated));
+    static TABLES: LazyLock<[Vec<f64>; 2]> = LazyLock::new(|| [agx_curve, |x| libm::pow(x, 2.2)].each(tabulated));
     let ([curve, display], [min, max]) = (&*TABLES, AGX_STOPS);
-    let encoded = times(&AGX_INSET, light).map(|part| between(curve, (libm::log2(part) - min) / (max - min)));
-    times(&AGX_OUTSET, encoded).map(|part| between(display, part))
+    let encoded = times(&AGX_INSET, light).each(|part| between(curve, (libm::log2(part) - min) / (max - min)));
+    times(&AGX_OUTSET, encoded).each(|part| between(display, part))
 }
 
 /// A function's values at equal steps from 0 to 1, as many as Sobotka's table has; powers would take most of the time.

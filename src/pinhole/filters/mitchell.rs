@@ -1,4 +1,5 @@
 use super::kernel::{Kernel, within};
+use crate::each::Each;
 use crate::scene::SceneError;
 
 /// The filter of Mitchell and Netravali.
@@ -48,5 +49,5 @@ impl Kernel for MitchellKernel {
 fn mitchell(b: f64, c: f64) -> [[f64; 4]; 2] {
     let near = [6.0 - 2.0 * b, 0.0, -18.0 + 12.0 * b + 6.0 * c, 12.0 - 9.0 * b - 6.0 * c];
     let far = [8.0 * b + 24.0 * c, -12.0 * b - 48.0 * c, 6.0 * b + 30.0 * c, -b - 6.0 * c];
-    [near, far].map(|cubic| cubic.map(|part| part / 6.0))
+    [near, far].each(|cubic| cubic.each(|part| part / 6.0))
 }

@@ -2,6 +2,7 @@
 
 use super::cells::{FilterCells, Span};
 use super::kernel::{Kernel, within};
+use crate::each::Each;
 use crate::scene::{Filter, SceneError};
 
 /// Cells for each lobe of a filter's table.
@@ -58,8 +59,8 @@ fn tabulated<K: Kernel>(kernel: K) -> FilterCells {
         for cell in (0..CELLS).filter(|_| width > 0.0) {
             let x = from + cell as f64 * width;
             let ends = [x, from + (cell + 1) as f64 * width];
-            let [start, end] = ends.map(area);
-            let [first, last] = ends.map(|x| value(x).abs());
+            let [start, end] = ends.each(area);
+            let [first, last] = ends.each(|x| value(x).abs());
             let slope = first / (first + last);
             cells.push(Span { start, end, per_area: 1.0 / (end - start), x, width, slope, negative });
         }

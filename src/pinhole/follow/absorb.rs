@@ -2,6 +2,7 @@
 
 use super::interface::{Interface, InterfaceView};
 use super::{Media, Scattered};
+use crate::each::Each;
 use crate::extract::{GlassTable, MaterialTable, NO_ROW, absorption_evidence, followed_evidence};
 use crate::intersect::{Hits, NO_SHAPE, Surface, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems, VectorRowsMut};
@@ -13,7 +14,7 @@ use glam::DVec3;
 /// The transmittance of a glass along a way of this length, colour by colour.
 #[inline(always)]
 fn transmittances(glass: &GlassTable, row: u32, length: f64) -> [f64; 3] {
-    glass.absorption[row as usize].map(|absorption| transmittance(absorption, length))
+    glass.absorption[row as usize].each(|absorption| transmittance(absorption, length))
 }
 
 /// How far a ray that starts off a surface has come from it: its origin lies there by the error bound of the hit, along the

@@ -12,6 +12,7 @@ use super::bsdf::at_interfaces_where;
 use super::interface::{Interface, InterfaceView};
 use super::recursive_mis::{JoinRatios, RecursiveMis, bounded, reverse_pdf, squared};
 use super::{LightPower, bsdf::without_sides};
+use crate::each::Each;
 use crate::extract::{
     GlassTable, IntegratorTable, MaterialTable, bidirectional_evidence, bsdf_evidence, lit_from_behind_evidence,
 };
@@ -67,7 +68,7 @@ column! {
 impl LightVertices {
     /// The power that is carried.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.power(row).map(|part| part as f32)
+        self.power(row).each(|part| part as f32)
     }
 
     /// A row.
@@ -360,7 +361,7 @@ fn join_vertex<B: Bsdf>(
     Some(Join {
         direction: direction.as_vec3(),
         distance: square.sqrt(),
-        irradiance: [0, 1, 2].map(|part| vertex.power[part] * scattered[part] * geometry),
+        irradiance: [0, 1, 2].each(|part| vertex.power[part] * scattered[part] * geometry),
         onward: bounded(squared(B::KIND.cosine(own, direction) / square) * known),
         reverse: squared(from_light),
     })
@@ -406,7 +407,7 @@ pub fn join_vertices<B: Bsdf>(
                     origins.put(at, origin);
                     directions.put(at, join.direction);
                     t_max[at] = shadow_t_max(join.distance);
-                    irradiance.put(at, join.irradiance.map(|part| part.min(f64::from(f32::MAX)) as f32));
+                    irradiance.put(at, join.irradiance.each(|part| part.min(f64::from(f32::MAX)) as f32));
                     (onward[at], reverse[at]) = (join.onward, join.reverse);
                     at += 1;
                 }

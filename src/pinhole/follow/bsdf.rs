@@ -8,6 +8,7 @@ use super::recursive_mis::{join_weight_stage, leave_with_ratios_stage};
 use super::scatter_block::{AT_ONCE, SampledBlock, SampledColumns, ScatteredBlock};
 use super::specular::{specular_from_lights_stage, specular_stage, split_stage};
 use super::{DeeperMedia, Media, Scattered, power_heuristic};
+use crate::each::{Each, by_lane};
 use crate::extract::{
     GlassTable, MaterialTable, SamplingTable, ShapeTable, area_light_evidence, bidirectional_evidence, bsdf_evidence,
     environment_light_evidence, glass_contact_evidence, joined_evidence, mis_evidence, needed_if, traced_evidence,
@@ -72,7 +73,7 @@ pub fn sample_bsdf<B: Bsdf, const FROM_LIGHT: bool>(
         for (rows, points) in list.chunks(AT_ONCE).zip(points.chunks(AT_ONCE)) {
             block.gather(&seen, rows);
             block.set_numbers(points, choices.next().unwrap_or_default());
-            for (lane, &row) in (0..AT_ONCE).zip(rows) {
+            for (lane, row) in by_lane::<AT_ONCE, _>(rows) {
                 let (row, material) = (row as usize, surfaces.material[row as usize] as usize);
                 let of_row = (columns.get(&materials, row, material), row, material);
                 block.set_context::<B>(
@@ -128,7 +129,7 @@ impl<'a> Seen<'a> {
         let of = |vectors: &[&[f32]; 3]| Vec3::from(vectors.at(row)).as_dvec3();
         let normal = self.shading.map_or_else(|| of(&self.normal), |normals| normals.get(row));
         let local_from_world = B::frame(normal).transpose();
-        [to_light, -of(&self.ray)].map(|direction| local_from_world * direction)
+        [to_light, -of(&self.ray)].each(|direction| local_from_world * direction)
     }
 }
 
@@ -181,8 +182,8 @@ pub fn add_direct_light<B: Bsdf, const FROM_LIGHT: bool>(
             let of_row = (columns.get(&materials, row, material), row, material);
             let context = shading_context::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
             // The cosine is in the irradiance.
-            let (bsdf, irradiance) = (bsdf.eval(&context, to_light, to_eye), irradiance.at(ray).map(f64::from));
-            sum.add(row, [0, 1, 2].map(|part| (bsdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32));
+            let (bsdf, irradiance) = (bsdf.eval(&context, to_light, to_eye), irradiance.at(ray).each(f64::from));
+            sum.add(row, [0, 1, 2].each(|part| (bsdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32));
         }
     }
 }

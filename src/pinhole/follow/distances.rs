@@ -1,5 +1,6 @@
 //! How far light goes through participating media before it is scattered.
 
+use crate::each::Each;
 use crate::extract::{Coefficients, Filled, MediumPlace, MediumTable, NO_ROW, list_around};
 use crate::shapes::{l1_norm, stretches_inside};
 use glam::DVec3;
@@ -46,7 +47,7 @@ pub(super) fn transmittances(depths: [f64; 3]) -> [f64; 3] {
     if depths[0] == depths[1] && depths[0] == depths[2] {
         return [libm::exp(-depths[0]); 3];
     }
-    depths.map(|depth| libm::exp(-depth))
+    depths.each(|depth| libm::exp(-depth))
 }
 
 /// The same of the depths by which distances are sampled, and of those of all that takes light away, which differ where
@@ -83,9 +84,10 @@ pub fn emission_along(stretches: &[Stretch], absorption: [f64; 3]) -> [f64; 3] {
 }
 
 /// What a stretch emits towards its beginning.
+#[inline]
 pub(super) fn emission_between(stretch: &Stretch, absorption: [f64; 3]) -> [f64; 3] {
     let length = stretch.to - stretch.from;
-    [0, 1, 2].map(|part: usize| {
+    [0, 1, 2].each(|part: usize| {
         let extinction = stretch.sum.extinction[part] + absorption[part];
         match stretch.sum.emission[part] {
             0.0 => 0.0,
@@ -124,12 +126,12 @@ impl ChosenColour {
     /// Chooses a colour in proportion to the throughput, and its depth by e^(−τ), both by one number in [0, 1); none for a
     /// ray that carries nothing.
     pub(super) fn of(throughput: [f64; 3], number: f64) -> Option<Self> {
-        let carried = throughput.map(f64::abs);
+        let carried = throughput.each(f64::abs);
         let sum = carried.iter().sum::<f64>();
         if !(sum > 0.0) {
             return None;
         }
-        let choice = carried.map(|part| part / sum);
+        let choice = carried.each(|part| part / sum);
         let (colour, number) = chosen(choice, number);
         Some(Self { choice, colour, depth: -libm::log1p(-number) })
     }
@@ -156,14 +158,14 @@ pub fn sample_distance(stretches: &[Stretch], throughput: [f64; 3], number: f64)
             let [sampled, reached_by] = both_transmittances(rates, depths);
             let pdf = (0..3).map(|part| choice[part] * rate[part] * sampled[part]).sum::<f64>();
             let weight = |part: usize| over(choice[part], stretch.sum.scattering[part] * reached_by[part], pdf);
-            return SampledDistance { t: Some(stretch.from + reached), weight: [0, 1, 2].map(weight) };
+            return SampledDistance { t: Some(stretch.from + reached), weight: [0, 1, 2].each(weight) };
         }
         add_depth(&mut rates, rate, length);
         add_depth(&mut depths, extinction, length);
     }
     let [sampled, reached_by] = both_transmittances(rates, depths);
     let probability = (0..3).map(|part| choice[part] * sampled[part]).sum::<f64>();
-    SampledDistance { t: None, weight: [0, 1, 2].map(|part| over(choice[part], reached_by[part], probability)) }
+    SampledDistance { t: None, weight: [0, 1, 2].each(|part| over(choice[part], reached_by[part], probability)) }
 }
 // ANCHOR_END: sample_distance
 
@@ -282,7 +284,7 @@ impl MediaAlong {
         let alone = |own: &Span| {
             let Coefficients { extinction, scattering, emission } = media[own.medium];
             let varies = own.grid != NO_ROW;
-            let of = |parts: [f64; 3]| if varies { parts.map(|part| part * own.majorant) } else { parts };
+            let of = |parts: [f64; 3]| if varies { parts.each(|part| part * own.majorant) } else { parts };
             let sum = Coefficients { extinction: of(extinction), scattering: of(scattering), emission: of(emission) };
             Stretch { from: own.from, to: own.to, sum, varies, only: NO_ROW }
         };
@@ -319,7 +321,7 @@ impl MediaAlong {
     pub fn choose(&self, media: &MediumTable, t: f64, throughput: [f64; 3], number: f64) -> (usize, [f64; 3]) {
         let of = |own: &Span| {
             let scattering = media.medium[own.medium].scattering;
-            if own.grid == NO_ROW { scattering } else { scattering.map(|part| part * self.density(media, own, t)) }
+            if own.grid == NO_ROW { scattering } else { scattering.each(|part| part * self.density(media, own, t)) }
         };
         let scatters = |own: &Span| (0..3).map(|part| throughput[part].abs() * of(own)[part]).sum::<f64>();
         let (mut all, mut sum) = ([0.0; 3], 0.0);
@@ -338,7 +340,7 @@ impl MediaAlong {
         let Some(own) = chosen else { return (self.at(t).next().map_or(0, |own| own.medium), [0.0; 3]) };
         let probability = scatters(own) / sum;
         let of_all = |part: usize| if all[part] > 0.0 { of(own)[part] / all[part] / probability } else { 0.0 };
-        (own.medium, [0, 1, 2].map(of_all))
+        (own.medium, [0, 1, 2].each(of_all))
     }
 }
 

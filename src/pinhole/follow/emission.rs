@@ -1,5 +1,6 @@
 use super::previous_surfaces::previous_surface_evidence;
 use super::{CausticPaths, PreviousSurfaces};
+use crate::each::Each;
 use crate::extract::{
     AreaLightTable, EmissiveTable, EnvironmentLightTable, EnvironmentTable, IntegratorTable, bidirectional_evidence,
     caustics_evidence, emissive_evidence, environment_light_evidence, followed_evidence, light_sampling_evidence,
@@ -87,7 +88,7 @@ pub fn add_mis_emission(
                 1.0
             } as f32;
             let emitted = factors.map_or(emitted, |factors| factors.times(row, emitted));
-            radiance.rgb.add(row, emitted.map(|part| weight * part));
+            radiance.rgb.add(row, emitted.each(|part| weight * part));
         }
     }
 }
@@ -139,7 +140,7 @@ pub fn add_mis_environment(
                 0.0
             };
             let found = environment_radiance(&environment, direction);
-            radiance.rgb.add(row, found.map(|part| (weight * part) as f32));
+            radiance.rgb.add(row, found.each(|part| (weight * part) as f32));
         }
     }
 }

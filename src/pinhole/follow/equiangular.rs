@@ -11,6 +11,8 @@ use super::distances::{
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
+use crate::each::Each;
+
 /// The optical depth behind which nothing need be sampled by angle; what lies there the other pdf still finds.
 const DEEP: f64 = 40.0;
 
@@ -34,7 +36,7 @@ impl Seen {
     fn new([origin, direction]: [DVec3; 2], light: DVec3, ends: [f64; 2]) -> Option<Self> {
         let nearest = (light - origin).dot(direction);
         let off = (light - origin - nearest * direction).length();
-        let angles = ends.map(|end| if end < f64::INFINITY { libm::atan2(end - nearest, off) } else { FRAC_PI_2 });
+        let angles = ends.each(|end| if end < f64::INFINITY { libm::atan2(end - nearest, off) } else { FRAC_PI_2 });
         let is_resolved = off > 1e-9 * nearest.abs() && angles[1] - angles[0] > MIN_ANGLE;
         is_resolved.then_some(Self { nearest, off, angles, ends })
     }
@@ -90,7 +92,7 @@ fn scattered_at(stretches: &[Stretch], choice: [f64; 3], t: f64) -> ([f64; 3], f
         if t <= stretch.to {
             let [sampled, left] = both_transmittances(rates, depths);
             let pdf = (0..3).map(|part| choice[part] * stretch.rate()[part] * sampled[part]).sum();
-            return ([0, 1, 2].map(|part| stretch.sum.scattering[part] * left[part]), pdf);
+            return ([0, 1, 2].each(|part| stretch.sum.scattering[part] * left[part]), pdf);
         }
     }
     ([0.0; 3], 0.0)
@@ -119,11 +121,11 @@ pub fn sample_distance_towards(
         (sampled.t, sampled.weight)
     };
     let Some(t) = t else {
-        return SampledDistance { t: None, weight: weight.map(|part| part / (1.0 - by_angle)) };
+        return SampledDistance { t: None, weight: weight.each(|part| part / (1.0 - by_angle)) };
     };
     let (scattered, pdf) = scattered_at(stretches, choice, t);
     let mixed = (1.0 - by_angle) * pdf + by_angle * seen.pdf(t);
-    SampledDistance { t: Some(t), weight: [0, 1, 2].map(|part| over(choice[part], scattered[part], mixed)) }
+    SampledDistance { t: Some(t), weight: [0, 1, 2].each(|part| over(choice[part], scattered[part], mixed)) }
 }
 
 #[cfg(test)]

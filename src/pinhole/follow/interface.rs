@@ -1,5 +1,6 @@
 use super::media::near_and_far;
 use super::{DeeperMedia, Media};
+use crate::each::Each;
 use crate::extract::{GlassTable, NO_ROW};
 use crate::intersect::{Contacts, GlassCrossing, SurfaceSides};
 use crate::material::{fresnel, layered_reflectance};
@@ -64,7 +65,7 @@ impl<'a> Interface<'a> {
     #[inline(always)]
     pub fn eta(&self, own: u32, row: usize) -> f64 {
         let (Some(glass), Some(_)) = (self.glass, self.sides) else { return 1.0 };
-        let [near, far] = self.media(own, row).map(|of| self.index(glass, of, row));
+        let [near, far] = self.media(own, row).each(|of| self.index(glass, of, row));
         far / near
     }
 

@@ -2,6 +2,7 @@
 
 use super::Scattered;
 use super::specular::mirroring_normal;
+use crate::each::{Each, set_all};
 use crate::extract::{
     CameraJoinTable, LightPathTable, LightSource, MaterialTable, SamplingTable, bidirectional_evidence,
     caustics_evidence, distant_start_evidence, environment_traced_evidence, joined_caustics_evidence, joined_evidence,
@@ -33,7 +34,7 @@ column! {
 impl LightPower {
     /// The light's colour at its full brightness.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.rgb(row).map(|part| part as f32)
+        self.rgb(row).each(|part| part as f32)
     }
 }
 
@@ -74,7 +75,7 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
         Some(LightSource::Environment(environment, light)) => {
             let (to_light, pdf) = environment_direction(light, environment.turn, draws.direction);
             let radiance = environment_radiance(environment, to_light);
-            let irradiance = radiance.map(|part| if pdf > 0.0 { part / pdf } else { 0.0 });
+            let irradiance = radiance.each(|part| if pdf > 0.0 { part / pdf } else { 0.0 });
             return times(table.targets.parallel_start(-to_light, irradiance, draws), chosen);
         }
         None => {
@@ -94,7 +95,7 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
     LightStart {
         origin: offset_origin(point.position.as_vec3(), point.normal.as_vec3(), bound),
         direction,
-        power: radiance.map(|part| part * point.area * weight * chosen),
+        power: radiance.each(|part| part * point.area * weight * chosen),
     }
 }
 // ANCHOR_END: light_start
@@ -102,7 +103,7 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
 /// The same ray where the light was chosen with a probability of 1 over `weight`.
 #[inline(always)]
 fn times(start: LightStart, weight: f64) -> LightStart {
-    LightStart { power: start.power.map(|part| part * weight), ..start }
+    LightStart { power: start.power.each(|part| part * weight), ..start }
 }
 
 /// A tile of paths from lights, and what each of them starts with.
@@ -133,7 +134,7 @@ pub fn start_on_lights(
         let of = (&**table, tile, sampling.seed);
         let to = (&mut *rays, &mut *paths, &mut *power, started.as_deref_mut());
         let sample = SampleIndex { number: number.0, samples: sampling.samples, depth: 0 };
-        with_sampler!(sampling.sampler, D => start_rows(of, purposes.map(|own| D::of(sample, own)), to));
+        with_sampler!(sampling.sampler, D => start_rows(of, purposes.each(|own| D::of(sample, own)), to));
         let rows = crate::plan::Column::rows(&*rays);
         radiance.slices_mut(rows).set_all([0.0; 3]);
     }
@@ -154,13 +155,13 @@ fn start_rows<D: Draw>(
     let (first, mut throughput, pdf) = paths.slices_mut(rows);
     let mut powers = power.slices_mut(rows);
     throughput.set_all([1.0; 3]);
-    pdf.fill(f64::INFINITY);
+    set_all(pdf, f64::INFINITY);
     let mut lights = started.map(|started| started.slices_mut(rows));
     let mut at = 0;
     for row in 0..rows {
         let key = PixelKey::new(seed, tile.pixel_of(row));
-        let [target, side] = lens.two(key).map(unit);
-        let draws = [place.two(key), pixel.two(key)].map(|draws| draws.map(unit));
+        let [target, side] = lens.two(key).each(unit);
+        let draws = [place.two(key), pixel.two(key)].each(|draws| draws.each(unit));
         let draws = StartDraws { light: choice.one(key), point: draws[0], direction: draws[1], target, side };
         let start = light_start(table, &draws);
         if let Some(lights) = &mut lights {
@@ -205,7 +206,7 @@ impl CausticPaths {
 pub fn mark_caustic_paths(mut tiles: Query<(&WorldRays, &MaterialRows, &mut CausticPaths)>) {
     for (rays, list, mut caustic) in &mut tiles {
         let spread = caustic.slices_mut(crate::plan::Column::rows(rays));
-        spread.fill(0);
+        set_all(spread, 0);
         list.row.iter().for_each(|&row| spread[row as usize] = 1);
     }
 }
@@ -271,7 +272,7 @@ column! {
 impl Splats {
     /// The radiance that is added.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.rgb(row).map(|part| part as f32)
+        self.rgb(row).each(|part| part as f32)
     }
 }
 
@@ -342,7 +343,7 @@ pub fn splat_light(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<SplatVie
             let at = splats.rows();
             let (mut raster, mut rgb) = splats.slices_mut(at + 1);
             raster.put(at, joined.raster);
-            rgb.put(at, [0, 1, 2].map(|part| power[part] * throughput[part] * f64::from(sent[part])));
+            rgb.put(at, [0, 1, 2].each(|part| power[part] * throughput[part] * f64::from(sent[part])));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The media along a path.
 
 use super::Scattered;
+use crate::each::Each;
 use crate::extract::{
     GlassBodyTable, GlassTable, MaterialTable, NO_ROW, absorption_evidence, deep_glass, end_close_to_glass_evidence,
     followed_evidence, glass_contact_evidence, glass_evidence, glass_overlaps, list_around,
@@ -103,14 +104,14 @@ fn list_near(bodies: &GlassBodyTable, rays: &WorldRays, near: &mut Vec<u32>) {
         // All rays of a pinhole camera start at one point.
         let first = origins[0];
         if origins.iter().fold(0, |differs, origin| differs | (origin.to_bits() ^ first.to_bits())) == 0 {
-            return [first; 2].map(f64::from);
+            return [first; 2].each(f64::from);
         }
         let range = origins.iter().fold([first; 2], |[min, max], &origin| {
             [if origin < min { origin } else { min }, if origin > max { origin } else { max }]
         });
-        range.map(f64::from)
+        range.each(f64::from)
     };
-    let [x, y, z] = rays.origin.slices(rays.rows()).map(along);
+    let [x, y, z] = rays.origin.slices(rays.rows()).each(along);
     let starts = Bounds { min: DVec3::new(x[0], y[0], z[0]), max: DVec3::new(x[1], y[1], z[1]) };
     let overlapping = bodies.row.iter().zip(0..).filter(|(body, _)| body.bounds.overlaps(&starts));
     near.extend(overlapping.map(|(_, number)| number));

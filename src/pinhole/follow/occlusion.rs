@@ -1,3 +1,4 @@
+use crate::each::set_all;
 use crate::extract::{IntegratorTable, SamplingTable, occlusion_evidence};
 use crate::intersect::{Hits, NO_SHAPE, Surfaces, shape_evidence};
 use crate::material::{cosine_direction, frame_of};
@@ -60,7 +61,7 @@ pub fn sample_sky_with(
         draws_of_two(&draws, Purpose::Direction, list, points);
         let (path, mut origin, mut direction, t_max, mut irradiance) = rays.slices_mut(list.len());
         path.copy_from_slice(list);
-        t_max.fill(integrator.distance);
+        set_all(t_max, integrator.distance);
         irradiance.set_all([PI as f32; 3]);
         for (at, &row) in list.iter().enumerate() {
             let surface = surfaces.get(row as usize);

@@ -10,6 +10,7 @@ use super::distances::{MediaAlong, emission_along, sample_distance};
 use super::equiangular::sample_distance_towards;
 use super::light_paths::{LightPower, StartedOn};
 use super::recursive_mis::{leave_with_ratios, weight_joins};
+use crate::each::Each;
 use crate::extract::{
     EquiangularTable, LightPathTable, MediumTable, NO_ROW, SamplingTable, area_light_evidence, bidirectional_evidence,
     distant_start_evidence, emitting_medium_evidence, environment_light_evidence, medium_evidence, mis_evidence,
@@ -63,7 +64,7 @@ pub fn add_medium_emission(
                 emission_along(&along.stretches, absorption)
             };
             let throughput = paths.throughput(row);
-            light.rgb.add(paths.first[row] as usize, [0, 1, 2].map(|part| throughput[part] * emitted[part]));
+            light.rgb.add(paths.first[row] as usize, [0, 1, 2].each(|part| throughput[part] * emitted[part]));
         }
     }
 }

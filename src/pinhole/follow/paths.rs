@@ -3,6 +3,7 @@
 use super::media::{deeper_media_evidence, media_evidence};
 use super::previous_surfaces::previous_surface_evidence;
 use super::{CausticPaths, DeeperMedia, Media, PreviousSurfaces, RecursiveMis};
+use crate::each::{Each, set_all};
 use crate::extract::{
     IntegratorTable, SamplingTable, bidirectional_evidence, filtered_evidence, followed_evidence, motion_evidence,
     needed_if, photon_evidence, wavelength_evidence,
@@ -29,7 +30,7 @@ pub fn start_paths(mut tiles: Query<(&mut Depth, &WorldRays, &mut Paths, Option<
         let (first, mut throughput, pdf) = paths.slices_mut(rays.rows());
         first.iter_mut().zip(0..).for_each(|(first, row)| *first = row);
         throughput.set_all([1.0; 3]);
-        pdf.fill(f64::INFINITY);
+        set_all(pdf, f64::INFINITY);
         if let Some(mut light) = light {
             light.slices_mut(rays.rows()).set_all([0.0; 3]);
         }
@@ -78,7 +79,7 @@ ray_vectors!(Scattered);
 impl Scattered {
     /// The direction, each component mapped from [−1, 1] to [0, 1].
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.direction.at(row).map(|part| 0.5 + 0.5 * part)
+        self.direction.at(row).each(|part| 0.5 + 0.5 * part)
     }
 
     /// Appends a ray for each of these rows, except for rays of throughput 0.
@@ -148,7 +149,7 @@ pub fn add_bounce(mut tiles: Query<(&Paths, &Radiance, &mut PathLight)>) {
         let mut light = light.slices_mut(all);
         for row in 0..first.len() {
             let (throughput, added) = (throughput.at(row), added.at(row));
-            light.add(first[row] as usize, [0, 1, 2].map(|part| throughput[part] * f64::from(added[part])));
+            light.add(first[row] as usize, [0, 1, 2].each(|part| throughput[part] * f64::from(added[part])));
         }
     }
 }
@@ -372,15 +373,15 @@ pub fn play_roulette(
         let (from, mut origin, mut direction, mut throughput, pdf) = scattered.slices_mut(all);
         for (row, &number) in (0..all).zip(&numbers) {
             let scale = if pdf[row] == f64::INFINITY { integrator.eta_scale } else { 1.0 };
-            let left = throughput.at(row).map(|part| part * scale / integrator.at_risk);
+            let left = throughput.at(row).each(|part| part * scale / integrator.at_risk);
             // The weight of a wavelength may be negative.
-            let probability = survival_probability(left.map(f64::abs));
+            let probability = survival_probability(left.each(f64::abs));
             let more = 1.0 / probability;
             // Every ray is written, and the next one overwrites it unless it survives, so that no branch is taken at random.
             from[kept] = from[row];
             origin.put(kept, origin.at(row));
             direction.put(kept, direction.at(row));
-            throughput.put(kept, throughput.at(row).map(|part| part * more));
+            throughput.put(kept, throughput.at(row).each(|part| part * more));
             pdf[kept] = pdf[row];
             kept += usize::from(number < probability);
         }

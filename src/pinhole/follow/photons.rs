@@ -6,6 +6,7 @@
 
 use super::interface::{Interface, InterfaceView};
 use super::{CausticPaths, LightPower};
+use crate::each::Each;
 use crate::extract::{GlassTable, IntegratorTable, MaterialTable, bsdf_evidence, photon_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::material::{Bsdf, Transport};
@@ -35,7 +36,7 @@ column! {
 impl Photons {
     /// The power that is carried.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.power(row).map(|part| part as f32)
+        self.power(row).each(|part| part as f32)
     }
 }
 
@@ -63,7 +64,7 @@ pub fn store_photons(mut tiles: Query<StoreView>) {
             position.put(at, surfaces.get(row).position);
             to_light.put(at, -rays.direction_of(row).as_vec3());
             let (whole, carried) = (power.rgb(paths.first[row] as usize), paths.throughput(row));
-            powers.put(at, [0, 1, 2].map(|part| whole[part] * carried[part]));
+            powers.put(at, [0, 1, 2].each(|part| whole[part] * carried[part]));
             segments[at] = depth.0 + 1;
         }
         list.row.clear();
@@ -151,7 +152,7 @@ impl PhotonMap {
     #[inline(always)]
     pub fn visit(&self, point: DVec3, mut found: impl FnMut(&Photon)) {
         let reach = DVec3::splat(self.radius);
-        let [low, high] = [point - reach, point + reach].map(|corner| cell_of(corner, self.radius));
+        let [low, high] = [point - reach, point + reach].each(|corner| cell_of(corner, self.radius));
         // A cell is as wide as the sphere, which so overlaps at most eight; two of them may share a bucket.
         let (mut visited, mut count) = ([usize::MAX; 8], 0);
         for z in low[2]..=high[2] {
@@ -163,7 +164,7 @@ impl PhotonMap {
                     }
                     visited[count] = own;
                     count += 1;
-                    let [from, to] = [self.first[own], self.first[own + 1]].map(|at| at as usize);
+                    let [from, to] = [self.first[own], self.first[own + 1]].each(|at| at as usize);
                     for photon in &self.photons[from..to] {
                         if (photon.position.as_dvec3() - point).length_squared() <= self.radius * self.radius {
                             found(photon);
@@ -188,7 +189,7 @@ impl PhotonMap {
 /// The cell of a point, where cells are twice the radius wide.
 #[inline(always)]
 fn cell_of(point: DVec3, radius: f64) -> [i64; 3] {
-    (point / (2.0 * radius)).floor().to_array().map(|part| part as i64)
+    (point / (2.0 * radius)).floor().to_array().each(|part| part as i64)
 }
 
 /// The bucket of a cell, among a power of two of them (Teschner et al. 2003).
@@ -314,7 +315,7 @@ pub fn gather_photons<B: Bsdf>(
                 }
             });
             let of_disk = 1.0 / (PI * radius * radius);
-            radiance.rgb.add(row, sum.map(|part| (part * of_disk).min(f64::from(f32::MAX)) as f32));
+            radiance.rgb.add(row, sum.each(|part| (part * of_disk).min(f64::from(f32::MAX)) as f32));
         }
     }
 }

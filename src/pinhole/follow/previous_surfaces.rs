@@ -1,4 +1,5 @@
 use super::Scattered;
+use crate::each::Each;
 use crate::extract::{followed_evidence, many_area_lights_evidence, mis_evidence};
 use crate::intersect::Surfaces;
 use crate::plan::{Census, Column, Evidence, Stage, TileSystems, VectorRows, VectorRowsMut, column};
@@ -18,7 +19,7 @@ column! {
 impl PreviousSurfaces {
     /// The normal, each component mapped from [−1, 1] to [0, 1].
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.normal.at(row).map(|part| 0.5 + 0.5 * part)
+        self.normal.at(row).each(|part| 0.5 + 0.5 * part)
     }
 }
 

@@ -19,6 +19,7 @@ use super::bsdf::{at_interfaces, shading_context, transport};
 use super::emission::at_emitters;
 use super::interface::{Interface, InterfaceView};
 use super::light_paths::StartedOn;
+use crate::each::{Each, set_all};
 use crate::extract::{
     AreaLightTable, CameraJoinTable, EmissiveTable, GlassTable, LightPathTable, LightTracingTable, MaterialTable,
     bidirectional_evidence, bsdf_evidence, emissive_evidence, lens_evidence, luminance,
@@ -72,7 +73,7 @@ column! {
 impl JoinRatios {
     /// Both, from 0 to 1.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        let [onward, reverse] = [self.onward[row], self.reverse[row]].map(|own| (own / (1.0 + own)) as f32);
+        let [onward, reverse] = [self.onward[row], self.reverse[row]].each(|own| (own / (1.0 + own)) as f32);
         [onward, reverse, 0.0]
     }
 }
@@ -134,7 +135,7 @@ impl ArrivalViewItem<'_, '_> {
             let surface = self.surfaces.get(row);
             let cosine = surface.normal.as_dvec3().dot(direction).abs();
             if is_first {
-                [arrival[path], earlier[path]] = first(row, &surface, cosine).map(squared);
+                [arrival[path], earlier[path]] = first(row, &surface, cosine).each(squared);
             } else {
                 // From a unit of solid angle there to a unit of area here.
                 let distance = self.hits.t[row];
@@ -256,7 +257,7 @@ pub fn begin_join_ratios(
             let by_light = pdfs.pdf[ray];
             onward[ray] = if by_light > 0.0 { squared(1.0 / by_light) } else { 0.0 };
             let is_started_on = rays.t_max[ray] > 0.0 && rays.t_max[ray] < f32::INFINITY;
-            let share = luminance(rays.irradiance(ray).map(f64::from)) / starts.power;
+            let share = luminance(rays.irradiance(ray).each(f64::from)) / starts.power;
             let more = by_area((&materials, surfaces, shading), row, [direction; 2]);
             reverse[ray] = if is_started_on { squared(share * more) } else { 0.0 };
         }
@@ -292,7 +293,7 @@ pub fn begin_camera_ratios(
     for CameraConnectionViewItem { arriving, surfaces, shading, rays, mut ratios } in &mut tiles {
         let (rows, onward, reverse) = ratios.slices_mut(rays.rows());
         rows.copy_from_slice(&rays.row);
-        onward.fill(0.0);
+        set_all(onward, 0.0);
         for ray in 0..rays.rows() {
             let row = rays.row[ray] as usize;
             let importance = f64::from(rays.irradiance(ray)[0]);
@@ -481,14 +482,14 @@ pub fn add_found_emission(
                     let receiver = Receiver { position: rays.origin_of(row), normal, depth: 0 };
                     let by_light = area_light_pdf(&lights, light, &receiver, rays.point_at(row, hits.t[row]));
                     let cosine = surfaces.normal(row).as_dvec3().dot(rays.direction_of(row));
-                    let share = luminance(emitted.map(f64::from)) * cosine / starts.power;
+                    let share = luminance(emitted.each(f64::from)) * cosine / starts.power;
                     let from_light = squared(share) * mis.earlier[paths.first[row] as usize];
                     1.0 / (1.0 + squared(by_light / paths.pdf[row]) + from_light)
                 }
                 None => 1.0,
             };
             let emitted = factors.map_or(emitted, |factors| factors.times(row, emitted));
-            radiance.rgb.add(row, emitted.map(|part| weight as f32 * part));
+            radiance.rgb.add(row, emitted.each(|part| weight as f32 * part));
         }
     }
 }

@@ -5,6 +5,7 @@
 
 use super::ScatteredRay;
 use super::paths::ScatteredRoom;
+use crate::each::{Each, by_lane};
 use crate::intersect::{ShadingNormals, Surfaces};
 use crate::material::{Bsdf, BsdfSample, Parameters, ShadingContext, Transport};
 use crate::plan::{ColumnArrays, VectorRows, VectorRowsMut};
@@ -76,7 +77,7 @@ impl SampledBlock {
         let (position, geometric, bound, _) = columns.surfaces.slices();
         let arriving = columns.rays.direction.slices(bound.len());
         let throughput = columns.paths.throughput.slices(bound.len());
-        for (lane, &row) in (0..AT_ONCE).zip(rows) {
+        for (lane, row) in by_lane::<AT_ONCE, _>(rows) {
             let row = row as usize;
             self.direction.put(lane, arriving.at(row));
             self.position.put(lane, position.at(row));
@@ -103,7 +104,7 @@ impl SampledBlock {
     /// Sets the random numbers of the rows.
     #[inline(always)]
     pub fn set_numbers(&mut self, points: &[[f64; 2]], choices: &[f64]) {
-        for (lane, &[u, v]) in (0..AT_ONCE).zip(points) {
+        for (lane, [u, v]) in by_lane::<AT_ONCE, _>(points) {
             (self.u[0][lane], self.u[1][lane]) = (u, v);
         }
         self.choice[..choices.len()].copy_from_slice(choices);
@@ -143,7 +144,7 @@ impl ScatteredBlock {
     /// Appends those that go on.
     #[inline(always)]
     pub fn append(&self, rows: &[u32], to: &mut ScatteredRoom<'_>) {
-        for (lane, &row) in (0..AT_ONCE).zip(rows) {
+        for (lane, row) in by_lane::<AT_ONCE, _>(rows) {
             to.append(row, &self.ray(lane));
         }
     }
@@ -189,7 +190,7 @@ fn sample_rows<B: Bsdf, const IN_BLOCK: bool>(
         let throughput = block.throughput.at(lane);
         made.origin.put(lane, offset_origin(Vec3::from(block.position.at(lane)), side, block.bound[lane]));
         made.direction.put(lane, direction.as_vec3());
-        made.throughput.put(lane, [0, 1, 2].map(|part| if leaves { throughput[part] * weight[part] } else { 0.0 }));
+        made.throughput.put(lane, [0, 1, 2].each(|part| if leaves { throughput[part] * weight[part] } else { 0.0 }));
         made.pdf[lane] = pdf;
     }
 }

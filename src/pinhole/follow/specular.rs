@@ -3,6 +3,7 @@
 use super::bsdf::{BsdfRows, BsdfView, BsdfViewItem, at_interfaces, shading_context, transport};
 use super::interface::{Interface, InterfaceView};
 use super::{Scattered, ScatteredRay};
+use crate::each::Each;
 use crate::extract::{
     GlassTable, MaterialTable, SamplingTable, bsdf_evidence, followed_evidence, needed_if, traced_evidence,
 };
@@ -32,7 +33,7 @@ fn ray(paths: &Paths, row: usize, surface: &Surface, sample: SpecularSample) -> 
     ScatteredRay {
         origin: offset_origin(surface.position, side, surface.bound),
         direction: sample.direction,
-        throughput: [0, 1, 2].map(|part| throughput[part] * sample.weight[part]),
+        throughput: [0, 1, 2].each(|part| throughput[part] * sample.weight[part]),
         pdf: f64::INFINITY,
     }
 }

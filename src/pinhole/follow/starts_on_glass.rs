@@ -1,6 +1,7 @@
 //! Paths that start on the surface of glass, and shadow rays that end close to one.
 
 use super::interface::{Interface, InterfaceView};
+use crate::each::Each;
 use crate::extract::{
     GlassBody, GlassBodyTable, GlassStart, GlassStartTable, GlassTable, MaterialTable, NO_ROW,
     end_close_to_glass_evidence, followed_evidence, list_around, start_on_glass_evidence,
@@ -30,7 +31,7 @@ pub fn leave_glass_at_start(
         for row in 0..rays.rows() {
             let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
             let (time, step) = (times.map_or(0.0, |times| times.time[row]), step_at(origin));
-            let [ahead, behind] = [1.0, -1.0].map(|sign| origin + sign * step * direction);
+            let [ahead, behind] = [1.0, -1.0].each(|sign| origin + sign * step * direction);
             let is_near = |body: &&GlassBody| body.bounds.contains(ahead) || body.bounds.contains(behind);
             let mut near = bodies.row.iter().filter(is_near);
             if near.any(|body| body.windings(ahead, time) != body.windings(behind, time)) {

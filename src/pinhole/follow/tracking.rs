@@ -3,6 +3,7 @@
 use super::distances::{
     ChosenColour, MediaAlong, SampledDistance, Span, Stretch, add_depth, depth, emission_between, over, transmittances,
 };
+use crate::each::Each;
 use crate::extract::{Coefficients, MediumTable, PlacedGrid};
 use crate::sample::RandomStream;
 use glam::DVec3;
@@ -56,6 +57,7 @@ impl MediaAlong {
     }
 
     /// The coefficients at a distance within a stretch.
+    #[inline]
     fn coefficients(&self, media: &MediumTable, stretch: &Stretch, t: f64) -> Coefficients {
         let mut sum = Coefficients::default();
         for own in self.within(stretch) {
@@ -96,6 +98,7 @@ impl MediaAlong {
     }
 
     /// The voxels that a ray crosses between two distances, of the grid that has the smallest.
+    #[inline]
     fn voxels(&self, media: &MediumTable, stretch: &Stretch) -> f64 {
         let a_unit =
             self.within(stretch).filter_map(|own| Some(grid_of(&self.grids, media, own)?.1[1].abs().element_sum()));
@@ -119,7 +122,7 @@ impl MediaAlong {
     pub fn emission(&self, media: &MediumTable, absorption: [f64; 3], number: f64) -> [f64; 3] {
         let (mut sum, mut depths, mut at) = ([0.0; 3], [0.0; 3], 0.0);
         let reached =
-            |depths: &[f64; 3], t: f64| [0, 1, 2].map(|part| libm::exp(-depths[part] - depth(absorption[part], t)));
+            |depths: &[f64; 3], t: f64| [0, 1, 2].each(|part| libm::exp(-depths[part] - depth(absorption[part], t)));
         for stretch in &self.stretches {
             self.add_depths(media, [at, stretch.from], &mut depths);
             at = stretch.from;
@@ -179,7 +182,7 @@ impl MediaAlong {
         let (mut path_pdfs, mut unscattered) = ([1.0; 3], [0.0; 3]);
         let weights = |values: [f64; 3], pdfs: [f64; 3]| {
             let mean = (0..3).map(|part| choice[part] * pdfs[part]).sum::<f64>();
-            [0, 1, 2].map(|part| over(choice[part], values[part], mean))
+            [0, 1, 2].each(|part| over(choice[part], values[part], mean))
         };
         for stretch in &self.stretches {
             let (majorants, range) = (stretch.rate(), [stretch.from, stretch.to]);
@@ -198,13 +201,13 @@ impl MediaAlong {
             if let Some(t) = event {
                 let own = self.coefficients(media, stretch, t);
                 let absorbed = transmittances(unscattered);
-                let values = [0, 1, 2].map(|part| path_pdfs[part] * absorbed[part] * own.scattering[part]);
-                let pdfs = [0, 1, 2].map(|part| path_pdfs[part] * own.extinction[part]);
+                let values = [0, 1, 2].each(|part| path_pdfs[part] * absorbed[part] * own.scattering[part]);
+                let pdfs = [0, 1, 2].each(|part| path_pdfs[part] * own.extinction[part]);
                 return SampledDistance { t: Some(t), weight: weights(values, pdfs) };
             }
         }
         let absorbed = transmittances(unscattered);
-        let values = [0, 1, 2].map(|part| path_pdfs[part] * absorbed[part]);
+        let values = [0, 1, 2].each(|part| path_pdfs[part] * absorbed[part]);
         SampledDistance { t: None, weight: weights(values, path_pdfs) }
     }
 

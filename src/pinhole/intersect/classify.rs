@@ -1,5 +1,6 @@
 use super::hits::{EmissiveRows, MaterialRows, ShapeRows};
 use super::{Hits, SurfaceSides, SurfaceUvs, Surfaces};
+use crate::each::set_all;
 use crate::extract::{NO_ROW, ShapeTable, kind_evidence, shape_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems, VectorRowsMut};
 use crate::shapes::{Listed, ShapeKind, with_shapes};
@@ -60,7 +61,7 @@ pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(ShapeLis
             uvs.slices_mut(hits.rows()).set_all([0.0; 2]);
         }
         if let Some(mut sides) = sides {
-            sides.slices_mut(hits.rows()).fill(0);
+            set_all(sides.slices_mut(hits.rows()), 0);
         }
     }
 }
@@ -85,8 +86,8 @@ fn clear_surfaces(surfaces: &mut Surfaces, rows: usize) {
     let (mut position, mut normal, bound, material) = surfaces.slices_mut(rows);
     position.set_all([0.0; 3]);
     normal.set_all([0.0; 3]);
-    bound.fill(0.0);
-    material.fill(0);
+    set_all(bound, 0.0);
+    set_all(material, 0);
 }
 
 /// Lists the rows that hit one kind of shape, one that a program adds.

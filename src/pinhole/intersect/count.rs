@@ -6,6 +6,7 @@
 use super::RayColumn;
 use super::moving::at_rest;
 use crate::bvh::TestCounts;
+use crate::each::Each;
 use crate::extract::{
     HierarchyOf, MovingTable, ShapesOf, hierarchy_evidence, kind_evidence, moving_evidence, shape_evidence,
 };
@@ -68,7 +69,7 @@ fn heat(count: u32, half: f32) -> [f32; 3] {
     let place = count / (count + half) * (SCALE.len() - 1) as f32;
     let below = (place as usize).min(SCALE.len() - 2);
     let along = place - below as f32;
-    [0, 1, 2].map(|part| SCALE[below][part] + along * (SCALE[below + 1][part] - SCALE[below][part]))
+    [0, 1, 2].each(|part| SCALE[below][part] + along * (SCALE[below + 1][part] - SCALE[below][part]))
 }
 
 macro_rules! all_tables {

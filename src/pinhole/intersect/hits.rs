@@ -1,5 +1,6 @@
 //! The closest hits of rays, and lists of their rows.
 
+use crate::each::{Each, set_all};
 use crate::extract::shape_evidence;
 use crate::plan::{Column, Stage, TileSystems, column};
 use crate::rays::WorldRays;
@@ -30,7 +31,7 @@ impl Hits {
         }
         let mixed = self.shape[row].wrapping_add(1).wrapping_mul(0x9E37_79B9);
         let near = (1.0 / (1.0 + 0.05 * self.t[row]).sqrt()) as f32;
-        [mixed >> 24, mixed >> 16 & 255, mixed >> 8 & 255].map(|byte| (0.35 + 0.65 * byte as f32 / 255.0) * near)
+        [mixed >> 24, mixed >> 16 & 255, mixed >> 8 & 255].each(|byte| (0.35 + 0.65 * byte as f32 / 255.0) * near)
     }
 }
 
@@ -50,7 +51,7 @@ impl HitPrimitives {
             return [0.0; 3];
         }
         let mixed = self.primitive[row].wrapping_add(1).wrapping_mul(0x9E37_79B9);
-        [mixed >> 24, mixed >> 16 & 255, mixed >> 8 & 255].map(|byte| 0.2 + 0.8 * byte as f32 / 255.0)
+        [mixed >> 24, mixed >> 16 & 255, mixed >> 8 & 255].each(|byte| 0.2 + 0.8 * byte as f32 / 255.0)
     }
 }
 
@@ -90,11 +91,11 @@ impl HitColumn for Hits {
 pub fn start_hits(mut tiles: Query<(&WorldRays, &mut Hits, Option<&mut HitPrimitives>)>) {
     for (rays, mut hits, primitives) in &mut tiles {
         if let Some(mut primitives) = primitives {
-            primitives.slices_mut(rays.rows()).fill(NO_PRIMITIVE);
+            set_all(primitives.slices_mut(rays.rows()), NO_PRIMITIVE);
         }
         let (t, shape) = hits.slices_mut(rays.rows());
-        t.fill(f64::INFINITY);
-        shape.fill(NO_SHAPE);
+        set_all(t, f64::INFINITY);
+        set_all(shape, NO_SHAPE);
     }
 }
 

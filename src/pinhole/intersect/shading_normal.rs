@@ -1,6 +1,7 @@
 use super::hits::ShapeRows;
 use super::moving::at_rest;
 use super::{HitPrimitives, Hits, NO_SHAPE, Surfaces};
+use crate::each::Each;
 use crate::extract::{MeshTable, MovingTable, ShapeTable, TriangleTable, VertexNormalTable, moving_evidence};
 use crate::plan::{Census, Evidence, Shared, Stage, TileSystems, VectorRows, VectorRowsMut, column};
 use crate::rays::{RayTimes, WorldRays};
@@ -26,7 +27,7 @@ impl ShadingNormals {
     /// Paints the normal: each component from −1 to 1 is mapped to 0 to 1; black for a miss.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         let normal = self.normal.at(row);
-        if normal == [0.0; 3] { normal } else { normal.map(|component| 0.5 + 0.5 * component) }
+        if normal == [0.0; 3] { normal } else { normal.each(|component| 0.5 + 0.5 * component) }
     }
 
     /// Writes a row.

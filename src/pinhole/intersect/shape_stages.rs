@@ -3,6 +3,7 @@
 use super::hits::ShapeRows;
 use super::surface::{SurfaceUvs, SurfaceView, SurfaceViewItem};
 use super::{HitColumn, HitPrimitives, Hits, RayColumn};
+use crate::each::by_lane;
 use crate::extract::{
     HierarchyOf, ShapeTable, ShapesOf, UvSpaceTable, hierarchy_evidence, kind_evidence, primitive_evidence,
     rasterising_camera,
@@ -66,14 +67,14 @@ pub fn fill_surfaces<S: Listed>(
     for SurfaceViewItem { rays, hits, primitives, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
         let (mut position, mut normal, bound, material) = surfaces.slices_mut(hits.rows());
         for rows in list.row.chunks(if S::IS_TRIANGULAR { HITS } else { 1 }) {
-            for (lane, &row) in (0..HITS).zip(rows) {
+            for (lane, row) in by_lane::<HITS, _>(rows) {
                 let row = row as usize;
                 let primitive = primitives.map_or(0, |primitives| primitives.primitive[row]);
                 let hit = RayHit::at_rest(rays.origin_of(row), rays.direction_of(row), hits.t[row]);
                 block.set_hit(lane, all.row[hits.shape[row] as usize], &RayHit { primitive, ..hit });
             }
             S::fill_surfaces(&shapes.row, &shapes.surface_data, &mut block, rows.len());
-            for (lane, &row) in (0..HITS).zip(rows) {
+            for (lane, row) in by_lane::<HITS, _>(rows) {
                 let row = row as usize;
                 let (number, surface) = (hits.shape[row] as usize, block.surface(lane));
                 position.put(row, surface.point.as_vec3());

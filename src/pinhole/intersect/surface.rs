@@ -1,6 +1,7 @@
 //! The surfaces at hits.
 
 use super::{HitPrimitives, Hits};
+use crate::each::Each;
 use crate::plan::{VectorRows, VectorRowsMut, column};
 use crate::rays::WorldRays;
 use crate::shapes::SurfacePoint;
@@ -39,7 +40,7 @@ impl SurfaceUvs {
 
     /// Paints the fractional parts of u and v.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        let [u, v] = self.uv(row).map(|coordinate| (coordinate - coordinate.floor()) as f32);
+        let [u, v] = self.uv(row).each(|coordinate| (coordinate - coordinate.floor()) as f32);
         [u, v, 0.0]
     }
 }
@@ -79,7 +80,7 @@ impl SurfaceSlices<'_> {
     /// Reads a row.
     #[inline(always)]
     pub fn get(&self, row: usize) -> Surface {
-        let [position, normal] = [&self.position, &self.normal].map(|vectors| Vec3::from(vectors.at(row)));
+        let [position, normal] = [&self.position, &self.normal].each(|vectors| Vec3::from(vectors.at(row)));
         Surface { position, normal, bound: self.bound[row], material: self.material[row] }
     }
 }
@@ -109,7 +110,7 @@ impl Surfaces {
     /// Paints the normal: each component from −1 to 1 is mapped to 0 to 1; black for a miss.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         let normal = self.normal.at(row);
-        if normal == [0.0; 3] { normal } else { normal.map(|component| 0.5 + 0.5 * component) }
+        if normal == [0.0; 3] { normal } else { normal.each(|component| 0.5 + 0.5 * component) }
     }
 
     /// Writes a row.

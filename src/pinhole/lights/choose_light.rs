@@ -1,6 +1,7 @@
 //! Choosing a light of a hierarchy for a surface, and the probability of the choice.
 
 use super::light_hierarchy::{LightHierarchy, LightNode, STEP, WIDTH};
+use crate::each::Each;
 use glam::DVec3;
 use multiversion::multiversion;
 
@@ -132,7 +133,7 @@ fn parts_until(node: &LightNode, receiver: &Receiver, parts: u64, min: u64) -> [
         *until = sum;
     }
     if sum == 0.0 {
-        (until, sum) = (node.until.map(f64::from), f64::from(node.until[WIDTH - 1]));
+        (until, sum) = (node.until.each(f64::from), f64::from(node.until[WIDTH - 1]));
     }
     let spare = (parts - min * u64::from(node.until[WIDTH - 1])) as f64;
     let mut ends = [0; WIDTH];

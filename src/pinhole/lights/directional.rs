@@ -1,6 +1,7 @@
 use super::light::{Light, LightSample, LightStart, PlacedLight, SceneLight, StartDraws};
 use super::light_bounds::LightBounds;
 use super::targets::Targets;
+use crate::each::Each;
 use crate::scene::{DirectionalLight, SceneError, light_colour};
 use glam::DVec3;
 
@@ -37,7 +38,7 @@ impl Light for PlacedDirectionalLight {
     }
 
     fn power(&self, across: f64) -> [f64; 3] {
-        self.irradiance.map(|part| part * across)
+        self.irradiance.each(|part| part * across)
     }
 
     fn bounds(&self) -> Option<LightBounds> {

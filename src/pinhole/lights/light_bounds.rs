@@ -1,3 +1,4 @@
+use crate::each::Each;
 use crate::shapes::Bounds;
 use glam::DVec3;
 
@@ -76,7 +77,7 @@ impl LightBounds {
         }
         let between = axis.dot(self.axis);
         let between = if two_sided { between.abs() } else { between }.clamp(-1.0, 1.0);
-        let [sine, other] = [between, self.spread].map(|cosine| (1.0 - cosine * cosine).max(0.0).sqrt());
+        let [sine, other] = [between, self.spread].each(|cosine| (1.0 - cosine * cosine).max(0.0).sqrt());
         // The sine of a sum of two angles is negative where it exceeds half a turn.
         if sine * self.spread + between * other < 0.0 { -1.0 } else { between * self.spread - sine * other }
     }
@@ -105,6 +106,7 @@ impl LightSums {
     }
 
     /// Adds the lights of other sums.
+    #[inline]
     pub fn join(&mut self, other: &Self) {
         self.around = joined(self.around, other.around);
         self.axis += other.axis;

@@ -1,6 +1,7 @@
 use super::light::{Light, LightSample, LightStart, PlacedLight, SceneLight, StartDraws, luminance};
 use super::light_bounds::LightBounds;
 use super::targets::{Targets, direction_to_targets};
+use crate::each::Each;
 use crate::scene::{PointLight, SceneError, finite_point, light_colour};
 use crate::shapes::Bounds;
 use crate::shapes::emitter::sphere_direction;
@@ -44,7 +45,7 @@ impl Light for PlacedPointLight {
     // ANCHOR_END: sample_point_light
 
     fn power(&self, _across: f64) -> [f64; 3] {
-        self.intensity.map(|part| part * 4.0 * PI)
+        self.intensity.each(|part| part * 4.0 * PI)
     }
 
     fn bounds(&self) -> Option<LightBounds> {
@@ -55,6 +56,6 @@ impl Light for PlacedPointLight {
     fn start(&self, targets: &Targets, draws: &StartDraws) -> LightStart {
         let to_targets = direction_to_targets(&targets.sphere, self.position, 2.0 * PI, draws.target, draws.direction);
         let (direction, weight) = to_targets.unwrap_or_else(|| (sphere_direction(draws.direction), 4.0 * PI));
-        LightStart { origin: self.position.as_vec3(), direction, power: self.intensity.map(|part| part * weight) }
+        LightStart { origin: self.position.as_vec3(), direction, power: self.intensity.each(|part| part * weight) }
     }
 }

@@ -1,6 +1,7 @@
 use super::light::{Light, LightSample, LightStart, PlacedLight, SceneLight, StartDraws, luminance};
 use super::light_bounds::LightBounds;
 use super::targets::{Targets, direction_to_targets};
+use crate::each::Each;
 use crate::scene::{Degrees, SceneError, SpotLight, finite_point, light_colour, number};
 use crate::shapes::emitter::cone_direction;
 use glam::DVec3;
@@ -49,12 +50,12 @@ impl Light for PlacedSpotLight {
         // A direction in f32 is too coarse for narrow cones.
         let along = (from - self.position) * (1.0 / distance);
         let falloff = spot_falloff(versine(along, self.axis), self.inner, self.outer);
-        let strength = self.intensity.map(|part| part * falloff);
+        let strength = self.intensity.each(|part| part * falloff);
         LightSample { direction: (to_light * (1.0 / distance)).as_vec3(), distance, strength }
     }
 
     fn power(&self, _across: f64) -> [f64; 3] {
-        self.intensity.map(|part| part * PI * (self.inner + self.outer))
+        self.intensity.each(|part| part * PI * (self.inner + self.outer))
     }
 
     fn bounds(&self) -> Option<LightBounds> {
@@ -68,7 +69,7 @@ impl Light for PlacedSpotLight {
         let in_cone = || (cone_direction(self.axis, self.outer, draws.direction), whole);
         let (direction, weight) = to_targets.unwrap_or_else(in_cone);
         let weight = spot_falloff(versine(direction, self.axis), self.inner, self.outer) * weight;
-        LightStart { origin: self.position.as_vec3(), direction, power: self.intensity.map(|part| part * weight) }
+        LightStart { origin: self.position.as_vec3(), direction, power: self.intensity.each(|part| part * weight) }
     }
 }
 

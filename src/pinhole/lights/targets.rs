@@ -1,6 +1,7 @@
 //! Sampling rays in which light leaves towards mirrors and glass.
 
 use super::light::{LightStart, StartDraws};
+use crate::each::Each;
 use crate::sample::disk_point;
 use crate::shapes::emitter::{cone_direction, cone_versine};
 use crate::shapes::{AnyShape, Bounds, l1_norm};
@@ -109,7 +110,7 @@ impl Targets {
         let outside = first.min((self.scene.centre - middle).dot(direction) - self.scene.radius);
         let weight = all / f64::from(passed);
         let origin = (middle + direction * outside).as_vec3();
-        LightStart { origin, direction, power: irradiance.map(|part| part * weight) }
+        LightStart { origin, direction, power: irradiance.each(|part| part * weight) }
     }
     // ANCHOR_END: parallel_start
 }

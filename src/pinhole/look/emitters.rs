@@ -1,6 +1,7 @@
 //! Surfaces that emit light and that strategies for direct light do not agree about, or cannot sample.
 
 use crate::Result;
+use crate::each::Each;
 use crate::extract::{AreaLightTable, EmissiveTable, NO_ROW, ShapeTable, integrator_of, sampled_shapes, shape_name};
 use crate::plan::{Census, Table, counted};
 use crate::scene::LightStrategy;
@@ -62,7 +63,7 @@ fn coincident(scene: &Census<'_>) -> Result<Option<String>> {
     let mut seen = HashMap::new();
     for (light, emitter) in lights.emitter.iter().enumerate().take(MAX_COMPARED) {
         if let Some(other) = seen.insert(format!("{emitter:?}"), light) {
-            let [one, other] = [other, light].map(|light| shape_name(scene, lights.shape[light] as usize));
+            let [one, other] = [other, light].each(|light| shape_name(scene, lights.shape[light] as usize));
             return Ok(Some(format!(
                 "the {one} and the {other} emit light from the very same surface, where rounding decides which of them \
                  a ray hits: strategies for direct light give different pictures; move one of them, or add their \

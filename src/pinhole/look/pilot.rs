@@ -2,6 +2,7 @@
 
 use super::preflight::{NEARLY_ALL, exposure_factor};
 use crate::Result;
+use crate::each::Each;
 use crate::extract::{ImageFrame, MaterialTable, NO_ROW, SamplingTable, ShapeTable, exposure_of, specular_evidence};
 use crate::follow::LIGHT_PATHS;
 use crate::intersect::{Hits, NO_SHAPE};
@@ -126,7 +127,7 @@ pub fn pilot(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), patience:
             // Where no light is in the scene, the column is missing or has no rows.
             None => [0.0; 3],
             Some(radiance) => {
-                radiance.rgb(row).map(|part| (f64::from(part) * exposure).min(f64::from(f32::MAX)) as f32)
+                radiance.rgb(row).each(|part| (f64::from(part) * exposure).min(f64::from(f32::MAX)) as f32)
             }
         };
         for row in 0..rays {
@@ -338,7 +339,7 @@ impl Counted {
 pub(super) fn counting_hook() -> Hook {
     Arc::new(|_, stage: &Stage, _| {
         let [writes_hits, writes_shadows] =
-            [ColumnKind::of::<Hits>(), ColumnKind::of::<ShadowHits>()].map(|column| stage.writes.contains(&column));
+            [ColumnKind::of::<Hits>(), ColumnKind::of::<ShadowHits>()].each(|column| stage.writes.contains(&column));
         let count = move |world: &mut World,
                           tiles: &mut QueryState<
             (&Depth, Option<&Hits>, Option<(&ShadowRays, &ShadowHits)>),

@@ -6,6 +6,7 @@ use super::media::odd_media;
 use super::pilot::{Pilot, pilot};
 use super::radians::radians;
 use super::slow::{Effort, many_bounces, many_light_bounces, never_done, slow, why_slow};
+use crate::each::Each;
 use crate::extract::{
     AreaLightTable, CameraAxes, EmissiveTable, ImageFrame, IntegratorTable, LightPathTable, LightTracingTable,
     OrthographicWindow, PerspectiveProjection, SamplingTable, ShapeTable, adaptive_of, area_light_evidence,
@@ -507,7 +508,7 @@ pub fn unresolved_glass(scene: &Census<'_>) -> Result<Vec<String>> {
         return Ok(Vec::new());
     }
     let warning = |([one, other], apart): ([usize; 2], f64)| {
-        let [name, of] = [one, other].map(|shape| shape_name(scene, shape));
+        let [name, of] = [one, other].each(|shape| shape_name(scene, shape));
         if one == other {
             format!(
                 "the {name} is {apart:.1e} thick, which single precision does not always keep apart at its distance from \

@@ -1,5 +1,6 @@
 //! Angles that look as if they were meant in radians.
 
+use crate::each::Each;
 use crate::plan::Census;
 use crate::scene::{Environment, FisheyeCamera, PerspectiveCamera, Placement, SpotLight, called};
 use bevy_ecs::prelude::*;
@@ -84,7 +85,7 @@ fn radian_turn(orientation: DQuat) -> Option<f64> {
     let x = libm::atan2(turned.y_axis.z, turned.z_axis.z);
     let y = libm::asin((-turned.x_axis.z).clamp(-1.0, 1.0));
     let z = libm::atan2(turned.x_axis.y, turned.x_axis.x);
-    let turns = [angle, x, y, z].map(|turn| (1e6 * turn.to_degrees()).round() / 1e6);
+    let turns = [angle, x, y, z].each(|turn| (1e6 * turn.to_degrees()).round() / 1e6);
     turns.into_iter().find(|&turn| is_part_of_circle(turn))
 }
 

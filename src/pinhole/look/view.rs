@@ -1,3 +1,4 @@
+use crate::each::Each;
 use crate::extract::ImageFrame;
 use crate::plan::{
     Census, Column, ColumnKind, ComponentNumber, ComponentValues, Evidence, Shared, Stage, Table, TileSystems,
@@ -74,7 +75,7 @@ fn paint_tile(column: ColumnKind, tile: &EntityRef<'_>, image: [u32; 2]) -> Radi
     let mut rgb = painted.slices_mut(rows);
     for (row, path) in (0..(column.rows)(tile)).zip(paths(column, tile)).rev() {
         // Samples beyond the image's edge have coordinates below 0, which no picture can show.
-        let shown = (column.paint)(tile, row, image).map(|part| if part < 0.0 { 0.0 } else { part });
+        let shown = (column.paint)(tile, row, image).each(|part| if part < 0.0 { 0.0 } else { part });
         rgb.put(path, shown);
     }
     painted

@@ -243,11 +243,13 @@ pub trait Bsdf: Table + Named {
 
     /// Both directions of a specular BSDF, by reflection and by refraction; the ray arrives along `direction`, and
     /// `normal` faces it.
+    #[inline]
     fn specular_directions(&self, _site: &ShadingContext, _direction: DVec3, _normal: DVec3) -> [SpecularSample; 2] {
         [SpecularSample::default(); 2]
     }
 
     /// One of the two, selected by a number in [0, 1) and divided by its probability.
+    #[inline]
     fn sample_specular(
         &self,
         context: &ShadingContext,

@@ -2,6 +2,7 @@
 
 use super::glass::{MIN_INDEX, is_index};
 use crate::check::number;
+use crate::each::Each;
 use crate::sample::SPECTRUM;
 use crate::scene::{Dispersion, SceneError};
 
@@ -79,7 +80,7 @@ pub(crate) fn checked_curve(who: &str, dispersion: Dispersion) -> Result<IndexCu
     let coefficients: Vec<(&str, f64)> = match dispersion {
         Dispersion::Cauchy { a, b, c } => vec![("cauchy a", a), ("cauchy b", b), ("cauchy c", c)],
         Dispersion::Sellmeier { b, c } => {
-            b.map(|own| ("sellmeier b", own)).into_iter().chain(c.map(|own| ("sellmeier c", own))).collect()
+            b.each(|own| ("sellmeier b", own)).into_iter().chain(c.each(|own| ("sellmeier c", own))).collect()
         }
         _ => Vec::new(),
     };

@@ -56,6 +56,7 @@ pub fn glass_event([mirrored, bent]: [SpecularSample; 2], eta: f64, number: f64)
 /// all surfaces add up.
 /// The layers between them are thick beside a wavelength, so that light does not interfere, and thin beside all else, so
 /// that nothing is absorbed in them.
+#[inline]
 pub fn layered_reflectance(reflectances: impl Iterator<Item = f64>) -> f64 {
     let ratio: f64 = reflectances.map(|reflected| reflected / (1.0 - reflected)).sum();
     if ratio.is_finite() { ratio / (1.0 + ratio) } else { 1.0 }

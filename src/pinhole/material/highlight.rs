@@ -6,6 +6,7 @@ use super::{
     lambertian,
 };
 use crate::check::{kind_and_name, number, reflectance, triple};
+use crate::each::Each;
 use crate::plan::{Census, Table};
 use crate::sample::disk_point;
 use crate::scene::{Feeds, Rgb, SceneError};
@@ -110,7 +111,7 @@ where
     }
 
     fn examples() -> Vec<Example<L::Component>> {
-        let of = |&[colour, specular, exponent]: &[f64; 3]| L::component([colour, specular].map(Rgb::grey), exponent);
+        let of = |&[colour, specular, exponent]: &[f64; 3]| L::component([colour, specular].each(Rgb::grey), exponent);
         EXAMPLES.iter().map(|own| Example { component: of(own), lossless_to: None }).collect()
     }
 }
@@ -196,7 +197,7 @@ impl<'a, L: Lobe> Highlight<'a, L> {
     /// The material of a row of the lobes, with its diffuse colour.
     #[inline(always)]
     pub fn new(lobes: &'a HighlightTable<L>, row: usize, colour: [f64; 3]) -> Self {
-        let [specular, diffuse] = [lobes.specular[row], colour].map(|[r, g, b]| r + g + b);
+        let [specular, diffuse] = [lobes.specular[row], colour].each(|[r, g, b]| r + g + b);
         let whole = specular + diffuse;
         Self { lobes, row, colour, of_lobe: if whole > 0.0 { specular / whole } else { 0.0 } }
     }
@@ -207,7 +208,7 @@ impl<'a, L: Lobe> Highlight<'a, L> {
         let (peak, specular) = (self.lobes.peak[self.row], self.lobes.specular[self.row]);
         let value = L::value(peak, self.lobes.exponent[self.row], to_light, to_eye);
         let diffuse = lambertian(self.colour);
-        [0, 1, 2].map(|part| diffuse[part] + specular[part] * value)
+        [0, 1, 2].each(|part| diffuse[part] + specular[part] * value)
     }
 
     /// The pdf with which [`Self::sample`] chooses `to_light`, in 1/sr.
@@ -226,7 +227,7 @@ impl<'a, L: Lobe> Highlight<'a, L> {
         let exponent = self.lobes.exponent[self.row];
         let to_light = if specular { L::sample(exponent, to_eye, numbers) } else { cosine_direction(numbers) };
         let pdf = self.pdf(to_light, to_eye);
-        let weight = self.brdf(to_light, to_eye).map(|brdf| brdf * to_light.z / pdf);
+        let weight = self.brdf(to_light, to_eye).each(|brdf| brdf * to_light.z / pdf);
         (to_light.z > 0.0 && pdf > 0.0).then_some(BsdfSample { to_light, pdf, weight })
     }
 }

@@ -1,5 +1,6 @@
 use super::{Bsdf, BsdfClass, BsdfSample, Example, Parameters, ShadingContext, cosine_direction, cosine_pdf};
 use crate::check::reflectance;
+use crate::each::Each;
 use crate::plan::{Census, Table};
 use crate::scene::{Feeds, Matte, Rgb, SceneError};
 use glam::DVec3;
@@ -11,7 +12,7 @@ use std::f64::consts::FRAC_1_PI;
 /// It is the same for all directions (Lambert); its cosine-weighted integral over the hemisphere is the colour.
 #[inline(always)]
 pub fn lambertian(colour: [f64; 3]) -> [f64; 3] {
-    colour.map(|part| part * FRAC_1_PI)
+    colour.each(|part| part * FRAC_1_PI)
 }
 // ANCHOR_END: lambertian
 

@@ -4,6 +4,7 @@ use super::{
     cosine_direction, ggx_brdf, ggx_sample, visible_pdf,
 };
 use crate::check::{kind_and_name, number, reflectance};
+use crate::each::Each;
 use crate::plan::{Census, Table};
 use crate::sample::disk_point;
 use crate::scene::{Metal, Rgb, SceneError};
@@ -82,10 +83,10 @@ impl Bsdf for MetalTable {
     #[inline(always)]
     fn eval(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
         let once = ggx_brdf(to_light, to_eye, context.parameters.roughness);
-        let once = context.parameters.colour.map(|colour| once * colour);
+        let once = context.parameters.colour.each(|colour| once * colour);
         let Some(several) = &self.several else { return once };
         let again = several.brdf(context.row, to_light, to_eye);
-        [0, 1, 2].map(|part| once[part] + again[part])
+        [0, 1, 2].each(|part| once[part] + again[part])
     }
 
     #[inline(always)]
@@ -104,7 +105,7 @@ impl Bsdf for MetalTable {
             ggx_sample(to_eye, context.parameters.roughness, disk_point(numbers))?.to_light
         };
         let pdf = self.pdf(context, to_light, to_eye);
-        let weight = self.eval(context, to_light, to_eye).map(|brdf| brdf * to_light.z / pdf);
+        let weight = self.eval(context, to_light, to_eye).each(|brdf| brdf * to_light.z / pdf);
         (pdf > 0.0).then_some(BsdfSample { to_light, pdf, weight })
     }
 
@@ -118,7 +119,7 @@ impl Bsdf for MetalTable {
     ) -> Option<BsdfSample> {
         let Parameters { colour, roughness: alpha, .. } = context.parameters;
         let sample = ggx_sample(to_eye, alpha, disk_point(numbers))?;
-        let weight = colour.map(|colour| colour * sample.weight);
+        let weight = colour.each(|colour| colour * sample.weight);
         Some(BsdfSample { to_light: sample.to_light, pdf: sample.pdf, weight })
     }
 

@@ -1,4 +1,5 @@
 use super::{cosine_pdf, ggx_sample};
+use crate::each::Each;
 use crate::sample::DiskPoint;
 use glam::DVec3;
 use std::f64::consts::FRAC_1_PI;
@@ -94,7 +95,7 @@ impl ByCosine {
             alpha * alpha * (whole * whole / left + 2.0 * whole * libm::log(left) - left)
         };
         let of_step = |step: usize| {
-            let [low, high] = [step, step + 1].map(|step| step as f64 / STEPS as f64);
+            let [low, high] = [step, step + 1].each(|step| step as f64 / STEPS as f64);
             let [first, last] = [self.steps[step], self.steps[step + 1]];
             let ends = last * cosine(high) * cosine(high) - first * cosine(low) * cosine(low);
             ends - (last - first) * STEPS as f64 * (squares(high) - squares(low))
@@ -123,7 +124,7 @@ impl MultipleScattering {
         let average = lost.average();
         let scale = if average > 0.0 { FRAC_1_PI / average } else { 0.0 };
         self.lost.push(lost);
-        self.compensation.push(colour.map(|colour| multiple_scattering_albedo(colour, average) * scale));
+        self.compensation.push(colour.each(|colour| multiple_scattering_albedo(colour, average) * scale));
     }
 
     // ANCHOR: lobe
@@ -137,7 +138,7 @@ impl MultipleScattering {
             return [0.0; 3];
         }
         let both = self.lost[metal].at(to_light.z) * self.lost[metal].at(to_eye.z);
-        self.compensation[metal].map(|scale| scale * both)
+        self.compensation[metal].each(|scale| scale * both)
     }
 
     /// The pdf of sampling this lobe by the cosine with the fraction lost as probability, and otherwise with the pdf

@@ -1,5 +1,6 @@
 use super::{Bsdf, BsdfClass, BsdfSample, Example, MaterialKind, Parameters, ShadingContext, frame_of, named_bsdf};
 use crate::check::{kind_and_name, light_colour, number};
+use crate::each::Each;
 use crate::plan::{Census, Table};
 use crate::scene::{Medium, SceneError};
 use bevy_ecs::prelude::*;
@@ -97,7 +98,7 @@ impl Bsdf for PhaseTable {
             0.0 => 0.0,
             scattered => scattered / (scattered + absorption[part]),
         };
-        Ok(Parameters::coloured([0, 1, 2].map(albedo)))
+        Ok(Parameters::coloured([0, 1, 2].each(albedo)))
     }
 
     /// The phase function over |cos θ| of the angle to the normal: a phase function weights no direction by a cosine, but

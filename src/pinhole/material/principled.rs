@@ -6,6 +6,7 @@ use super::{
     cosine_direction, cosine_pdf, ggx_brdf, ggx_sample, multiple_scattering_albedo, single_scattering, visible_pdf,
 };
 use crate::check::{kind_and_name, number, reflectance};
+use crate::each::Each;
 use crate::plan::{Census, Table};
 use crate::sample::disk_point;
 use crate::scene::{Feeds, MetallicRoughnessMap, Principled, Rgb, SceneError};
@@ -81,7 +82,7 @@ impl CoatHere<'_> {
         let facing = grazing(to_eye.dot((to_light + to_eye).normalize_or_zero()));
         let own = self.factor * ggx_brdf(to_light, to_eye, self.alpha) * (COAT + (1.0 - COAT) * facing);
         let through = (1.0 - self.albedo(to_light.z)) * (1.0 - self.albedo(to_eye.z));
-        base.map(|base| own + through * base)
+        base.each(|base| own + through * base)
     }
     // ANCHOR_END: coat
 }
@@ -128,7 +129,7 @@ impl Surface<'_> {
     /// The reflectance at normal incidence, of the dielectric and the metal together.
     #[inline(always)]
     fn at_normal_incidence(&self) -> [f64; 3] {
-        self.colour.map(|colour| self.dielectric + self.metallic * (colour - self.dielectric))
+        self.colour.each(|colour| self.dielectric + self.metallic * (colour - self.dielectric))
     }
 
     /// Specular reflection of one scattering, in 1/sr.
@@ -136,7 +137,7 @@ impl Surface<'_> {
     fn once(&self, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
         let facing = grazing(to_eye.dot((to_light + to_eye).normalize_or_zero()));
         let once = ggx_brdf(to_light, to_eye, self.alpha);
-        self.at_normal_incidence().map(|normal| once * (normal + (1.0 - normal) * facing))
+        self.at_normal_incidence().each(|normal| once * (normal + (1.0 - normal) * facing))
     }
 
     // ANCHOR: principled
@@ -147,16 +148,16 @@ impl Surface<'_> {
     #[inline(always)]
     fn broad(&self, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
         let (energy, metallic, normal) = (self.energy, self.metallic, self.dielectric);
-        let [lost_in, lost_out] = [to_light.z, to_eye.z].map(|cosine| energy.lost(cosine));
-        let [left_in, left_out] = [to_light.z, to_eye.z].map(|cosine| energy.left_at_grazing(cosine));
+        let [lost_in, lost_out] = [to_light.z, to_eye.z].each(|cosine| energy.lost(cosine));
+        let [left_in, left_out] = [to_light.z, to_eye.z].each(|cosine| energy.left_at_grazing(cosine));
         let [lost, left] = energy.average();
         let several = if lost > 0.0 { lost_in * lost_out / lost } else { 0.0 };
         let [below_in, below_out, below] = [[lost_in, left_in], [lost_out, left_out], [lost, left]]
-            .map(|[lost, left]| 1.0 - energy.of_dielectric(normal, lost, left));
+            .each(|[lost, left]| 1.0 - energy.of_dielectric(normal, lost, left));
         // A dielectric that reflects all light leaves none for its base.
         let diffuse = if below > 0.0 { below_in * below_out / below } else { 0.0 };
         let again = energy.again(normal) * several;
-        self.colour.map(|colour| {
+        self.colour.each(|colour| {
             let dielectric = again + colour * diffuse;
             FRAC_1_PI * (dielectric + metallic * (energy.again(colour) * several - dielectric))
         })
@@ -191,7 +192,7 @@ impl Surface<'_> {
             return [0.0; 3];
         }
         let (once, broad) = (self.once(to_light, to_eye), self.broad(to_light, to_eye));
-        let base = [0, 1, 2].map(|part| once[part] + broad[part]);
+        let base = [0, 1, 2].each(|part| once[part] + broad[part]);
         self.coat.map_or(base, |coat| coat.over(base, to_light, to_eye))
     }
 
@@ -219,7 +220,7 @@ impl Surface<'_> {
             cosine_direction(numbers)
         };
         let pdf = self.pdf(to_light, to_eye);
-        let weight = self.eval(to_light, to_eye).map(|brdf| brdf * to_light.z / pdf);
+        let weight = self.eval(to_light, to_eye).each(|brdf| brdf * to_light.z / pdf);
         (pdf > 0.0).then_some(BsdfSample { to_light, pdf, weight })
     }
 }
@@ -302,13 +303,13 @@ impl Bsdf for PrincipledTable {
             Example { component, lossless_to: (grey == 1.0).then_some(3e-3) }
         };
         let white = [0.1, 0.3, 0.5, 0.8, 1.0].into_iter();
-        let white = white.flat_map(|roughness| [0.0, 0.5, 1.0].map(|metallic| of(1.0, metallic, roughness)));
-        let dense = [1.0, 2.0, 1e9].map(|ior| {
+        let white = white.flat_map(|roughness| [0.0, 0.5, 1.0].each(|metallic| of(1.0, metallic, roughness)));
+        let dense = [1.0, 2.0, 1e9].each(|ior| {
             let Example { component, lossless_to } = of(1.0, 0.0, 0.4);
             Example { component: Principled { ior, ..component }, lossless_to }
         });
         let coated =
-            [(0.3, 0.0, 1.0, 0.0), (1.0, 1.0, 1.0, 0.3), (0.0, 0.0, 0.5, 0.8)].map(|(grey, metallic, coat, rough)| {
+            [(0.3, 0.0, 1.0, 0.0), (1.0, 1.0, 1.0, 0.3), (0.0, 0.0, 0.5, 0.8)].each(|(grey, metallic, coat, rough)| {
                 let Example { component, .. } = of(grey, metallic, 0.5);
                 let component = Principled { coat, coat_roughness: rough, ..component };
                 Example { component, lossless_to: None }
@@ -407,21 +408,21 @@ impl<'a> Energy<'a> {
     /// What is lost at this cosine where F₀ = 1.
     #[inline(always)]
     pub fn lost(&self, cosine: f64) -> f64 {
-        ByCosine::between(self.tables.map(|table| &table.lost), self.t, self.alpha, cosine)
+        ByCosine::between(self.tables.each(|table| &table.lost), self.t, self.alpha, cosine)
     }
 
     /// What the factor (1 − cos θ)⁵ leaves at this cosine, less what it would leave of smooth microfacets.
     #[inline(always)]
     pub fn more_at_grazing(&self, cosine: f64) -> f64 {
-        ByCosine::between(self.tables.map(|table| &table.grazing), self.t, self.alpha, cosine)
+        ByCosine::between(self.tables.each(|table| &table.grazing), self.t, self.alpha, cosine)
     }
 
     /// The hemispherical averages of what is lost, and of what the factor leaves.
     #[inline(always)]
     pub fn average(&self) -> [f64; 2] {
         let between = |[low, high]: [f64; 2]| (1.0 - self.t) * low + self.t * high;
-        let over_square = between(self.tables.map(|table| table.lost_over_square));
-        [self.alpha * self.alpha * over_square, between(self.tables.map(|table| table.average))]
+        let over_square = between(self.tables.each(|table| table.lost_over_square));
+        [self.alpha * self.alpha * over_square, between(self.tables.each(|table| table.average))]
     }
 
     /// What the factor (1 − cos θ)⁵ leaves at this cosine.

@@ -1,6 +1,7 @@
 use super::bsdf::entities_of_kind;
 use super::{Bsdf, BsdfClass, Example, Named, Parameters, ShadingContext, SpecularSample, fresnel, mirror_direction};
 use crate::check::{kind_and_name, number, reflectance};
+use crate::each::Each;
 use crate::plan::{Census, Table};
 use crate::scene::{SceneError, ThinGlass};
 use glam::DVec3;
@@ -71,7 +72,7 @@ impl Bsdf for ThinGlassTable {
     fn specular_directions(&self, context: &ShadingContext, direction: DVec3, normal: DVec3) -> [SpecularSample; 2] {
         let reflected = pane_reflectance((-direction.dot(normal)).max(0.0), self.ior[context.row]);
         let mirrored = mirror_direction(direction, normal);
-        let through = self.colour[context.row].map(|part| (1.0 - reflected) * part);
+        let through = self.colour[context.row].each(|part| (1.0 - reflected) * part);
         [
             SpecularSample { direction: mirrored, weight: [reflected; 3], through: false },
             SpecularSample { direction, weight: through, through: true },

@@ -1,4 +1,5 @@
 use super::TileSystems;
+use crate::each::set_all;
 use bevy_ecs::prelude::*;
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
 use glam::{DVec2, DVec3, Vec3};
@@ -224,7 +225,9 @@ impl<T: ComponentValue> ColumnArrays for Vec<T> {
 
     #[inline(always)]
     fn slices_mut(&mut self, rows: usize) -> &mut [T] {
-        self.resize(rows, T::default());
+        if self.len() != rows {
+            self.resize(rows, T::default());
+        }
         &mut self[..rows]
     }
 
@@ -309,7 +312,7 @@ macro_rules! vectors_of {
 
             #[inline(always)]
             fn set_all(&mut self, value: [T; $count]) {
-                $(self[$place].as_mut().fill(value[$place]);)+
+                $(set_all(self[$place].as_mut(), value[$place]);)+
             }
 
             #[inline(always)]

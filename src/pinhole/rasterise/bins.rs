@@ -1,5 +1,6 @@
 //! The image is divided into square bins, and each of them lists what may cover some of its pixels.
 
+use crate::each::Each;
 use crate::rays::Tile;
 use glam::DVec2;
 
@@ -11,7 +12,7 @@ pub(super) type Extent = [[u32; 2]; 2];
 
 /// How many bins an image has from left to right and from top to bottom.
 pub(super) fn bins_of(size: DVec2) -> [u32; 2] {
-    [size.x, size.y].map(|pixels| (pixels as u32).div_ceil(BIN))
+    [size.x, size.y].each(|pixels| (pixels as u32).div_ceil(BIN))
 }
 
 /// The columns and lines of the bins that a tile overlaps, line by line.
@@ -35,7 +36,7 @@ impl Bins {
     /// Sorts extents into so many bins, each of which keeps their order.
     pub fn sorted(extents: &[Extent], [across, down]: [u32; 2]) -> Self {
         let bins_of = |extent: &Extent| {
-            let [columns, lines] = extent.map(|[first, last]| first / BIN..=last / BIN);
+            let [columns, lines] = extent.each(|[first, last]| first / BIN..=last / BIN);
             lines.flat_map(move |line| columns.clone().map(move |column| (line * across + column) as usize))
         };
         let mut starts = vec![0_u32; (across * down) as usize + 1];

@@ -4,6 +4,7 @@ use super::bins::Extent;
 use super::clip::crossing;
 use super::spaces::{ClipPoint, Projection, clip_from_camera};
 use crate::bvh::by_axis;
+use crate::each::Each;
 use crate::shapes::{Bounds, Shape};
 use glam::{DVec2, DVec3};
 
@@ -70,7 +71,7 @@ impl<'s> BoxExtents<'s> {
             let point = DVec3::from(by_axis(|axis| if number >> axis & 1 == 0 { min[axis] } else { max[axis] }));
             clip_from_camera(to_camera(point), half, is_perspective)
         };
-        let corners: [ClipPoint; 8] = std::array::from_fn(corner);
+        let corners: [ClipPoint; 8] = [0, 1, 2, 3, 4, 5, 6, 7].each(corner);
         let mut seen = Seen { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY };
         let finite = corners.iter().all(|corner| (corner.x + corner.y + corner.depth).is_finite());
         let (near, closest) = (NEAR * farthest, DVec3::ZERO.max(min).min(max).length());
@@ -159,14 +160,14 @@ impl Seen {
     /// Adds what is left of a box by the near plane: the corners in front of it, and where it crosses edges.
     #[inline(always)]
     fn add_in_front(&mut self, projection: &Projection, corners: &[ClipPoint; 8], near: f64) {
-        let in_front = corners.map(|corner| corner.depth >= near);
+        let in_front = corners.each(|corner| corner.depth >= near);
         for (corner, in_front) in corners.iter().zip(in_front) {
             if in_front {
                 self.add(projection.raster(*corner));
             }
         }
         if in_front.contains(&true) && in_front.contains(&false) {
-            for (from, to) in (0..8).flat_map(|from| [1, 2, 4].map(|bit| (from, from | bit))) {
+            for (from, to) in (0..8).flat_map(|from| [1, 2, 4].each(|bit| (from, from | bit))) {
                 let (inside, outside) = if in_front[from] { (from, to) } else { (to, from) };
                 if in_front[inside] && !in_front[outside] {
                     let depth = |number: usize| corners[number].depth - near;

@@ -3,6 +3,7 @@
 use super::bins::{BIN, Bins, Extent, bins_near, bins_of};
 use super::box_extent::{BoxExtent, BoxExtents};
 use super::spaces::Projection;
+use crate::each::Each;
 use crate::extract::{FilterTable, ShapesOf, box_evidence, radius_of};
 use crate::intersect::{HitColumn, HitPrimitives, Hits, RayColumn};
 use crate::plan::{Census, Column, Shared, Stage, StageKind, Table, TileSystems};
@@ -40,7 +41,7 @@ impl<S: Listed> RasterBoxes<S> {
     fn for_each_near(&self, tile: &Tile, mut keep: impl FnMut([[usize; 2]; 2], f64, usize)) {
         for bin in bins_near(tile) {
             let area = [(bin[0], tile.x, tile.width), (bin[1], tile.y, tile.height)]
-                .map(|(bin, start, count)| [start.max(bin * BIN), (start + count).min((bin + 1) * BIN) - 1]);
+                .each(|(bin, start, count)| [start.max(bin * BIN), (start + count).min((bin + 1) * BIN) - 1]);
             for &place in self.bins.list(bin) {
                 let (BoxExtent { pixels, nearest }, row) = self.boxes[place as usize];
                 let own = |axis: usize, start: u32| {

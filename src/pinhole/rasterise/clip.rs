@@ -2,6 +2,8 @@
 
 use super::spaces::{ClipPoint, Projection};
 
+use crate::each::Each;
+
 /// How far outside the image a vertex may lie without its triangle being clipped, in pixels.
 ///
 /// Together with the longest side of an image it is what keeps edge functions below 2⁵³, where f64 is exact.
@@ -52,7 +54,7 @@ pub struct ClipPlanes {
 impl ClipPlanes {
     /// The planes for an image, where no vertex is farther from the eye than this.
     pub fn new(projection: &Projection, farthest: f64) -> Self {
-        let sides = [projection.size.x, projection.size.y].map(|pixels| 1.0 + 2.0 * GUARD / pixels);
+        let sides = [projection.size.x, projection.size.y].each(|pixels| 1.0 + 2.0 * GUARD / pixels);
         Self { near: NEAR * farthest, sides }
     }
 

@@ -2,6 +2,7 @@
 
 use super::table::RasterTriangles;
 use super::triangle::{Edge, RasterTriangle, SUBPIXELS, within};
+use crate::each::Each;
 use crate::plan::Column;
 use crate::rays::{RasterPoints, Tile};
 use multiversion::multiversion;
@@ -49,7 +50,7 @@ impl Cover {
 /// Tests the samples near each triangle of the tile's bins.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn cover(own: &mut Cover, table: &RasterTriangles, (tile, raster): (&Tile, &RasterPoints), in_order: bool) {
-    let corner = [tile.x, tile.y].map(|pixels| f64::from(pixels) * SUBPIXELS);
+    let corner = [tile.x, tile.y].each(|pixels| f64::from(pixels) * SUBPIXELS);
     for ((points, corner), steps) in raster.slices().into_iter().zip(corner).zip([&mut own.x, &mut own.y]) {
         for (point, step) in points.iter().zip(steps) {
             // Rounded before the corner is taken away, so that no tile's size or place changes a sample.
@@ -85,7 +86,7 @@ impl TileTriangle {
     #[inline(always)]
     fn new(triangle: &RasterTriangle, tile: &Tile, number: usize) -> Self {
         let [a, b, c] = triangle.corners;
-        let corner = [tile.x, tile.y].map(|pixels| pixels as i32 * SUBPIXELS as i32);
+        let corner = [tile.x, tile.y].each(|pixels| pixels as i32 * SUBPIXELS as i32);
         let [right, down, at_corner] = triangle.plane.coefficients;
         let own = at_corner + right * f64::from(tile.x) + down * f64::from(tile.y);
         Self {
@@ -114,18 +115,22 @@ impl Cover {
     #[inline(always)]
     fn keep_nearest_at(&mut self, triangle: &TileTriangle, start: usize) {
         let rows = start..start + SAMPLES;
-        let [x, y] = [&self.x, &self.y].map(|column| of(&column[rows.clone()]));
-        let [ab, bc, ca] = triangle.edges.map(|edge| each(|sample| edge.at(x[sample], y[sample])));
+        let [x, y] = [&self.x, &self.y].each(|column| of(&column[rows.clone()]));
+        let [ab, bc, ca] = triangle.edges.each(|edge| samples(|sample| edge.at(x[sample], y[sample])));
         let [right, down, at_corner] = triangle.nearness;
-        let near: Samples = each(|sample| {
+        let near: Samples = samples(|sample| {
             let near = within(right * x[sample] + down * y[sample] + at_corner, triangle.range);
             if lesser(lesser(ab[sample], bc[sample]), ca[sample]) >= 0.0 { near } else { f64::NEG_INFINITY }
         });
         let (nearness, nearest) = (of(&self.nearness[rows.clone()]), of(&self.nearest[rows.clone()]));
         let wins = |sample: usize| near[sample] > nearness[sample];
-        let number = each(|sample| if wins(sample) { triangle.number } else { nearest[sample] });
-        self.nearest[rows.clone()].copy_from_slice(&number);
-        self.nearness[rows].copy_from_slice(&each(|sample| if wins(sample) { near[sample] } else { nearness[sample] }));
+        let number = samples(|sample| if wins(sample) { triangle.number } else { nearest[sample] });
+        let near = samples(|sample| if wins(sample) { near[sample] } else { nearness[sample] });
+        if let (Some(of_number), Some(of_nearness)) =
+            (self.nearest[rows.clone()].first_chunk_mut(), self.nearness[rows].first_chunk_mut())
+        {
+            (*of_number, *of_nearness) = (number, near);
+        }
     }
     // ANCHOR_END: keep_nearest
 }
@@ -134,14 +139,14 @@ impl Cover {
 type Samples = [f64; SAMPLES];
 
 #[inline(always)]
-fn each(of: impl Fn(usize) -> f64) -> Samples {
-    std::array::from_fn(of)
+fn samples(of: impl Fn(usize) -> f64) -> Samples {
+    [0, 1, 2, 3].each(of)
 }
 
 /// A few rows of a column.
 #[inline(always)]
 fn of(rows: &[f64]) -> Samples {
-    each(|sample| rows[sample])
+    samples(|sample| rows[sample])
 }
 
 /// The lesser of two numbers that are not NaN, in the one instruction that `f64::min` is not.

@@ -5,6 +5,8 @@ use super::spaces::{ClipPoint, Projection};
 use super::triangle::{Edge, NearnessPlane, RasterTriangle, SUBPIXELS};
 use multiversion::multiversion;
 
+use crate::each::Each;
+
 /// How many triangles are set up at once.
 const AT_ONCE: usize = 32;
 /// The most pixels of a triangle that is tested at all of their centres before it is kept.
@@ -106,15 +108,15 @@ impl Waiting {
             }
             let corner = |of: &[Whole; 2]| [of[0][lane], of[1][lane]];
             let [[left, right], [top, bottom]] =
-                ready.extent.each_ref().map(corner).map(|ends| ends.map(|end| end as u32));
+                ready.extent.each_ref().each(corner).each(|ends| ends.each(|end| end as u32));
             let Whose { shape, primitive, row } = self.whose[lane];
-            let coefficients = ready.coefficients.each_ref().map(|part| part[lane]);
+            let coefficients = ready.coefficients.each_ref().each(|part| part[lane]);
             into.triangles.push(RasterTriangle {
                 corners: [corner(&self.raster[0]), corner(&ready.raster[0]), corner(&ready.raster[1])],
                 shape,
                 primitive,
                 row,
-                plane: NearnessPlane { coefficients, range: ready.range.each_ref().map(|end| end[lane]) },
+                plane: NearnessPlane { coefficients, range: ready.range.each_ref().each(|end| end[lane]) },
             });
             into.extents.push([[left, right], [top, bottom]]);
         }
@@ -187,7 +189,7 @@ fn may_cover([a, b, c]: [[i32; 2]; 3], [left, right]: [i32; 2], [top, bottom]: [
         // Of few pixels, one line of up to four, or two or more lines of one or two.
         let across = if width == 1 { 0 } else { if width == 2 { pixel & 1 } else { pixel } };
         let down = if width == 1 { pixel } else { if width == 2 { pixel >> 1 } else { 0 } };
-        let [x, y] = [across, down].map(|pixels| (f64::from(pixels) + 0.5) * SUBPIXELS);
+        let [x, y] = [across, down].each(|pixels| (f64::from(pixels) + 0.5) * SUBPIXELS);
         let inside = (edges[0].at(x, y) >= 0.0) & (edges[1].at(x, y) >= 0.0) & (edges[2].at(x, y) >= 0.0);
         covers |= inside & (pixel < count);
     }

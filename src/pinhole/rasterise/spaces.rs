@@ -3,6 +3,7 @@
 
 use super::triangle::{NearnessPlane, within};
 use crate::cameras::{ImageFrame, RaySpread};
+use crate::each::Each;
 use crate::extract::{CameraAxes, camera_spread, no_plane_to_rasterise};
 use crate::plan::{Census, Table};
 use crate::scene::SceneError;
@@ -128,7 +129,7 @@ pub(super) struct RayProjection {
 impl RayProjection {
     /// That of an image.
     pub fn new(&Projection { camera_from_world, half, is_perspective, size }: &Projection) -> Self {
-        let [right, up, back] = [0, 1, 2].map(|row| camera_from_world.row(row));
+        let [right, up, back] = [0, 1, 2].each(|row| camera_from_world.row(row));
         let centre = 0.5 * size;
         let (right, down) = (centre.x / half.x * right, -centre.y / half.y * up);
         let rows = match is_perspective {

@@ -5,6 +5,7 @@ use super::clip::{ClipPlanes, Polygon};
 use super::setup::{Image, Unsorted, Waiting, Whose, pixels};
 use super::spaces::{ClipPoint, Projection};
 use super::triangle::{RasterTriangle, SUBPIXELS, fixed};
+use crate::each::Each;
 use crate::extract::{FilterTable, MeshTable, TriangleTable, radius_of};
 use crate::intersect::NO_PRIMITIVE;
 use crate::plan::{Census, Table};
@@ -66,10 +67,10 @@ impl Setup<'_> {
     /// Adds a triangle to those that wait, or the triangles that clipping leaves of it.
     #[inline(always)]
     fn push(&self, corners: [Vertex; 3], whose: Whose, waiting: &mut Waiting, into: &mut Unsorted) {
-        let clip = corners.map(|corner| corner.clip);
-        match corners.map(|corner| corner.raster) {
+        let clip = corners.each(|corner| corner.clip);
+        match corners.each(|corner| corner.raster) {
             [Some(a), Some(b), Some(c)] => {
-                let nearness = corners.map(|corner| corner.nearness);
+                let nearness = corners.each(|corner| corner.nearness);
                 waiting.push([a, b, c], (clip, nearness), whose, (self.image(), into));
             }
             _ => self.push_clipped(clip, whose, waiting, into),
@@ -83,8 +84,8 @@ impl Setup<'_> {
         let Some((first, others)) = polygon.points().split_first() else { return };
         for pair in others.windows(2) {
             let part = [*first, pair[0], pair[1]];
-            let raster = part.map(|point| fixed(self.projection.raster(point)));
-            let nearness = part.map(|point| self.projection.nearness(point));
+            let raster = part.each(|point| fixed(self.projection.raster(point)));
+            let nearness = part.each(|point| self.projection.nearness(point));
             waiting.push(raster, (corners, nearness), whose, (self.image(), into));
         }
     }
@@ -98,9 +99,9 @@ impl RasterTriangles {
     /// The pixels of a tile that may have a sample inside a triangle: the first and last to the right and downward.
     #[inline(always)]
     pub fn pixels_of(&self, triangle: &RasterTriangle, tile: &Tile) -> Option<[[usize; 2]; 2]> {
-        let size = [tile.x + tile.width, tile.y + tile.height].map(|pixels| pixels as i32);
+        let size = [tile.x + tile.width, tile.y + tile.height].each(|pixels| pixels as i32);
         let along = |axis: usize, start: u32| {
-            let [first, last] = pixels(triangle.corners.map(|corner| corner[axis]), self.margin, size[axis]);
+            let [first, last] = pixels(triangle.corners.each(|corner| corner[axis]), self.margin, size[axis]);
             let own = |pixel: i32| (pixel as u32).saturating_sub(start) as usize;
             (first <= last && last >= start as i32).then(|| [own(first), own(last)])
         };
@@ -189,14 +190,14 @@ impl<'s> Source<'s> {
         match self {
             Self::Table(table, rows) => {
                 for row in rows.start + places.start..rows.start + places.end {
-                    let corners = table.row[row].corners.map(|corner| setup.vertex(setup.projection.clip(corner)));
+                    let corners = table.row[row].corners.each(|corner| setup.vertex(setup.projection.clip(corner)));
                     let whose = Whose { shape: table.shape[row], primitive: NO_PRIMITIVE, row: row as u32 };
                     setup.push(corners, whose, waiting, into);
                 }
             }
             Self::Mesh(mesh, vertices, whose) => {
                 for triangle in places {
-                    let corners = mesh.geometry.triangles[triangle].map(|vertex| vertices[vertex as usize]);
+                    let corners = mesh.geometry.triangles[triangle].each(|vertex| vertices[vertex as usize]);
                     setup.push(corners, Whose { primitive: triangle as u32, ..*whose }, waiting, into);
                 }
             }
@@ -212,7 +213,7 @@ impl Setup<'_> {
         let position = camera_from_world * mesh.position;
         let Projection { half, is_perspective, .. } = *self.projection;
         let vertices = mesh.geometry.positions.par_iter().with_min_len(TASK).map(|vertex| {
-            let camera = camera_from_object * DVec3::from(vertex.map(f64::from)) + position;
+            let camera = camera_from_object * DVec3::from(vertex.each(f64::from)) + position;
             self.vertex(super::spaces::clip_from_camera(camera, half, is_perspective))
         });
         vertices.collect()

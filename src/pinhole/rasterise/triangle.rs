@@ -3,6 +3,8 @@
 use super::spaces::{ClipPoint, Projection};
 use glam::DVec2;
 
+use crate::each::Each;
+
 /// The steps of a pixel to which vertices and samples are rounded.
 pub const SUBPIXELS: f64 = 256.0;
 
@@ -36,8 +38,8 @@ pub struct NearnessPlane {
 impl NearnessPlane {
     /// The plane through three clip points; none if it holds the eye, so that it is seen from the side.
     pub fn through(projection: &Projection, corners: [ClipPoint; 3]) -> Option<Self> {
-        let coefficients = Self::coefficients(projection, corners.map(|corner| projection.camera(corner).into()));
-        let nearness = corners.map(|corner| projection.nearness(corner));
+        let coefficients = Self::coefficients(projection, corners.each(|corner| projection.camera(corner).into()));
+        let nearness = corners.each(|corner| projection.nearness(corner));
         let range = [
             nearness.into_iter().fold(f64::INFINITY, f64::min),
             nearness.into_iter().fold(f64::NEG_INFINITY, f64::max),
@@ -86,7 +88,7 @@ pub fn within(number: f64, [min, max]: [f64; 2]) -> f64 {
 /// A raster coordinate in 1/256 of a pixel.
 #[inline(always)]
 pub fn fixed(raster: DVec2) -> [i32; 2] {
-    [raster.x, raster.y].map(|coordinate| {
+    [raster.x, raster.y].each(|coordinate| {
         let steps = coordinate * SUBPIXELS + 0.5;
         // A cast rounds towards 0, and calls no function as `floor` would.
         let towards_0 = steps as i32;
@@ -98,9 +100,9 @@ pub fn fixed(raster: DVec2) -> [i32; 2] {
 /// The edge function of a point: twice the area of the triangle from, to, point; positive to the right of the edge.
 #[inline(always)]
 pub fn edge_function(from: [i32; 2], to: [i32; 2], point: [i32; 2]) -> i64 {
-    let [fx, fy] = from.map(i64::from);
-    let [tx, ty] = to.map(i64::from);
-    let [px, py] = point.map(i64::from);
+    let [fx, fy] = from.each(i64::from);
+    let [tx, ty] = to.each(i64::from);
+    let [px, py] = point.each(i64::from);
     (tx - fx) * (py - fy) - (ty - fy) * (px - fx)
 }
 // ANCHOR_END: edge_function

@@ -2,6 +2,7 @@ use super::ScreenPoints;
 use crate::cameras::{
     Camera, CameraRaySlices, Listed, OrthographicWindow, PerspectiveProjection, ScreenSlices, with_cameras,
 };
+use crate::each::Each;
 use crate::extract::lens_evidence;
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, VectorRows, column};
 use bevy_ecs::prelude::*;
@@ -20,7 +21,7 @@ column! {
 impl CameraRays {
     /// Paints the direction: each component from −1 to 1 is mapped to 0 to 1.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.direction.at(row).map(|component| (0.5 + 0.5 * component) as f32)
+        self.direction.at(row).each(|component| (0.5 + 0.5 * component) as f32)
     }
 }
 

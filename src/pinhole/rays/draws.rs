@@ -1,6 +1,7 @@
 //! Random numbers of rays.
 
 use super::{Depth, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
+use crate::each::Each;
 use crate::extract::SamplingTable;
 use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
 use bevy_ecs::query::QueryData;
@@ -115,7 +116,7 @@ impl Draws<'_> {
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn points_of_pixels<D: Draw>(draw: D, seed: u64, [xs, ys]: &[[u32; AT_ONCE]; 2], into: &mut [[f64; 2]]) {
     for (point, (&x, &y)) in into.iter_mut().zip(xs.iter().zip(ys)) {
-        *point = draw.two(PixelKey::new(seed, [x, y])).map(unit);
+        *point = draw.two(PixelKey::new(seed, [x, y])).each(unit);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::draws::{Draws, draw_one};
 use super::{PixelSamples, RasterPoints, SampleNumber, Tile};
+use crate::each::Each;
 use crate::extract::{SamplingTable, ShutterTable, motion_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use crate::sample::Purpose;
@@ -23,7 +24,7 @@ column! {
 impl Paths {
     /// Paints the throughput.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.throughput(row).map(|component| component as f32)
+        self.throughput(row).each(|component| component as f32)
     }
 }
 
@@ -38,7 +39,7 @@ column! {
 impl PathLight {
     /// Paints the radiance.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.rgb(row).map(|component| component as f32)
+        self.rgb(row).each(|component| component as f32)
     }
 }
 

@@ -1,4 +1,5 @@
 use super::{RasterPoints, Tile};
+use crate::each::set_all;
 use crate::extract::{FilterTable, SamplingTable};
 use crate::filters::{FilterCells, Kernel, table_offset, with_filter};
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems, column};
@@ -79,7 +80,7 @@ pub fn place_samples(
         let [xs, ys] = raster.slices_mut(active.len());
         let (of_pixel, sample) = samples.slices_mut(active.len());
         of_pixel.copy_from_slice(active);
-        sample.fill(number);
+        set_all(sample, number);
 
         let to = (active.as_slice(), tile, sampling.seed);
         let sample = SampleIndex { number, samples: sampling.samples, depth: 0 };

@@ -2,6 +2,7 @@
 
 use super::Paths;
 use super::draws::{DrawsView, draw_one};
+use crate::each::Each;
 use crate::extract::{SamplingTable, wavelength_evidence};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
 use crate::sample::{Purpose, Spectrum};
@@ -35,7 +36,7 @@ column! {
 impl WavelengthWeights {
     /// Paints the weight.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.rgb(row).map(|part| part as f32)
+        self.rgb(row).each(|part| part as f32)
     }
 }
 

@@ -1,4 +1,5 @@
 use super::{CameraRays, RayTimes};
+use crate::each::Each;
 use crate::extract::{CameraAxes, RayOrigins, ShutterTable, camera_moves_evidence, ray_origins_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems, VectorRows, VectorRowsMut, column};
 use bevy_ecs::prelude::*;
@@ -18,7 +19,7 @@ column! {
 impl WorldRays {
     /// Paints the direction: each component from −1 to 1 is mapped to 0 to 1.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.direction.at(row).map(|component| 0.5 + 0.5 * component)
+        self.direction.at(row).each(|component| 0.5 + 0.5 * component)
     }
 }
 

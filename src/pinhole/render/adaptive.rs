@@ -1,3 +1,4 @@
+use crate::each::Each;
 use crate::film::{Film, FilmTile};
 
 /// The constant added to the square of a pixel's radiance before its squared error is divided by it, as in relMSE.
@@ -134,9 +135,9 @@ pub fn error_of(film: &Film) -> Option<f64> {
         for row in 0..tile.tile.rows() {
             let variance = if film.moments.is_empty() {
                 let Some([last, before]) = tile.blocks_of(row) else { continue };
-                let [n, m] = [last.1, before.1].map(f64::from);
+                let [n, m] = [last.1, before.1].each(f64::from);
                 let weight = n * m / ((n + m) * (n + m));
-                mean_of([0, 1, 2].map(|part| {
+                mean_of([0, 1, 2].each(|part| {
                     let apart = last.0[part] / n - before.0[part] / m;
                     apart * apart * weight
                 }))
@@ -157,7 +158,7 @@ fn mean_of(parts: [f64; 3]) -> f64 {
 }
 
 fn mean_square(mean: [f64; 3]) -> f64 {
-    mean_of(mean.map(|part| part * part))
+    mean_of(mean.each(|part| part * part))
 }
 
 /// The errors of a film's pixels, estimated from its own samples.

@@ -1,5 +1,6 @@
 use super::clock::{Lap, laps_of, thread_time};
 use super::render_world::{Hook, RenderWorld};
+use crate::each::Each;
 use crate::extract::{FilterTable, ImageFrame, LightTracingTable, SamplingTable, pixel_width};
 use crate::film::{Film, FilmSplats, SplatFilter};
 use crate::follow::{
@@ -375,7 +376,7 @@ impl SamplePass {
             found.extend((0..list.rows()).map(|row| Photon {
                 position: list.position(row),
                 to_light: list.to_light(row),
-                power: list.power(row).map(|part| (part * each) as f32),
+                power: list.power(row).each(|part| (part * each) as f32),
                 segments: list.segments(row),
             }));
         }

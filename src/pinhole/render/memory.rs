@@ -1,3 +1,4 @@
+use crate::each::Each;
 use crate::extract::{FilterTable, ImageFrame, LayerTable, LightTracingTable, SamplingTable, adaptive_of};
 use crate::film::{BLOCK, FilmLayers, FilmMoments, MATTE_BYTES};
 use crate::follow::{LIGHT_VERTEX_BYTES, LightVertices, PHOTON_BYTES, Photons, Splats};
@@ -83,7 +84,7 @@ pub fn check_film_fits(scene: &Census<'_>, plan: &Plan) -> Result<(), SceneError
 fn fitting(size: [u32; 2], a_pixel: u64, too_little: TooLittleMemory) -> String {
     let pixels = size.iter().map(|&side| f64::from(side)).product::<f64>();
     let scale = (too_little.usable() as f64 / a_pixel as f64 / pixels).sqrt();
-    let [width, height] = size.map(|side| {
+    let [width, height] = size.each(|side| {
         let side = (f64::from(side) * scale) as u32;
         let digit = 10_u32.pow(side.max(10).ilog10() - 1);
         (side / digit * digit).max(1)

@@ -1,5 +1,7 @@
 use std::f64::consts::{FRAC_PI_4, TAU};
 
+use crate::each::Each;
+
 /// A number so large that f64 has no binary places left beside it: what is added to it is rounded to whole numbers.
 const NO_PLACES: f64 = 1.5 * (1_u64 << 52) as f64;
 
@@ -57,7 +59,7 @@ const LAST: f64 = 1.0 - 1.0 / (1 << 24) as f64;
 /// rim or at the centre.
 #[inline(always)]
 pub fn disk_point(u: [f64; 2]) -> DiskPoint {
-    let [a, b] = u.map(|u| (2.0 * u - LAST).min(LAST));
+    let [a, b] = u.each(|u| (2.0 * u - LAST).min(LAST));
     let is_wide = a.abs() > b.abs();
     let (radius, along) = if is_wide { (a, b) } else { (b, a) };
     let ratio = if radius == 0.0 { 0.0 } else { along / radius };
@@ -77,7 +79,7 @@ pub fn square_of_disk(fraction: f64, turn: f64) -> [f64; 2] {
         2 => [-radius, -along],
         _ => [along, -radius],
     };
-    at.map(|of| 0.5 * (LAST + of))
+    at.each(|of| 0.5 * (LAST + of))
 }
 
 /// A point of the unit disk: so far in a direction, or against it.
@@ -106,13 +108,13 @@ impl DiskPoint {
     #[inline(always)]
     pub fn at(self, distance: f64) -> [f64; 2] {
         let signed = distance.copysign(self.radius);
-        self.direction.map(|part| signed * part)
+        self.direction.each(|part| signed * part)
     }
 
     /// The point.
     #[inline(always)]
     pub fn point(self) -> [f64; 2] {
-        self.direction.map(|part| self.radius * part)
+        self.direction.each(|part| self.radius * part)
     }
 }
 

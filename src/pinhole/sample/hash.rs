@@ -1,5 +1,7 @@
 use glam::DVec3;
 
+use crate::each::Each;
+
 /// A hash of a pixel and the seed, from which the pixel's random numbers are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PixelKey(u64);
@@ -46,7 +48,7 @@ impl RandomStream {
     /// The stream that depends on every bit of a ray and of a salt.
     #[inline(always)]
     pub fn of_ray(ray: [DVec3; 2], salt: u64) -> Self {
-        let parts = ray.map(|vector| vector.to_array());
+        let parts = ray.each(|vector| vector.to_array());
         Self(parts.as_flattened().iter().fold(mixed(salt), |bits, part| mixed(bits ^ part.to_bits())))
     }
 

@@ -3,6 +3,7 @@
 //! Each pixel of a line is one trial with random numbers of its own.
 
 use super::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
+use crate::each::Each;
 use crate::scene::Sampler;
 use std::f64::consts::PI;
 
@@ -86,7 +87,7 @@ fn errors<D: Draw>(draw: impl Fn(u32) -> D, f: Integrand, samples: u32, trials: 
     let draws: Vec<D> = (0..samples).map(draw).collect();
     let mean = |trial: u32| {
         let pixel = PixelKey::new(seed, [trial, 0]);
-        let sum: f64 = draws.iter().map(|draw| (f.value)(draw.two(pixel).map(unit))).sum();
+        let sum: f64 = draws.iter().map(|draw| (f.value)(draw.two(pixel).each(unit))).sum();
         sum / f64::from(samples)
     };
     (0..trials).map(|trial| mean(trial) - f.mean).collect()

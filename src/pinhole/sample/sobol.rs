@@ -1,6 +1,8 @@
 use super::hash::halves;
 use super::{Draw, PixelKey, Purpose, SampleIndex, owen_scrambled};
 
+use crate::each::Each;
+
 /// The primitive polynomial of a dimension (degree and coefficients), and its initial direction numbers.
 type JoeKuo = (usize, u32, [u32; 3]);
 
@@ -109,7 +111,7 @@ impl Sobol {
         let number = if set == 0 && depth == 0 { sample } else { shuffled(sample, depth * SETS + set) };
         let second = first + purpose.numbers() - 1;
         let dimension = purpose.dimension(depth);
-        Self { dimension, reversed: [first, second].map(|within| sobol_bits(number, within)) }
+        Self { dimension, reversed: [first, second].each(|within| sobol_bits(number, within)) }
     }
 }
 
@@ -138,7 +140,7 @@ impl Draw for Sobol {
     #[inline(always)]
     fn two(self, pixel: PixelKey) -> [u32; 2] {
         let seeds = halves(pixel.bits(self.dimension, 0));
-        [0, 1].map(|axis| owen_scrambled(self.reversed[axis], seeds[axis]).reverse_bits())
+        [0, 1].each(|axis| owen_scrambled(self.reversed[axis], seeds[axis]).reverse_bits())
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::sync::LazyLock;
 
+use crate::each::Each;
+
 /// The shortest and the longest wavelength of a path, in nm.
 pub const SPECTRUM: [u32; 2] = [380, 780];
 
@@ -38,7 +40,7 @@ const RGB_FROM_XYZ: [[f64; 3]; 3] = [
 /// are, at least one component is negative.
 fn rgb_of(wavelength: f64) -> [f64; 3] {
     let xyz = colour_matching(wavelength);
-    RGB_FROM_XYZ.map(|row| (0..3).map(|part| row[part] * xyz[part]).sum())
+    RGB_FROM_XYZ.each(|row| (0..3).map(|part| row[part] * xyz[part]).sum())
 }
 
 /// The spectrum by intervals of 1 nm.
@@ -61,8 +63,8 @@ fn size([r, g, b]: [f64; 3]) -> f64 {
 static TABLE: LazyLock<Spectrum> = LazyLock::new(|| {
     let middle = |interval: usize| f64::from(SPECTRUM[0]) + interval as f64 + 0.5;
     let colours: Vec<[f64; 3]> = (0..INTERVALS).map(|interval| rgb_of(middle(interval))).collect();
-    let whole = [0, 1, 2].map(|channel| colours.iter().map(|rgb| rgb[channel]).sum::<f64>());
-    let share: Vec<_> = colours.iter().map(|rgb| [0, 1, 2].map(|channel| rgb[channel] / whole[channel])).collect();
+    let whole = [0, 1, 2].each(|channel| colours.iter().map(|rgb| rgb[channel]).sum::<f64>());
+    let share: Vec<_> = colours.iter().map(|rgb| [0, 1, 2].each(|channel| rgb[channel] / whole[channel])).collect();
     let all: f64 = share.iter().copied().map(size).sum();
     let mut sum = 0.0;
     let below = share.iter().map(|&own| {
@@ -87,7 +89,7 @@ impl Spectrum {
         let from = if interval == 0 { 0.0 } else { self.below[interval - 1] };
         let within = ((number - from) / (self.below[interval] - from)).clamp(0.0, 1.0);
         let (share, probability) = self.at(interval);
-        (f64::from(SPECTRUM[0]) + interval as f64 + within, share.map(|part| part / probability))
+        (f64::from(SPECTRUM[0]) + interval as f64 + within, share.each(|part| part / probability))
     }
     // ANCHOR_END: spectrum
 

@@ -4,6 +4,7 @@ use super::radiance::{LightSamplingView, LightSamplingViewItem};
 use super::receivers::{
     AT_ONCE, LightDraws, LightRay, LightRows, MakesRays, RayLists, Starts, append_rays, append_sampled,
 };
+use crate::each::Each;
 use crate::extract::{AreaLightTable, SamplingTable, area_light_evidence, light_sampling_evidence, material_evidence};
 use crate::intersect::Surface;
 use crate::lights::Receiver;
@@ -92,7 +93,7 @@ pub fn sample_area_lights(
             let to = (&mut *rays, pdfs.as_deref_mut());
             let (sample, key) = (draws.sample(), |row| draws.key(row));
             with_sampler!(sampling.sampler, D => {
-                let drawn = [Purpose::LightChoice, Purpose::LightPoint].map(|purpose| D::of(sample, purpose));
+                let drawn = [Purpose::LightChoice, Purpose::LightPoint].each(|purpose| D::of(sample, purpose));
                 sample_one_of_many(drawn, key, &lights, &receivers, to);
             });
             continue;
@@ -263,7 +264,7 @@ fn sample_one_of_many<D: Draw>(
         let (light, probability) = lights.choose(&receiver, choice.one(key));
         let mut ray = LightRay::default();
         lights.with_light(light, |emitter, radiance, one_sided| {
-            let (light, u) = ((radiance, one_sided, probability), place.two(key).map(unit));
+            let (light, u) = ((radiance, one_sided, probability), place.two(key).each(unit));
             visit_emitter(emitter, OneRay { light, surface, normal, u, ray: &mut ray });
         });
         ray

@@ -5,6 +5,7 @@ use super::ShadowRays;
 use super::light::{ShadowRay, cosine_of, shadow_t_max};
 use super::radiance::{LightSamplingView, LightSamplingViewItem};
 use super::receivers::{LightRay, LightRows, MakesRays, RayLists, append_rays, append_sampled, is_apart};
+use crate::each::Each;
 use crate::extract::{
     LightChoice, LightsOf, SamplingTable, lights_evidence, many_lights_evidence, material_evidence, unless_occlusion,
 };
@@ -30,7 +31,7 @@ impl<L: Light> MakesRays for L {
         let sample = self.sample(origin.as_dvec3());
         let cosine = cosine_of(surface, normal, sample.direction);
         let irradiance = L::irradiance(&sample, cosine);
-        let [r, g, b] = sample.strength.map(|part| part != 0.0);
+        let [r, g, b] = sample.strength.each(|part| part != 0.0);
         let ray = ShadowRay {
             origin,
             direction: sample.direction,
@@ -80,7 +81,7 @@ fn chosen_ray<L: ListedLight>(
     let receiver = Receiver { position: origin.as_dvec3(), normal: surface.normal.as_dvec3(), depth: 0 };
     let (light, probability) = choice.choose(&receiver, fraction);
     let mut light_ray = lights.row[light].ray_from(surface, normal, [0.0; 2]);
-    light_ray.irradiance = light_ray.irradiance.map(|part| part / probability);
+    light_ray.irradiance = light_ray.irradiance.each(|part| part / probability);
     if !lights.casts_shadows[light] {
         light_ray.t_max = 0.0;
     }

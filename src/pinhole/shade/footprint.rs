@@ -1,5 +1,6 @@
 //! A pixel's footprint on a surface.
 
+use crate::each::Each;
 use crate::extract::{
     EmissionMapTable, MeshTable, PixelSteps, ShapeTable, UvSlopes, filtered_emission_evidence, filtered_evidence,
     kind_evidence,
@@ -93,7 +94,7 @@ pub fn compute_footprints(
                     [steps.origin[0] + steps.direction[0] * distance, steps.origin[1] + steps.direction[1] * distance]
                 }
                 Some(angle) => {
-                    <[DVec3; 2]>::from(direction.any_orthonormal_pair()).map(|tangent| tangent * (angle * hits.t[row]))
+                    <[DVec3; 2]>::from(direction.any_orthonormal_pair()).each(|tangent| tangent * (angle * hits.t[row]))
                 }
             };
             right.put(row, step_on_surface(moved[0], direction, normal));

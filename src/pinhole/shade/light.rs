@@ -1,3 +1,4 @@
+use crate::each::Each;
 use crate::extract::{
     area_light_evidence, delta_light_evidence, environment_light_evidence, joined_evidence, light_sampling_evidence,
     material_evidence, occlusion_evidence, unless_occlusion,
@@ -49,14 +50,14 @@ ray_vectors!(ShadowRays);
 impl ShadowRays {
     /// The direction, each component mapped from [−1, 1] to [0, 1].
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.direction.at(row).map(|part| 0.5 + 0.5 * part)
+        self.direction.at(row).each(|part| 0.5 + 0.5 * part)
     }
 
     /// Multiplies a ray's irradiance by a weight, colour by colour.
     #[inline(always)]
     pub fn weight_by(&mut self, ray: usize, weight: [f64; 3]) {
         let carried = self.irradiance(ray);
-        self.irradiance.put(ray, [0, 1, 2].map(|part| (f64::from(carried[part]) * weight[part]) as f32));
+        self.irradiance.put(ray, [0, 1, 2].each(|part| (f64::from(carried[part]) * weight[part]) as f32));
     }
 }
 

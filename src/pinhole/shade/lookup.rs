@@ -1,5 +1,6 @@
 //! Points of an image → a colour.
 
+use crate::each::Each;
 use crate::extract::{Pyramid, Texels, TexturePoint};
 use crate::scene::WrapMode;
 use glam::{DMat2, DVec2, DVec3};
@@ -7,7 +8,7 @@ use glam::{DMat2, DVec2, DVec3};
 /// Linear interpolation from a to b; exactly a at t = 0, and exact where a and b are equal.
 #[inline(always)]
 pub fn between(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
-    [0, 1, 2].map(|part| a[part] + t * (b[part] - a[part]))
+    [0, 1, 2].each(|part| a[part] + t * (b[part] - a[part]))
 }
 
 /// The index of a texel, wrapped into the image.
@@ -44,12 +45,12 @@ fn texel_point(image: &Texels, at: DVec2, wrap: [WrapMode; 2]) -> DVec2 {
 pub fn transformed(at: TexturePoint, transform: &Option<(DMat2, DVec2)>) -> TexturePoint {
     let Some((matrix, offset)) = transform else { return at };
     let step = |step: DVec3| if step.is_finite() { (*matrix * step.truncate()).extend(0.0) } else { DVec3::INFINITY };
-    TexturePoint { point: (*matrix * at.point.truncate() + *offset).extend(0.0), steps: at.steps.map(step) }
+    TexturePoint { point: (*matrix * at.point.truncate() + *offset).extend(0.0), steps: at.steps.each(step) }
 }
 
 #[inline(always)]
 fn texel(image: &Texels, x: usize, y: usize) -> [f64; 3] {
-    image.rgb[y * image.width + x].map(f64::from)
+    image.rgb[y * image.width + x].each(f64::from)
 }
 
 /// The texel that contains a point of the unit square; (0, 0) is the image's upper left corner.
@@ -66,10 +67,10 @@ pub fn nearest_texel(image: &Texels, at: DVec2, wrap: [WrapMode; 2]) -> [f64; 3]
 pub fn bilinear(image: &Texels, at: DVec2, wrap: [WrapMode; 2]) -> [f64; 3] {
     let point = texel_point(image, at, wrap) - 0.5;
     let (corner, t) = (point.floor(), point - point.floor());
-    let columns = [corner.x, corner.x + 1.0].map(|x| wrapped(x, image.width, wrap[0]));
-    let rows = [corner.y, corner.y + 1.0].map(|y| wrapped(y, image.height, wrap[1]));
-    let [above, below] = rows.map(|y| {
-        let [left, right] = columns.map(|x| texel(image, x, y));
+    let columns = [corner.x, corner.x + 1.0].each(|x| wrapped(x, image.width, wrap[0]));
+    let rows = [corner.y, corner.y + 1.0].each(|y| wrapped(y, image.height, wrap[1]));
+    let [above, below] = rows.each(|y| {
+        let [left, right] = columns.each(|x| texel(image, x, y));
         between(left, right, t.x)
     });
     between(above, below, t.y)
@@ -98,7 +99,7 @@ const MAX_LOOKUPS: f64 = 16.0;
 pub fn image_mean(pyramid: &Pyramid, at: &TexturePoint, wrap: [WrapMode; 2]) -> [f64; 3] {
     let image = &pyramid.levels[0];
     let size = DVec2::new(image.width as f64, image.height as f64);
-    let [right, down] = at.steps.map(|step| step.truncate() * size);
+    let [right, down] = at.steps.each(|step| step.truncate() * size);
     let (long, short) = if right.length() >= down.length() { (right, down) } else { (down, right) };
     let length = long.length();
     if !length.is_finite() {
@@ -115,10 +116,10 @@ pub fn image_mean(pyramid: &Pyramid, at: &TexturePoint, wrap: [WrapMode; 2]) -> 
         // Differences to the first lookup are summed, so that a constant image keeps its value exactly.
         sum = Some(match sum {
             None => (colour, [0.0; 3]),
-            Some((first, sum)) => (first, [0, 1, 2].map(|part| sum[part] + (colour[part] - first[part]))),
+            Some((first, sum)) => (first, [0, 1, 2].each(|part| sum[part] + (colour[part] - first[part]))),
         });
     }
-    sum.map_or([0.0; 3], |(first, sum)| [0, 1, 2].map(|part| first[part] + sum[part] / lookups))
+    sum.map_or([0.0; 3], |(first, sum)| [0, 1, 2].each(|part| first[part] + sum[part] / lookups))
 }
 // ANCHOR_END: image_mean
 

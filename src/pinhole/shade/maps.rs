@@ -4,6 +4,7 @@ use super::SurfaceColours;
 use super::footprint::{RowSlopes, with_mesh_slopes};
 use super::lookup::{bilinear, image_mean, nearest_texel, transformed};
 use super::textures::{UvPointView, UvPointViewItem};
+use crate::each::Each;
 use crate::extract::{
     EmissionMapTable, MaterialTable, MetallicRoughnessTable, NO_TEXTURE, NormalMapTable, ShapeSpaces, TexturePoint,
     UvImages, UvSlopes, emission_map_evidence, filtered_emission_evidence, filtered_roughness_evidence,
@@ -90,7 +91,7 @@ impl EmissionFactors {
 /// The mean of an image over a pixel's footprint about a point of uv, or its nearest texel.
 pub(super) fn looked_up(images: &UvImages, map: usize, uv: TexturePoint) -> [f64; 3] {
     let (size, wrap, pyramid) = (images.size[map], images.wrap[map], &images.pyramid[map]);
-    let at = TexturePoint { point: uv.point / size, steps: uv.steps.map(|step| step / size) };
+    let at = TexturePoint { point: uv.point / size, steps: uv.steps.each(|step| step / size) };
     let at = transformed(at, &images.transform[map]);
     if images.filter[map] {
         image_mean(pyramid, &at, wrap)
@@ -144,7 +145,7 @@ pub fn evaluate_emission(
                 continue;
             }
             let factor = looked_up(&maps.images, map as usize, at.uv_point(&spaces, &slopes, row));
-            factors.put(row, factor.map(|part| part.max(0.0) as f32));
+            factors.put(row, factor.each(|part| part.max(0.0) as f32));
         }
     }
 }
@@ -179,7 +180,7 @@ pub fn emission_map_stage() -> Stage {
 pub fn uv_directions(normal: DVec3, change: impl Fn(DVec3) -> DVec3) -> [DVec3; 2] {
     let frame = frame_of(normal);
     let (one, other) = (change(frame.x_axis), change(frame.y_axis));
-    let [u, v] = [DVec2::new(one.x, other.x), DVec2::new(one.y, other.y)].map(|row| row / row.abs().max_element());
+    let [u, v] = [DVec2::new(one.x, other.x), DVec2::new(one.y, other.y)].each(|row| row / row.abs().max_element());
     let sign = u.perp_dot(v).signum();
     let along = |row: DVec2| sign * (row.y * frame.x_axis - row.x * frame.y_axis);
     [along(v), along(u)]
@@ -243,7 +244,7 @@ pub fn map_normals(
             if let Some((matrix, offset)) = maps.transform[map] {
                 at = matrix * at + offset;
             }
-            let [x, y, z] = bilinear(&maps.image[map].texels, at, maps.wrap[map]).map(|part| 2.0 * part - 1.0);
+            let [x, y, z] = bilinear(&maps.image[map].texels, at, maps.wrap[map]).each(|part| 2.0 * part - 1.0);
             let local = DVec3::new(x * maps.scale[map], y * maps.scale[map], z);
             if local.x == 0.0 && local.y == 0.0 {
                 continue;

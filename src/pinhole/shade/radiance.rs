@@ -2,6 +2,7 @@
 
 use super::light::light_evidence;
 use super::{EmissionFactors, LightPdfs, ShadowHits, ShadowRays, SurfaceColours, TransmissiveRows};
+use crate::each::Each;
 use crate::extract::{
     EmissiveTable, MaterialTable, emissive_evidence, followed_evidence, light_sampling_evidence, material_evidence,
     occlusion_evidence, one_sided_evidence, traced_evidence, unless_occlusion,
@@ -90,7 +91,7 @@ pub fn shade_unlit(
             let row = row as usize;
             let material = surfaces.material[row] as usize;
             let colour = colours.map_or_else(|| materials.parameters[material].colour, |colours| colours.rgb(row));
-            radiance.rgb.put(row, colour.map(|part| part as f32));
+            radiance.rgb.put(row, colour.each(|part| part as f32));
         }
     }
 }

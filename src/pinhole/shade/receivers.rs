@@ -2,6 +2,7 @@
 
 use super::light::ShadowRay;
 use super::{LightPdfs, ShadowRays, TransmissiveRows};
+use crate::each::{Each, by_lane};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, SurfaceSlices, Surfaces};
 use crate::plan::{Column, VectorRows, VectorRowsMut};
 use crate::shapes::offset_origin;
@@ -53,7 +54,7 @@ impl<'a> LightRows<'a> {
     pub fn starts(&self, rows: &[u32], behind: bool) -> Starts {
         let (mut starts, surfaces) = ([[0.0; AT_ONCE]; 3], self.surfaces.to_read());
         let sign = if behind { -1.0 } else { 1.0 };
-        for (lane, &row) in (0..AT_ONCE).zip(rows) {
+        for (lane, row) in by_lane::<AT_ONCE, _>(rows) {
             let surface = surfaces.get(row as usize);
             starts.put(lane, offset_origin(surface.position, sign * surface.normal, surface.bound));
         }
@@ -197,7 +198,7 @@ impl SurfaceBlock {
 
     #[inline(always)]
     fn get(&self, lane: usize) -> (Surface, DVec3) {
-        let [position, normal] = [&self.position, &self.geometric].map(|vectors| Vec3::from(vectors.at(lane)));
+        let [position, normal] = [&self.position, &self.geometric].each(|vectors| Vec3::from(vectors.at(lane)));
         let surface = Surface { position, normal, bound: self.bound[lane], material: self.material[lane] };
         (surface, self.normal.at(lane).into())
     }
@@ -225,7 +226,7 @@ impl LightRayBlock {
         self.origin.put(lane, ray.origin);
         self.direction.put(lane, ray.direction);
         self.t_max[lane] = *t_max;
-        self.irradiance.put(lane, irradiance.map(|part| if part < MAX { part as f32 } else { f32::MAX }));
+        self.irradiance.put(lane, irradiance.each(|part| if part < MAX { part as f32 } else { f32::MAX }));
         self.pdf[lane] = *pdf;
         self.counts[lane] = u32::from((ray.cosine > 0.0) & is_apart(ray));
     }
@@ -253,10 +254,10 @@ fn append(
     let mut path = [0; AT_ONCE];
     let mut draws = draws.chunks(AT_ONCE);
     for rows in rows.chunks(AT_ONCE) {
-        for (lane, &row) in (0..AT_ONCE).zip(rows) {
+        for (lane, row) in by_lane::<AT_ONCE, _>(rows) {
             block.set(lane, receivers.of_row(row as usize));
         }
-        for (lane, &[u, v]) in (0..AT_ONCE).zip(draws.next().unwrap_or_default()) {
+        for (lane, [u, v]) in by_lane::<AT_ONCE, _>(draws.next().unwrap_or_default()) {
             (block.u[0][lane], block.u[1][lane]) = (u, v);
         }
         make(light, &block, &mut made);
@@ -265,7 +266,7 @@ fn append(
         if made.counts[..count].contains(&0) {
             count = 0;
             // Every ray is written, and the next one overwrites it unless it counts, so that no branch depends on it.
-            for (lane, &row) in (0..AT_ONCE).zip(rows) {
+            for (lane, row) in by_lane::<AT_ONCE, _>(rows) {
                 // It is no more than the lane, which the compiler does not see.
                 let at = count % AT_ONCE;
                 path[at] = row;
@@ -325,7 +326,7 @@ fn append_sampled_rows(rows: &[u32], (rays, mut pdfs): RayLists<'_>, ray_of: imp
         origin.put(at, light_ray.ray.origin);
         direction.put(at, light_ray.ray.direction);
         t_max[at] = light_ray.t_max;
-        irradiance.put(at, light_ray.irradiance.map(|part| part.min(MAX) as f32));
+        irradiance.put(at, light_ray.irradiance.each(|part| part.min(MAX) as f32));
         if let Some(columns) = &mut pdf_columns {
             (columns.0[at], columns.1[at]) = (row, light_ray.pdf);
         }

@@ -1,5 +1,6 @@
 use super::ShadowRays;
 use super::light::{either, or_light};
+use crate::each::set_all;
 use crate::extract::{
     HierarchyOf, delta_light_evidence, hierarchy_evidence, joined_evidence, kind_evidence, light_kinds,
     material_evidence, moving_evidence, occlusion_evidence, unless_occlusion,
@@ -42,7 +43,7 @@ pub fn start_shadows(mut tiles: Query<(&ShadowRays, &mut ShadowHits)>) {
         for (t, &t_max) in t.iter_mut().zip(&rays.t_max) {
             *t = f64::from(t_max);
         }
-        shape.fill(NO_SHAPE);
+        set_all(shape, NO_SHAPE);
         path.copy_from_slice(&rays.row);
     }
 }

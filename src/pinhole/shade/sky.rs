@@ -5,6 +5,7 @@ use super::lookup::between;
 use super::radiance::{LightSamplingView, LightSamplingViewItem};
 use super::receivers::{LightRay, LightRows, append_sampled};
 use super::{Radiance, ShadowRays, irradiance_from_area};
+use crate::each::Each;
 use crate::extract::{
     BackgroundTable, EnvironmentLightTable, EnvironmentTable, GradientTable, SamplingTable, Texels,
     environment_light_evidence, followed_evidence, light_sampling_evidence, material_evidence, unless_occlusion,
@@ -47,7 +48,7 @@ pub fn background_stage() -> Stage {
 #[inline(always)]
 pub fn gradient_radiance(bottom: [f64; 3], top: [f64; 3], y: f64) -> [f64; 3] {
     let t = (0.5 * (y + 1.0)).clamp(0.0, 1.0);
-    [0, 1, 2].map(|part| (1.0 - t) * bottom[part] + t * top[part])
+    [0, 1, 2].each(|part| (1.0 - t) * bottom[part] + t * top[part])
 }
 // ANCHOR_END: gradient_radiance
 
@@ -60,7 +61,7 @@ pub fn add_gradient(
         for row in 0..rays.rows() {
             if hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE) {
                 let found = gradient_radiance(gradient.bottom, gradient.top, rays.direction_of(row).y);
-                radiance.rgb.add(row, found.map(|part| part as f32));
+                radiance.rgb.add(row, found.each(|part| part as f32));
             }
         }
     }
@@ -114,7 +115,7 @@ pub fn around(image: &Texels, at: DVec2) -> [f64; 3] {
         let over = y < 0.0 || y >= height;
         let x = if over { x + 0.5 * width } else { x };
         let texels = y.clamp(0.0, height - 1.0) as usize * image.width;
-        let texel = |x: f64| image.rgb[texels + x.rem_euclid(width) as usize % image.width].map(f64::from);
+        let texel = |x: f64| image.rgb[texels + x.rem_euclid(width) as usize % image.width].each(f64::from);
         between(texel(x.floor()), texel(x.floor() + 1.0), x - x.floor())
     };
     between(row(y.floor()), row(y.floor() + 1.0), y - y.floor())
@@ -140,7 +141,7 @@ pub fn add_environment(
         for row in 0..rays.rows() {
             if hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE) {
                 let found = environment_radiance(&environment, rays.direction_of(row));
-                radiance.rgb.add(row, found.map(|part| part as f32));
+                radiance.rgb.add(row, found.each(|part| part as f32));
             }
         }
     }
@@ -233,7 +234,7 @@ pub fn sample_environment(
         with_sampler!(sampling.sampler, D => {
             let drawn = D::of(draws.sample(), Purpose::EnvironmentPoint);
             append_sampled(&receivers, to, |row, surface, normal| {
-                let u = drawn.two(draws.key(row)).map(whole_unit);
+                let u = drawn.two(draws.key(row)).each(whole_unit);
                 sample_environment_at(&environment, &light, surface, normal, u)
             });
         });

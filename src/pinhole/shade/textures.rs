@@ -3,6 +3,7 @@
 use super::Footprints;
 use super::footprint::{RowSlopes, with_mesh_slopes};
 use super::lookup::{image_mean, nearest_texel, transformed};
+use crate::each::Each;
 use crate::extract::{
     ImageTable, MaterialTable, MeshTable, MovingTable, NO_TEXTURE, Pattern, PatternTable, ShapeSpaces, ShapeTable,
     TextureMap, TextureMapping, TextureMaps, TexturePoint, TintTable, UvSlopes, by_uv_evidence,
@@ -34,7 +35,7 @@ column! {
 impl TexturePoints {
     /// The fractional part of each coordinate.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.point.at(row).map(|part| (part - part.floor()) as f32)
+        self.point.at(row).each(|part| (part - part.floor()) as f32)
     }
 
     /// Gets a row.
@@ -189,7 +190,7 @@ column! {
 impl SurfaceColours {
     /// The colour itself, without the sRGB curve that the picture gets.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.rgb(row).map(|part| part as f32)
+        self.rgb(row).each(|part| part as f32)
     }
 }
 
@@ -286,7 +287,7 @@ impl Pattern for Stripes {
 #[inline(always)]
 fn mixed(fraction: f64, first: Rgb, second: Rgb) -> [f64; 3] {
     let (first, second) = (first.to_array(), second.to_array());
-    [0, 1, 2].map(|part| fraction * first[part] + (1.0 - fraction) * second[part])
+    [0, 1, 2].each(|part| fraction * first[part] + (1.0 - fraction) * second[part])
 }
 
 /// Evaluates the colours of materials with one kind of pattern.
@@ -357,7 +358,7 @@ pub fn evaluate_images(
 fn about_the_middle(at: TexturePoint, aspect: f64) -> TexturePoint {
     let stretched = |step: DVec3| DVec3::new(step.x, step.y * aspect, step.z);
     let point = DVec3::new(at.point.x, 0.5 + (at.point.y - 0.5) * aspect, 0.0);
-    TexturePoint { point, steps: at.steps.map(stretched) }
+    TexturePoint { point, steps: at.steps.each(stretched) }
 }
 
 /// The stage that runs [`evaluate_images`].
@@ -416,7 +417,7 @@ pub fn tint_surfaces(tints: Res<Shared<TintTable>>, meshes: ColouredMeshes<'_>, 
             let Some(tint) = tints.row_of(hit.surfaces.material[row] as usize) else { continue };
             let vertices = if tints.by_vertex[tint] { meshes.colour(&hit, row) } else { None };
             let (own, factor, vertices) = (hit.colours.rgb(row), tints.factor[tint], vertices.unwrap_or([1.0; 3]));
-            hit.colours.rgb.put(row, [0, 1, 2].map(|part| own[part] * factor[part] * vertices[part]));
+            hit.colours.rgb.put(row, [0, 1, 2].each(|part| own[part] * factor[part] * vertices[part]));
         }
     }
 }

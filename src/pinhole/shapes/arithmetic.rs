@@ -10,6 +10,8 @@ use super::double_double::{DoubleDouble, add, multiply, negated};
 use glam::DVec3;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::each::Each;
+
 /// 2⁻⁵³, the unit roundoff of f64.
 const EPSILON: f64 = 1.0 / (1_u64 << 53) as f64;
 /// More than the rounding of an error bound itself can take away.
@@ -407,7 +409,7 @@ pub type ExactVector = [ExactSum; 3];
 
 /// a − b.
 pub fn exact_difference(a: DVec3, b: DVec3) -> ExactVector {
-    [0, 1, 2].map(|axis| ExactSum::difference(a[axis], b[axis]))
+    [0, 1, 2].each(|axis| ExactSum::difference(a[axis], b[axis]))
 }
 
 /// a × b.
@@ -441,7 +443,7 @@ mod arithmetic_tests {
             let mut draws = Draws::new(2801, index);
             let numbers = [(); 4].map(|()| draws.between(-2.0, 2.0));
             fn chain<N: Arithmetic>(numbers: [f64; 4]) -> N {
-                let [a, b, c, d] = numbers.map(N::from);
+                let [a, b, c, d] = numbers.each(N::from);
                 let inner = a * b - c * d + (a * a + d * d).root();
                 (inner * inner - a) / (b * b + N::from(0.01))
             }

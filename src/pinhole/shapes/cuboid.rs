@@ -7,6 +7,7 @@ use super::ray_block::{BlockVectors, Intersection, LANES, RayHit, SurfacePoint, 
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::{Pose, normal_world_from_object};
 use super::uv::{UvSlope, face_axes, within_unit};
+use crate::each::Each;
 use crate::scene::{Cuboid, SceneError, positive_length, triple};
 use glam::{DMat3, DVec3};
 
@@ -35,8 +36,8 @@ pub struct Slabs {
 impl Slabs {
     /// The slabs whose faces have these normals and are half an edge from the centre.
     pub fn new(centre: DVec3, normals: [DVec3; 3], half_edges: [DVec3; 3]) -> Self {
-        let normal = normals.map(unit_in_f32);
-        let half = [0, 1, 2].map(|axis| normal[axis].dot(half_edges[axis]));
+        let normal = normals.each(unit_in_f32);
+        let half = [0, 1, 2].each(|axis| normal[axis].dot(half_edges[axis]));
         let bounding_radius = half_edges.iter().map(|edge| edge.length()).sum::<f64>() * RADIUS_MARGIN;
         Self { centre, normal, half, bounding_radius }
     }
@@ -49,7 +50,7 @@ impl Slabs {
 
     /// The offsets from the centre to the midpoints of the faces at the ends of the three edges.
     pub fn half_edges(&self) -> [DVec3; 3] {
-        [0, 1, 2].map(|axis| {
+        [0, 1, 2].each(|axis| {
             let along = self.normal[(axis + 1) % 3].cross(self.normal[(axis + 2) % 3]);
             along * (self.half[axis] / self.normal[axis].dot(along))
         })
@@ -88,10 +89,10 @@ impl Shape for Slabs {
         }
         let Pose { world_from_entity, entity_from_world } = placed.pose;
         let half_edges = world_from_entity.matrix3 * DMat3::from_diagonal(size / 2.0);
-        let edges = [0, 1, 2].map(|axis| half_edges.col(axis));
-        let normals = DVec3::AXES.map(|axis| normal_world_from_object(entity_from_world, axis));
+        let edges = [0, 1, 2].each(|axis| half_edges.col(axis));
+        let normals = DVec3::AXES.each(|axis| normal_world_from_object(entity_from_world, axis));
         let slabs = Self::new(placed.position, normals, edges);
-        let longest = edges.map(DVec3::length).iter().copied().fold(0.0, f64::max);
+        let longest = edges.each(DVec3::length).iter().copied().fold(0.0, f64::max);
         let thinnest = slabs.half.iter().copied().fold(f64::INFINITY, f64::min);
         positive_length(who, "longest placed edge", longest)?;
         positive_length(who, "placed thickness", thinnest)?;
@@ -144,7 +145,7 @@ impl Shape for Slabs {
     }
 
     fn uv_slope(&self, (): &(), _uv_from_world: DMat3) -> UvSlope {
-        UvSlope::Faces([0, 1, 2].map(|axis| self.normal[axis] / self.half[axis]))
+        UvSlope::Faces([0, 1, 2].each(|axis| self.normal[axis] / self.half[axis]))
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -342,7 +343,7 @@ pub fn cuboid_surface(hit: &RayHit, axis: usize, slabs: &Slabs) -> SurfacePoint 
 pub fn cuboid_uv(slabs: &Slabs, axis: usize, from_centre: DVec3) -> [f64; 2] {
     let at = |axis: usize| slabs.normal[axis].dot(from_centre) / slabs.half[axis];
     let own = DVec3::new(at(0), at(1), at(2));
-    face_axes(axis, own[axis] < 0.0).map(|along| within_unit(0.5 + 0.5 * along.dot(own)))
+    face_axes(axis, own[axis] < 0.0).each(|along| within_unit(0.5 + 0.5 * along.dot(own)))
 }
 
 #[cfg(test)]

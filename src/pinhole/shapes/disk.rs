@@ -5,6 +5,7 @@ use super::planar::{Planar, crossing};
 use super::ray_block::{Intersection, RayHit, SurfacePoint};
 use super::shape::{Placed, SceneShape, Shape};
 use super::uv::UvSlope;
+use crate::each::Each;
 use crate::scene::{Disk, SceneError, positive_length};
 use glam::{DMat3, DVec3};
 
@@ -67,7 +68,7 @@ impl Shape for PlacedDisk {
     /// The maximum of x cos φ + z sin φ for its two half edges is √(x² + z²), component by component.
     fn bounds(&self) -> Option<Bounds> {
         let [x, z] = self.planar.half_edges();
-        let half_size = DVec3::from([0, 1, 2].map(|axis| (x[axis] * x[axis] + z[axis] * z[axis]).sqrt()));
+        let half_size = DVec3::from([0, 1, 2].each(|axis| (x[axis] * x[axis] + z[axis] * z[axis]).sqrt()));
         Some(Bounds::about(self.planar.centre, half_size))
     }
 

@@ -8,6 +8,8 @@ use super::ellipsoid::Ellipsoid;
 use super::planar::Planar;
 use glam::DVec3;
 
+use crate::each::Each;
+
 /// A double-double: a number as the unevaluated sum of two f64.
 pub(super) type DoubleDouble = (f64, f64);
 
@@ -18,8 +20,8 @@ pub(super) type DoubleDouble = (f64, f64);
 #[cold]
 #[inline(never)]
 pub fn double_double_sphere_t(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64) -> f64 {
-    let d = direction.to_array().map(|component| (component, 0.0));
-    let f = [0, 1, 2].map(|axis| two_sum(centre[axis], -origin[axis]));
+    let d = direction.to_array().each(|component| (component, 0.0));
+    let f = [0, 1, 2].each(|axis| two_sum(centre[axis], -origin[axis]));
     let (a, b) = (dot(d, d), dot(f, d));
     let c = add(dot(f, f), negated(two_product(radius, radius)));
     smallest_root(a.0, b.0, c.0, add(multiply(b, b), negated(multiply(a, c))).0)
@@ -65,11 +67,11 @@ pub(super) fn dot(a: [DoubleDouble; 3], b: [DoubleDouble; 3]) -> DoubleDouble {
 
 /// C − O, exactly.
 pub(super) fn offset(origin: DVec3, centre: DVec3) -> [DoubleDouble; 3] {
-    [0, 1, 2].map(|axis| two_sum(centre[axis], -origin[axis]))
+    [0, 1, 2].each(|axis| two_sum(centre[axis], -origin[axis]))
 }
 
 pub(super) fn exact(v: DVec3) -> [DoubleDouble; 3] {
-    v.to_array().map(|component| (component, 0.0))
+    v.to_array().each(|component| (component, 0.0))
 }
 
 // Ellipsoids in double-double: for the few intersections that f64 leaves uncertain.
@@ -79,7 +81,7 @@ pub(super) fn exact(v: DVec3) -> [DoubleDouble; 3] {
 #[inline(never)]
 pub fn double_double_ellipsoid_t(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid) -> f64 {
     let p = to_unit(ellipsoid, from_centre(origin, ellipsoid));
-    let q = to_unit(ellipsoid, direction.to_array().map(|component| (component, 0.0)));
+    let q = to_unit(ellipsoid, direction.to_array().each(|component| (component, 0.0)));
     let (a, b, c) = (dot(q, q), dot(p, q), excess(p));
     smallest_root(a.0, -b.0, c, discriminant(p, q))
 }
@@ -92,13 +94,13 @@ pub fn double_double_ellipsoid_t(origin: DVec3, direction: DVec3, ellipsoid: &El
 #[cold]
 #[inline(never)]
 pub fn double_double_ellipsoid_point(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &Ellipsoid) -> (f64, DVec3) {
-    let (from_centre, d) = (from_centre(origin, ellipsoid), direction.to_array().map(|component| (component, 0.0)));
-    let at = |t: DoubleDouble| to_unit(ellipsoid, [0, 1, 2].map(|axis| add(from_centre[axis], multiply(t, d[axis]))));
+    let (from_centre, d) = (from_centre(origin, ellipsoid), direction.to_array().each(|component| (component, 0.0)));
+    let at = |t: DoubleDouble| to_unit(ellipsoid, [0, 1, 2].each(|axis| add(from_centre[axis], multiply(t, d[axis]))));
     let (g, q) = (at((t, 0.0)), to_unit(ellipsoid, d));
     let half_chord = discriminant(g, q).max(0.0).sqrt();
     let enters = excess(at((0.0, 0.0))) > 0.0;
     let further = (-dot(g, q).0 + if enters { -half_chord } else { half_chord }) / dot(q, q).0;
-    (further, DVec3::from(at(two_sum(t, further)).map(|component| component.0)))
+    (further, DVec3::from(at(two_sum(t, further)).each(|component| component.0)))
 }
 
 /// |p|² − 1.
@@ -116,13 +118,13 @@ fn discriminant(p: [DoubleDouble; 3], q: [DoubleDouble; 3]) -> f64 {
 
 /// O − C, exactly.
 fn from_centre(origin: DVec3, ellipsoid: &Ellipsoid) -> [DoubleDouble; 3] {
-    [0, 1, 2].map(|axis| two_sum(origin[axis], -ellipsoid.centre[axis]))
+    [0, 1, 2].each(|axis| two_sum(origin[axis], -ellipsoid.centre[axis]))
 }
 
 /// Transforms a vector from render space to the space where the ellipsoid is the unit sphere.
 fn to_unit(ellipsoid: &Ellipsoid, v: [DoubleDouble; 3]) -> [DoubleDouble; 3] {
-    let row = |row| ellipsoid.unit_from_world.row(row).to_array().map(|component| (component, 0.0));
-    [0, 1, 2].map(|axis| dot(row(axis), v))
+    let row = |row| ellipsoid.unit_from_world.row(row).to_array().each(|component| (component, 0.0));
+    [0, 1, 2].each(|axis| dot(row(axis), v))
 }
 
 // Planar shapes and slabs in double-double: for the few intersections that f64 leaves uncertain.
@@ -139,8 +141,8 @@ impl DoubleDoubleCrossing {
     fn of(origin: DVec3, direction: DVec3, planar: &Planar) -> Self {
         let (f, d, n) = (offset(origin, planar.centre), exact(direction), exact(planar.normal));
         let (distance, approach) = (dot(n, f), dot(n, d));
-        let scaled = [0, 1, 2].map(|axis| add(multiply(d[axis], distance), negated(multiply(f[axis], approach))));
-        Self { distance, approach, at: planar.along.map(|along| dot(exact(along), scaled)) }
+        let scaled = [0, 1, 2].each(|axis| add(multiply(d[axis], distance), negated(multiply(f[axis], approach))));
+        Self { distance, approach, at: planar.along.each(|along| dot(exact(along), scaled)) }
     }
 
     /// t if it is positive and the point is inside the shape, or infinity.
@@ -155,7 +157,7 @@ impl DoubleDoubleCrossing {
 #[inline(never)]
 pub fn double_double_disk_t(origin: DVec3, direction: DVec3, planar: &Planar) -> f64 {
     let crossing = DoubleDoubleCrossing::of(origin, direction, planar);
-    let [x, z] = crossing.at.map(|coordinate| multiply(coordinate, coordinate));
+    let [x, z] = crossing.at.each(|coordinate| multiply(coordinate, coordinate));
     let beyond = add(add(x, z), negated(multiply(crossing.approach, crossing.approach)));
     crossing.t_if(beyond.0 <= 0.0)
 }

@@ -5,6 +5,7 @@ use super::ray_block::{Intersection, RayHit, SurfacePoint, UNIT_ROUNDOFF};
 use super::shape::{Placed, Shape};
 use super::space::{direction_object_from_world, normal_world_from_object, point_object_from_world};
 use super::uv::{UvSlope, sphere_uv};
+use crate::each::Each;
 use crate::scene::{SceneError, Sphere, positive_length, triple};
 use glam::{DMat3, DVec3};
 
@@ -98,7 +99,7 @@ impl Shape for Ellipsoid {
     /// Its extent along an axis is the length of that row of the map from the unit sphere.
     fn bounds(&self) -> Option<Bounds> {
         let world_from_unit = self.unit_from_world.inverse();
-        let half_size = DVec3::from([0, 1, 2].map(|axis| world_from_unit.row(axis).length()));
+        let half_size = DVec3::from([0, 1, 2].each(|axis| world_from_unit.row(axis).length()));
         Some(Bounds::about(self.centre, half_size))
     }
 
@@ -120,7 +121,7 @@ fn stretch(map: DMat3) -> f64 {
 /// An upper bound of a symmetric matrix's eigenvalues, its largest row sum; each round squares the matrix, which halves
 /// the logarithm of the bound's excess.
 fn bound_of_eigenvalues(matrix: DMat3, rounds: u32) -> f64 {
-    let bound = [0, 1, 2].map(|row| matrix.row(row).abs().element_sum()).iter().copied().fold(0.0, f64::max);
+    let bound = [0, 1, 2].each(|row| matrix.row(row).abs().element_sum()).iter().copied().fold(0.0, f64::max);
     if rounds == 0 || bound == 0.0 || !bound.is_finite() {
         return bound;
     }

@@ -8,6 +8,7 @@ use super::ray_block::{Intersection, RayHit, SurfacePoint};
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::{UnitRay, UnitSpace};
 use super::uv::{UvSlope, face_axes, within_unit};
+use crate::each::Each;
 use crate::sample::circle_point;
 use crate::scene::{SceneError, positive_length};
 use glam::{DMat3, DVec3};
@@ -146,7 +147,7 @@ impl Frustum {
     #[inline(always)]
     pub fn uv(at: DVec3) -> [f64; 2] {
         if at.y.abs() == 1.0 {
-            return face_axes(1, at.y < 0.0).map(|along| within_unit(0.5 + 0.5 * along.dot(at)));
+            return face_axes(1, at.y < 0.0).each(|along| within_unit(0.5 + 0.5 * along.dot(at)));
         }
         let longitude = libm::atan2(0.0 - at.x, 0.0 - at.z) / TAU;
         [if longitude < 0.0 { longitude + 1.0 } else { longitude }, within_unit(0.5 - 0.5 * at.y)]
@@ -315,7 +316,7 @@ impl EmittingFrustum {
         let volume = frustum.space.world_from_unit.determinant().abs();
         let mut light = Self { frustum: *frustum, areas: [0.0; 3], volume };
         let round = (0..STEPS).map(|step| TAU * f64::from(step) / f64::from(STEPS));
-        let [bottom, top] = [-1.0, 1.0].map(|end| frustum.radius(end));
+        let [bottom, top] = [-1.0, 1.0].each(|end| frustum.radius(end));
         let side: f64 = round.map(|longitude| light.side(longitude).length()).sum();
         let cap = light.area_normal(DVec3::Y).length();
         light.areas =
@@ -375,7 +376,7 @@ impl EmittingFrustum {
         let mut left = u[0] * all;
         if left < side || bottom + top == 0.0 {
             let longitude = visible.longitude + visible.half * (2.0 * (left / side).min(1.0) - 1.0);
-            let ends = [-1.0, 1.0].map(|end| self.frustum.radius(end) * self.frustum.radius(end));
+            let ends = [-1.0, 1.0].each(|end| self.frustum.radius(end) * self.frustum.radius(end));
             let radius = (ends[0] + u[1] * (ends[1] - ends[0])).sqrt();
             let height = if b == 0.0 { 2.0 * u[1] - 1.0 } else { (radius - a) / b };
             let (outward, (sine, cosine)) = (self.side(longitude), libm::sincos(longitude));

@@ -10,6 +10,7 @@ use super::space::{norm, normal_world_from_object};
 use super::triangle::{EXACT_BELOW, ObjectMaps, TriangleHit, TriangleRow, interpolate_mesh};
 use super::uv::{UvSlope, planar_slope};
 use crate::bvh::{PACKET, Stack, TestCounts};
+use crate::each::Each;
 use crate::scene::{MeshGeometry, MeshInstance, SceneError, number};
 use glam::{DMat3, DVec2, DVec3};
 use multiversion::multiversion;
@@ -72,27 +73,27 @@ impl PlacedMesh {
         if !(start > 0.0 && start.is_finite()) {
             return None;
         }
-        let rows = [0, 1, 2].map(|row| self.object_from_world.row(row).to_array().map(Precise::from));
-        let from_position = [0, 1, 2].map(|axis| Precise::from(origin[axis]) - Precise::from(self.position[axis]));
-        let along = direction.to_array().map(Precise::from);
-        let along = rows.map(|row| dot_of(row, along));
-        let at = [0, 1, 2].map(|axis| dot_of(rows[axis], from_position) + Precise::from(start) * along[axis]);
-        let [at, along] = [at, along].map(|vector| DVec3::from(vector.map(Arithmetic::value)));
+        let rows = [0, 1, 2].each(|row| self.object_from_world.row(row).to_array().each(Precise::from));
+        let from_position = [0, 1, 2].each(|axis| Precise::from(origin[axis]) - Precise::from(self.position[axis]));
+        let along = direction.to_array().each(Precise::from);
+        let along = rows.each(|row| dot_of(row, along));
+        let at = [0, 1, 2].each(|axis| dot_of(rows[axis], from_position) + Precise::from(start) * along[axis]);
+        let [at, along] = [at, along].each(|vector| DVec3::from(vector.each(Arithmetic::value)));
         Some(([at, along], start))
     }
 
     /// A triangle in object space.
     #[inline(always)]
     pub(super) fn triangle(&self, triangle: u32) -> TriangleRow {
-        let corners = self.geometry.corners(triangle as usize).map(|corner| DVec3::from(corner.map(f64::from)));
-        let size = corners.map(l1_norm).into_iter().fold(0.0, f64::max);
+        let corners = self.geometry.corners(triangle as usize).each(|corner| DVec3::from(corner.each(f64::from)));
+        let size = corners.each(l1_norm).into_iter().fold(0.0, f64::max);
         TriangleRow { corners, size, centre: DVec3::ZERO, bounding_radius: 0.0 }
     }
 
     /// The vertices of a triangle in render space.
     pub fn placed_triangle(&self, triangle: usize) -> [DVec3; 3] {
-        let placed = |corner: [f32; 3]| self.world_from_object * DVec3::from(corner.map(f64::from)) + self.position;
-        self.geometry.corners(triangle).map(placed)
+        let placed = |corner: [f32; 3]| self.world_from_object * DVec3::from(corner.each(f64::from)) + self.position;
+        self.geometry.corners(triangle).each(placed)
     }
 
     /// A triangle as a light; its normal is NaN where it has no area.
@@ -235,7 +236,7 @@ impl Shape for PlacedMesh {
     }
 
     fn uv_slope_of(&self, _: &(), triangle: u32) -> UvSlope {
-        let [a, b, c] = self.triangle(triangle).corners.map(|corner| self.world_from_object * corner);
+        let [a, b, c] = self.triangle(triangle).corners.each(|corner| self.world_from_object * corner);
         planar_slope([b - a, c - a], self.uvs_of(triangle))
     }
 
@@ -272,7 +273,7 @@ impl PlacedMesh {
     fn interpolate(&self, hits: &mut HitBlock, count: usize) {
         for lane in 0..count.min(HITS) {
             let corners = self.geometry.corners(hits.primitive[lane] as usize);
-            hits.set_corners(lane, corners.map(|corner| DVec3::from(corner.map(f64::from))));
+            hits.set_corners(lane, corners.each(|corner| DVec3::from(corner.each(f64::from))));
         }
         let maps = ObjectMaps {
             object_from_world: self.object_from_world,
@@ -287,11 +288,12 @@ impl PlacedMesh {
     }
 
     /// The texture coordinates of a triangle's vertices: those of the mesh, or else (0, 0), (1, 0) and (0, 1).
+    #[inline]
     fn uvs_of(&self, triangle: u32) -> [DVec2; 3] {
         match &self.geometry.uvs {
             None => [DVec2::ZERO, DVec2::X, DVec2::Y],
             Some(uvs) => self.geometry.triangles[triangle as usize]
-                .map(|vertex| DVec2::from(uvs[vertex as usize].map(f64::from))),
+                .each(|vertex| DVec2::from(uvs[vertex as usize].each(f64::from))),
         }
     }
 }
@@ -331,7 +333,7 @@ impl PlacedMesh {
         let (mut waiting, mut in_packets) = (0, true);
         for start in (0..hits.t.len() / PACKET).map(|packet| packet * PACKET) {
             let [origin, direction] =
-                [rays.origin, rays.direction].map(|of| of.map(|part| &part[start..start + PACKET]));
+                [rays.origin, rays.direction].each(|of| of.each(|part| &part[start..start + PACKET]));
             let some = RaySlices { origin, direction };
             let near_ray = |place| self.near_ray(some.ray(place));
             if in_packets && may_be_coherent(some) && packet.set(hierarchy, near_ray) {
@@ -402,9 +404,9 @@ impl PlacedMesh {
     pub fn shading_normal(&self, hit: &RayHit) -> Option<DVec3> {
         let normals = self.geometry.normals.as_ref()?;
         let vertices = self.geometry.triangles[hit.primitive as usize];
-        let normals = vertices.map(|vertex| DVec3::from(normals[vertex as usize].map(f64::from)));
+        let normals = vertices.each(|vertex| DVec3::from(normals[vertex as usize].each(f64::from)));
         let triangle = self.triangle(hit.primitive);
-        let sides = normals.map(|normal| normal.dot(unnormalised_normal(&triangle)));
+        let sides = normals.each(|normal| normal.dot(unnormalised_normal(&triangle)));
         let is_above = sides.iter().all(|&side| side > 0.0);
         if !(is_above || sides.iter().all(|&side| side < 0.0)) {
             return None;
@@ -423,7 +425,7 @@ impl PlacedMesh {
     pub fn vertex_colour(&self, hit: &RayHit) -> Option<[f64; 3]> {
         let colours = self.geometry.colours.as_ref()?;
         let vertices = self.geometry.triangles[hit.primitive as usize];
-        let colours = vertices.map(|vertex| DVec3::from(colours[vertex as usize].map(f64::from)));
+        let colours = vertices.each(|vertex| DVec3::from(colours[vertex as usize].each(f64::from)));
         let ([origin, direction], _) = self.own_ray([hit.origin, hit.direction]);
         let triangle_hit = TriangleHit::of(origin, direction, &self.triangle(hit.primitive));
         Some(triangle_hit.interpolate(&colours).clamp(DVec3::ZERO, DVec3::ONE).to_array())
@@ -443,7 +445,7 @@ pub(super) fn unnormalised_normal(triangle: &TriangleRow) -> DVec3 {
 #[cold]
 #[inline(never)]
 fn exact_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
-    DVec3::from(exact_cross(&exact_difference(b, a), &exact_difference(c, a)).map(|part| part.rounded()))
+    DVec3::from(exact_cross(&exact_difference(b, a), &exact_difference(c, a)).each(|part| part.rounded()))
 }
 
 // The component of a mesh, and the hierarchy that its geometry has, however many instances there are.

@@ -9,6 +9,7 @@ use crate::bvh::{
     BoundingBox, BoxPacket, Bvh, ChildKind, LeafTest, PACKET, PerRay, ROW, ROWS, Stack, TestCounts, Traversal, WIDTH,
     take_first, traverse_counted,
 };
+use crate::each::Each;
 use glam::{DMat3, DVec3};
 use pinhole_models::TriangleMesh;
 use rayon::prelude::*;
@@ -46,7 +47,7 @@ impl MeshHierarchy {
         let bvh = Bvh::build::<BLOCK>(&boxes);
         let leaves = (0..bvh.leaves.len()).into_par_iter().with_min_len(TASK);
         let blocks = leaves.map(|leaf| TriangleBlock::of(mesh, bvh.primitives(leaf))).collect();
-        let size_of = |position: &[f32; 3]| position.map(|part| f64::from(part.abs())).iter().sum();
+        let size_of = |position: &[f32; 3]| position.each(|part| f64::from(part.abs())).iter().sum();
         let size = mesh.positions.iter().map(size_of).fold(0.0, f64::max);
         Self { bvh, blocks, size, closed: OnceLock::new() }
     }
@@ -75,12 +76,12 @@ impl MeshHierarchy {
             })
         };
         if mesh.triangles.len() > FEW {
-            let sides = [self.bvh.around.low, self.bvh.around.high].map(|side| DVec3::from(side.map(f64::from)));
+            let sides = [self.bvh.around.low, self.bvh.around.high].each(|side| DVec3::from(side.each(f64::from)));
             let corner = |at: usize| DVec3::new(sides[at & 1].x, sides[at >> 1 & 1].y, sides[at >> 2].z);
             return extent(&mut (0..8).map(corner));
         }
         let vertices = mesh.triangles.iter().flatten();
-        extent(&mut vertices.map(|&vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from))))
+        extent(&mut vertices.map(|&vertex| DVec3::from(mesh.positions[vertex as usize].each(f64::from))))
     }
 
     /// The memory of its arrays, in bytes.
@@ -91,7 +92,7 @@ impl MeshHierarchy {
 
 fn edges_cancel(mesh: &TriangleMesh) -> bool {
     // −0 and 0 are one place.
-    let bits = |vertex: u32| mesh.positions[vertex as usize].map(|part| (part + 0.0).to_bits());
+    let bits = |vertex: u32| mesh.positions[vertex as usize].each(|part| (part + 0.0).to_bits());
     let mut by_position: Vec<u32> = (0..mesh.positions.len() as u32).collect();
     by_position.sort_unstable_by_key(|&vertex| bits(vertex));
     let mut first_at = vec![0; by_position.len()];
@@ -100,7 +101,7 @@ fn edges_cancel(mesh: &TriangleMesh) -> bool {
         first = if bits(vertex) == bits(first) { first } else { vertex };
         first_at[vertex as usize] = first;
     }
-    let triangles = mesh.triangles.iter().map(|triangle| triangle.map(|vertex| first_at[vertex as usize]));
+    let triangles = mesh.triangles.iter().map(|triangle| triangle.each(|vertex| first_at[vertex as usize]));
     let edges = triangles.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).filter(|[from, to]| from != to);
     let mut edges: Vec<(u32, u32, i32)> =
         edges.map(|[from, to]| (from.min(to), from.max(to), if from < to { 1 } else { -1 })).collect();
@@ -242,7 +243,7 @@ pub fn keep_closest_apart<const ANY: bool>(
             Some((row, traversal))
         })
     };
-    let mut under_way: [_; TURNS] = std::array::from_fn(|_| next(hits));
+    let mut under_way: [_; TURNS] = [(); TURNS].each(|()| next(hits));
     let mut count = under_way.iter().flatten().count();
     while count > 0 {
         for (turn, stack) in under_way.iter_mut().zip(&mut *stacks) {
@@ -280,7 +281,7 @@ const MAX_NODES: usize = 1 << 29;
 /// This is one pass over a column, which is all that incoherent rays pay for packets.
 #[inline(always)]
 pub fn may_be_coherent(rays: RaySlices<'_>) -> bool {
-    let [x, y, z] = rays.direction.map(|part| &part[..PACKET]);
+    let [x, y, z] = rays.direction.each(|part| &part[..PACKET]);
     let (first_x, first_y, first_z) = (x[0], y[0], z[0]);
     let min = MIN_COS2 * (first_x * first_x + first_y * first_y + first_z * first_z);
     let mut close = true;
@@ -326,7 +327,7 @@ impl MeshPacket {
                 }
             }
         }
-        let first = DVec3::from([0, 1, 2].map(|axis| self.direction[axis][0][0]));
+        let first = DVec3::from([0, 1, 2].each(|axis| self.direction[axis][0][0]));
         let z = longest_axis(first);
         self.axes = [(z + 1) % 3, (z + 2) % 3, z];
         if !(all_near && self.signs_agree() && hierarchy.bvh.nodes.len() < MAX_NODES) {
@@ -354,7 +355,7 @@ impl MeshPacket {
 
     #[inline(always)]
     fn set_shear(&mut self, mesh_size: f64) {
-        let [x, y, z] = self.axes.map(|axis| &self.direction[axis]);
+        let [x, y, z] = self.axes.each(|axis| &self.direction[axis]);
         let [ox, oy, oz] = &self.origin;
         for row in 0..ROWS {
             for i in 0..ROW {
@@ -370,10 +371,10 @@ impl MeshPacket {
     /// Whether the rays have one longest axis, similar lengths, and lie in a narrow cone; false if one is not finite.
     #[inline(always)]
     fn is_coherent(&self, hierarchy: &MeshHierarchy) -> bool {
-        let [x, y, z] = self.axes.map(|axis| &self.direction[axis]);
+        let [x, y, z] = self.axes.each(|axis| &self.direction[axis]);
         let [ox, oy, oz] = &self.origin;
         let around = &hierarchy.bvh.around;
-        let extent = [0, 1, 2].map(|axis| f64::from(around.high[axis]) - f64::from(around.low[axis]));
+        let extent = [0, 1, 2].each(|axis| f64::from(around.high[axis]) - f64::from(around.low[axis]));
         let spread = SPREAD * (extent[0] + extent[1] + extent[2]);
         let mut coherent = true;
         for row in 0..ROWS {
@@ -526,7 +527,7 @@ impl MeshPacket {
     #[cold]
     #[inline(never)]
     fn exact_t(&self, row: usize, i: usize, block: &TriangleBlock, lane: usize) -> f64 {
-        let vector = |parts: &[PerRay<f64>; 3]| DVec3::from([0, 1, 2].map(|axis| parts[axis][row][i]));
+        let vector = |parts: &[PerRay<f64>; 3]| DVec3::from([0, 1, 2].each(|axis| parts[axis][row][i]));
         exact_triangle_t(vector(&self.origin), vector(&self.direction), &block.row(lane))
     }
 }

@@ -6,6 +6,7 @@ use super::ray_block::{RayHit, SurfacePoint};
 use super::shape::Placed;
 use super::space::{Pose, normal_world_from_object};
 use super::uv::{UvSlope, planar_uv};
+use crate::each::Each;
 use crate::scene::{SceneError, positive_length};
 use glam::DVec3;
 
@@ -80,7 +81,7 @@ impl Planar {
 
     /// Their gradients: the coordinates run from −1 to 1 where u and v run from 0 to 1.
     pub fn uv_slope(&self) -> UvSlope {
-        UvSlope::Planar(self.along.map(|along| 0.5 * along))
+        UvSlope::Planar(self.along.each(|along| 0.5 * along))
     }
 
     /// The parallelogram between its half edges, as a light.

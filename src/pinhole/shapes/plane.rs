@@ -4,6 +4,7 @@ use super::ray_block::{ClosestHits, Intersection, RayHit, RaySlices, SurfacePoin
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::normal_world_from_object;
 use super::uv::{UvSlope, plane_axes};
+use crate::each::Each;
 use crate::scene::{Plane, SceneError, triple};
 use glam::{DMat3, DVec3};
 use multiversion::multiversion;
@@ -76,7 +77,7 @@ impl Shape for PlacedPlane {
 
     /// In its uv space, x is u and y is v.
     fn uv_from_world(plane: &Plane, entity_from_world: DMat3) -> DMat3 {
-        let [u, v] = plane_axes(plane.normal).map(|axis| normal_world_from_object(entity_from_world, axis));
+        let [u, v] = plane_axes(plane.normal).each(|axis| normal_world_from_object(entity_from_world, axis));
         DMat3::from_cols(u, v, DVec3::ZERO).transpose()
     }
 
@@ -109,8 +110,8 @@ pub fn plane_t(origin: DVec3, direction: DVec3, normal: DVec3, offset: f64) -> f
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn plane_rows(planes: &[PlacedPlane], numbers: &[u32], rays: RaySlices<'_>, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
-    let [ox, oy, oz] = rays.origin.map(|component| &component[..rows]);
-    let [dx, dy, dz] = rays.direction.map(|component| &component[..rows]);
+    let [ox, oy, oz] = rays.origin.each(|component| &component[..rows]);
+    let [dx, dy, dz] = rays.direction.each(|component| &component[..rows]);
     let shape = &mut shape[..rows];
     for (&PlacedPlane { normal, offset }, &number) in planes.iter().zip(numbers) {
         for row in 0..rows {

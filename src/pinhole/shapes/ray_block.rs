@@ -3,6 +3,7 @@
 use super::bounds::{l1_norm, offset_bound};
 use super::shape::Shape;
 use crate::bvh::by_axis;
+use crate::each::Each;
 use glam::DVec3;
 use multiversion::multiversion;
 use std::ops::Range;
@@ -171,8 +172,8 @@ pub(super) fn fill_lanes<T: Copy, U: From<T>>(to: &mut [U; LANES], from: &[T]) {
             to[lane] = from[lane].into();
         }
     } else {
-        for (to, &from) in to.iter_mut().zip(from) {
-            *to = from.into();
+        for (lane, &from) in from.iter().enumerate() {
+            to[lane] = from.into();
         }
     }
 }
@@ -251,7 +252,7 @@ impl BlockHits {
 pub(crate) fn keep_closest_block(rays: &RayBlock, one: &impl Shape, number: u32, closest: &mut BlockHits) {
     let (mut found, mut uncertain) = ([f64::INFINITY; LANES], [false; LANES]);
     one.intersections([&rays.o, &rays.d], &mut found, &mut uncertain);
-    if uncertain.contains(&true) {
+    if uncertain.iter().fold(false, |any, is| any | is) {
         for lane in (0..LANES).filter(|&lane| uncertain[lane]) {
             found[lane] = one.precise_t(vector(&rays.o, lane), vector(&rays.d, lane));
         }
@@ -296,9 +297,9 @@ pub(super) fn keep_closest_rows<S: Shape>(
         let block = RayBlock::of(rays, start, end);
         let inverse = if has_spheres { block.inverses() } else { [1.0; LANES] };
         let mut closest = BlockHits::of(&t[start..end], &shape[start..end]);
-        for (one, &number) in shapes.iter().zip(numbers) {
+        for (place, one) in shapes.iter().enumerate() {
             if is_near_any(&block, &inverse, one) {
-                keep_closest_block(&block, one, number, &mut closest);
+                keep_closest_block(&block, one, numbers[place], &mut closest);
             }
         }
         closest.write(&mut t[start..end], &mut shape[start..end]);
@@ -428,7 +429,7 @@ impl HitBlock {
     /// The hit, and the row of its shape.
     #[inline(always)]
     pub fn hit(&self, lane: usize) -> (u32, RayHit) {
-        let [origin, direction] = [&self.origin, &self.direction].map(|of| DVec3::from(at(of, lane)));
+        let [origin, direction] = [&self.origin, &self.direction].each(|of| DVec3::from(at(of, lane)));
         let hit = RayHit { primitive: self.primitive[lane], ..RayHit::at_rest(origin, direction, self.t[lane]) };
         (self.shape[lane], hit)
     }
@@ -445,7 +446,7 @@ impl HitBlock {
     /// The surface of a hit.
     #[inline(always)]
     pub fn surface(&self, lane: usize) -> SurfacePoint {
-        let [point, normal, at] = [&self.point, &self.normal, &self.at].map(|of| DVec3::from(at(of, lane)));
+        let [point, normal, at] = [&self.point, &self.normal, &self.at].each(|of| DVec3::from(at(of, lane)));
         SurfacePoint { point, normal, bound: self.bound[lane], outside: self.outside[lane] > 0.0, at }
     }
 
@@ -464,8 +465,8 @@ impl HitBlock {
 
     #[inline(always)]
     pub(super) fn set_corners(&mut self, lane: usize, corners: [DVec3; 3]) {
-        for (column, corner) in self.corners.iter_mut().zip(corners) {
-            set(column, lane, corner.into());
+        for corner in 0..3 {
+            set(&mut self.corners[corner], lane, corners[corner].into());
         }
     }
 
@@ -480,7 +481,7 @@ impl HitBlock {
         let facing = |part: f64| if outside { part } else { -part };
         set(&mut self.normal, lane, [facing(normal[0]), facing(normal[1]), facing(normal[2])]);
         self.outside[lane] = if outside { 1.0 } else { 0.0 };
-        let [point, origin] = [&self.point, &self.origin].map(|of| DVec3::from(at(of, lane)));
+        let [point, origin] = [&self.point, &self.origin].each(|of| DVec3::from(at(of, lane)));
         self.bound[lane] = offset_bound(point, origin, size);
     }
 }

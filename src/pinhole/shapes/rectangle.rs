@@ -5,6 +5,7 @@ use super::planar::{Planar, crossing};
 use super::ray_block::{Intersection, RayHit, SurfacePoint};
 use super::shape::{Placed, SceneShape, Shape};
 use super::uv::UvSlope;
+use crate::each::Each;
 use crate::scene::{Rectangle, SceneError, positive_length};
 use glam::{DMat3, DVec3};
 
@@ -80,7 +81,7 @@ impl Shape for PlacedRectangle {
 #[inline(always)]
 pub fn rectangle_intersection(origin: DVec3, direction: DVec3, planar: &Planar) -> Intersection {
     let crossing = crossing(origin, direction, planar);
-    let [x, z] = crossing.at.map(f64::abs);
+    let [x, z] = crossing.at.each(f64::abs);
     let farther = if x > z { x } else { z };
     let at_the_edge = (farther - 1.0).abs() <= crossing.error;
     let hits = (x <= 1.0) & (z <= 1.0) & (crossing.t > 0.0) & !crossing.surely_not;

@@ -9,6 +9,7 @@ use super::ray_block::{
 use super::shape::{Shape, ShapeNames};
 use super::uv::{UvSlope, face_axes, most_of, round_step};
 use crate::bvh::{Stack, TestCounts};
+use crate::each::Each;
 use glam::DVec3;
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -392,9 +393,9 @@ impl UvSlope {
             Self::Planar([u, v]) => DVec3::new(u.dot(step), v.dot(step), 0.0),
             Self::Round => round_step(own, own_step),
             Self::Faces(slopes) => {
-                let axis = most_of(DVec3::from(slopes.map(|slope| normal.dot(slope) / slope.length())));
+                let axis = most_of(DVec3::from(slopes.each(|slope| normal.dot(slope) / slope.length())));
                 let [u, v] = face_axes(axis, own[axis] < 0.0);
-                let moved = DVec3::from(slopes.map(|slope| 0.5 * slope.dot(step)));
+                let moved = DVec3::from(slopes.each(|slope| 0.5 * slope.dot(step)));
                 DVec3::new(u.dot(moved), v.dot(moved), 0.0)
             }
             Self::Own(kind, numbers) => own_uv_step(*kind, *numbers, own, own_step),

@@ -4,6 +4,7 @@ use super::arithmetic::{Arithmetic, Precise, dot_of};
 use super::bounds::{Bounds, l1_norm};
 use super::ray_block::{RayHit, SurfacePoint, UNIT_ROUNDOFF};
 use super::shape::Placed;
+use crate::each::Each;
 use crate::scene::{SceneError, positive_length, triple};
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -48,6 +49,7 @@ pub fn normal_world_from_object(object_from_world: DMat3, normal: DVec3) -> DVec
 }
 // ANCHOR_END: normal_world_from_object
 /// The largest factor by which a linear map lengthens a vector, or a little more.
+#[inline]
 pub(super) fn norm(map: DMat3) -> f64 {
     map.to_cols_array().iter().map(|part| part * part).sum::<f64>().sqrt()
 }
@@ -132,7 +134,7 @@ impl UnitSpace {
     /// The centre and radius of a sphere around every point of unit space with |y| ≤ 1 and x² + z² ≤ 1.
     #[inline(always)]
     pub fn culling_sphere(&self) -> (DVec3, f64) {
-        let [x, y, z] = [0, 1, 2].map(|axis| self.world_from_unit.col(axis));
+        let [x, y, z] = [0, 1, 2].each(|axis| self.world_from_unit.col(axis));
         (self.centre, ((x.dot(x) + z.dot(z)).sqrt() + y.length()) * RADIUS_MARGIN)
     }
 
@@ -154,15 +156,15 @@ impl UnitSpace {
         if !(start >= 0.0 && start.is_finite() && unit > 0.0 && unit.is_finite()) {
             return None;
         }
-        let rows = [0, 1, 2].map(|row| self.unit_from_world.row(row).to_array().map(N::from));
-        let from_centre = [0, 1, 2].map(|axis| N::from(origin[axis]) - N::from(self.centre[axis]));
-        let direction = direction.to_array().map(N::from);
-        let direction = rows.map(|row| dot_of(row, direction));
-        let origin = [0, 1, 2].map(|axis| dot_of(rows[axis], from_centre) + N::from(start) * direction[axis]);
+        let rows = [0, 1, 2].each(|row| self.unit_from_world.row(row).to_array().each(N::from));
+        let from_centre = [0, 1, 2].each(|axis| N::from(origin[axis]) - N::from(self.centre[axis]));
+        let direction = direction.to_array().each(N::from);
+        let direction = rows.each(|row| dot_of(row, direction));
+        let origin = [0, 1, 2].each(|axis| dot_of(rows[axis], from_centre) + N::from(start) * direction[axis]);
         if start > 0.0 && (dot_of(origin, origin) - N::from(AROUND_SQUARED)).is_surely_positive() {
             return None;
         }
-        Some(UnitRay { origin, direction: direction.map(|part| part * N::from(unit)), start, unit })
+        Some(UnitRay { origin, direction: direction.each(|part| part * N::from(unit)), start, unit })
     }
 
     /// The point of a hit in unit space, and a bound on the error of each of its components.
@@ -177,12 +179,12 @@ impl UnitSpace {
         if error < UNIT_ROUNDOFF * thinnest {
             return (self.unit_from_world * (from_centre + hit.t * hit.direction), error);
         }
-        let at = [0, 1, 2].map(|axis| {
+        let at = [0, 1, 2].each(|axis| {
             Precise::from(hit.origin[axis]) - Precise::from(self.centre[axis])
                 + Precise::from(hit.t) * Precise::from(hit.direction[axis])
         });
-        let row = |row| self.unit_from_world.row(row).to_array().map(Precise::from);
-        (DVec3::from([0, 1, 2].map(|axis| dot_of(row(axis), at).value())), 8.0 * EPSILON)
+        let row = |row| self.unit_from_world.row(row).to_array().each(Precise::from);
+        (DVec3::from([0, 1, 2].each(|axis| dot_of(row(axis), at).value())), 8.0 * EPSILON)
     }
 
     /// The surface with this unnormalised outward normal in unit space, per unit of whose coordinate the hit is known
@@ -197,8 +199,8 @@ impl UnitSpace {
 
     /// A box around two ends on the y axis of unit space, at −1 and 1, with disks of these radii.
     pub fn bounds_of_ends(&self, radii: [f64; 2]) -> Bounds {
-        let [x, y, z] = [0, 1, 2].map(|axis| self.world_from_unit.col(axis));
-        let wide = DVec3::from([0, 1, 2].map(|axis| (x[axis] * x[axis] + z[axis] * z[axis]).sqrt()));
+        let [x, y, z] = [0, 1, 2].each(|axis| self.world_from_unit.col(axis));
+        let wide = DVec3::from([0, 1, 2].each(|axis| (x[axis] * x[axis] + z[axis] * z[axis]).sqrt()));
         let min = (-y - wide * radii[0]).min(y - wide * radii[1]);
         let max = (-y + wide * radii[0]).max(y + wide * radii[1]);
         Bounds::about(self.centre + 0.5 * (min + max), 0.5 * (max - min))
@@ -206,6 +208,6 @@ impl UnitSpace {
 
     /// The lengths of the half axes in object space, whose linear map from world space this is: across and along y.
     pub fn half_axes(&self, object_from_world: DMat3) -> [f64; 2] {
-        [0, 1].map(|row| object_from_world.row(row).length() / self.unit_from_world.row(row).length())
+        [0, 1].each(|row| object_from_world.row(row).length() / self.unit_from_world.row(row).length())
     }
 }

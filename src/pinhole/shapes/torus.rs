@@ -8,6 +8,7 @@ use super::ray_block::{Intersection, RayHit, SurfacePoint};
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::{UnitRay, UnitSpace};
 use super::uv::UvSlope;
+use crate::each::Each;
 use crate::scene::{SceneError, Torus, number, positive_length};
 use glam::{DMat3, DVec3};
 use std::f64::consts::TAU;
@@ -98,7 +99,7 @@ impl Shape for PlacedTorus {
     #[inline(always)]
     fn uv(&self, (): &(), _hit: &RayHit, at: DVec3, _own: DVec3) -> [f64; 2] {
         let across = (at.x * at.x + at.z * at.z).sqrt() - self.major;
-        [libm::atan2(0.0 - at.x, 0.0 - at.z), libm::atan2(across, at.y)].map(|angle| {
+        [libm::atan2(0.0 - at.x, 0.0 - at.z), libm::atan2(across, at.y)].each(|angle| {
             let turns = angle / TAU;
             if turns < 0.0 { turns + 1.0 } else { turns }
         })
@@ -120,7 +121,7 @@ impl Shape for PlacedTorus {
 
     /// Along n it extends by a √(n_x² + n_z²) + b |n| from its centre, n being a row of the map from unit space.
     fn bounds(&self) -> Option<Bounds> {
-        let half_size = [0, 1, 2].map(|axis| {
+        let half_size = [0, 1, 2].each(|axis| {
             let n = self.space.world_from_unit.row(axis);
             self.major * (n.x * n.x + n.z * n.z).sqrt() + self.minor * n.length()
         });
@@ -176,7 +177,7 @@ impl PlacedTorus {
     fn range<N: Arithmetic>(&self, ray: &UnitRay<N>) -> Option<[f64; 2]> {
         const SLACK: f64 = 1.0 / 64.0;
         let ([p, q], error) =
-            ([ray.origin, ray.direction].map(|v| DVec3::from(v.map(N::value))), ray.origin[1].error());
+            ([ray.origin, ray.direction].each(|v| DVec3::from(v.each(N::value))), ray.origin[1].error());
         let middle = -p.dot(q);
         let half = (1.0 + SLACK + 4.0 * error - (p.dot(p) - middle * middle)).max(0.0).sqrt() + SLACK;
         let high = self.minor * (1.0 + SLACK) + 2.0 * error;
@@ -230,7 +231,7 @@ fn value<N: Arithmetic>(c: &[N; 5], at: f64) -> N {
 pub(super) fn first_root<N: Arithmetic>(quartic: &[N; 5], min: f64, max: f64, before: f64) -> Option<Option<f64>> {
     let (middle, half) = (0.5 * (min + max), 0.5 * (max - min));
     let c = shifted(quartic, middle);
-    let [w, ww] = [half, half * half].map(N::from);
+    let [w, ww] = [half, half * half].each(N::from);
     let (linear, square) = (c[1].abs() * w, c[2].abs() * ww);
     let (cube, fourth) = (c[3].abs() * ww * w, c[4].abs() * ww * ww);
     if (c[0].abs() - (linear + square + cube + fourth)).is_surely_positive() {

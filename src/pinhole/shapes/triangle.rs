@@ -14,6 +14,7 @@ use super::triangle_edges::{
 use super::triangle_filter::{PolygonFilter, triangle_rows};
 use super::uv::{UvSlope, planar_slope};
 use crate::bvh::by_axis;
+use crate::each::Each;
 use crate::scene::{SceneError, Triangle, finite_point, number, triple};
 use glam::{DMat3, DVec2, DVec3};
 use multiversion::multiversion;
@@ -48,7 +49,7 @@ impl TriangleFace {
         // No ray hits corners that rounding made collinear, so any normal will do.
         let along = (cross / cross.abs().max_element()).try_normalize().unwrap_or(DVec3::Z);
         let normal = if turned { -along } else { along };
-        (triangle, Self { normal, turned, uvs: order.map(|corner| uvs[corner]) })
+        (triangle, Self { normal, turned, uvs: order.each(|corner| uvs[corner]) })
     }
 }
 
@@ -64,7 +65,7 @@ impl SceneShape for Triangle {
     const WORD: &'static str = "triangle";
 
     fn scale(&mut self, by: f64) {
-        self.vertices = self.vertices.map(|vertex| vertex * by);
+        self.vertices = self.vertices.each(|vertex| vertex * by);
     }
 }
 
@@ -163,7 +164,7 @@ impl Shape for TriangleRow {
 /// Errors: as [`Shape::place`].
 pub fn placed_normals(triangle: &Triangle, placed: &Placed<'_>) -> Result<Option<[DVec3; 3]>, SceneError> {
     let (corners, normals) = placed_corners(triangle, placed)?;
-    Ok(normals.map(|normals| order_of_corners(&corners).map(|corner| normals[corner])))
+    Ok(normals.map(|normals| order_of_corners(&corners).each(|corner| normals[corner])))
 }
 
 /// Corners and vertex normals of a triangle in render space, in the author's order.
@@ -182,10 +183,10 @@ pub(super) fn placed_corners(
     }
     let [a, b, c] = triangle.vertices;
     let edges = [b - a, c - a, c - b];
-    let longest = edges.map(|edge| edge.abs().max_element()).into_iter().fold(0.0, f64::max);
+    let longest = edges.each(|edge| edge.abs().max_element()).into_iter().fold(0.0, f64::max);
     let across = (edges[0] / longest).cross(edges[1] / longest);
     if longest == 0.0 || across.length() <= MIN_HEIGHT {
-        let value = triangle.vertices.map(triple).join(", ");
+        let value = triangle.vertices.each(triple).join(", ");
         return Err(SceneError::new(who, "vertices", value, "the three corners must not lie on one line"));
     }
     let Some(normals) = triangle.normals else { return Ok((corners, None)) };
@@ -200,9 +201,9 @@ pub(super) fn placed_corners(
         *there = (along / along.abs().max_element()).normalize();
     }
     let facing = normal_world_from_object(pose.entity_from_world, across);
-    let sides = placed.map(|normal| facing.dot(normal));
+    let sides = placed.each(|normal| facing.dot(normal));
     if !(sides.iter().all(|&side| side > 0.0) || sides.iter().all(|&side| side < 0.0)) {
-        let value = normals.map(triple).join(", ");
+        let value = normals.each(triple).join(", ");
         return Err(SceneError::new(who, "normals", value, "all three must point to one side of the triangle"));
     }
     Ok((corners, Some(placed)))
@@ -242,12 +243,12 @@ impl TriangleRow {
     /// The triangle of three corners.
     pub fn new(mut corners: [DVec3; 3]) -> Self {
         corners.sort_by(order);
-        let size = corners.map(|corner| corner.abs().element_sum()).into_iter().fold(0.0, f64::max);
-        let edges = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (corners[i], corners[j]));
+        let size = corners.each(|corner| corner.abs().element_sum()).into_iter().fold(0.0, f64::max);
+        let edges = [(0, 1), (1, 2), (2, 0)].each(|(i, j)| (corners[i], corners[j]));
         let longest = edges.into_iter().max_by(|a, b| a.0.distance(a.1).total_cmp(&b.0.distance(b.1)));
         let centre = longest.map_or(corners[0], |(a, b)| a.midpoint(b));
         let bounding_radius =
-            corners.map(|corner| corner.distance(centre)).into_iter().fold(0.0, f64::max) * RADIUS_MARGIN;
+            corners.each(|corner| corner.distance(centre)).into_iter().fold(0.0, f64::max) * RADIUS_MARGIN;
         Self { corners, size, centre, bounding_radius }
     }
 
@@ -255,7 +256,7 @@ impl TriangleRow {
     /// collinear corners.
     pub fn cross(&self) -> DVec3 {
         let [a, b, c] = self.corners;
-        DVec3::from(exact_cross(&exact_difference(b, a), &exact_difference(c, a)).map(|part| part.rounded()))
+        DVec3::from(exact_cross(&exact_difference(b, a), &exact_difference(c, a)).each(|part| part.rounded()))
     }
 }
 
@@ -442,10 +443,10 @@ struct ExactEdges {
 
 impl ExactEdges {
     fn of(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> Self {
-        let corners = triangle.corners.map(|corner| exact_difference(corner, origin));
+        let corners = triangle.corners.each(|corner| exact_difference(corner, origin));
         let direction = exact_difference(direction, DVec3::ZERO);
         let [a, b, c] = &corners;
-        let areas = [(b, c), (c, a), (a, b)].map(|(i, j)| exact_dot(&direction, &exact_cross(i, j)));
+        let areas = [(b, c), (c, a), (a, b)].each(|(i, j)| exact_dot(&direction, &exact_cross(i, j)));
         let whole = areas[0].plus(&areas[1]).plus(&areas[2]);
         Self { areas, whole, corners }
     }
@@ -461,7 +462,7 @@ pub fn exact_triangle_t(origin: DVec3, direction: DVec3, triangle: &TriangleRow)
         return f64::INFINITY;
     }
     let ExactEdges { areas, whole, corners: [a, b, c] } = ExactEdges::of(origin, direction, triangle);
-    let signs = areas.map(|area| area.sign());
+    let signs = areas.each(|area| area.sign());
     if signs.contains(&1) == signs.contains(&-1) {
         return f64::INFINITY;
     }
@@ -476,5 +477,5 @@ pub fn exact_triangle_t(origin: DVec3, direction: DVec3, triangle: &TriangleRow)
 pub fn exact_barycentrics(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> ([f64; 3], f64) {
     let ExactEdges { areas, whole, .. } = ExactEdges::of(origin, direction, triangle);
     let along = whole.rounded();
-    (areas.map(|area| area.rounded() / along), along)
+    (areas.each(|area| area.rounded() / along), along)
 }

@@ -3,6 +3,7 @@
 use super::ray_block::{ClosestHit, Intersection, LANES, RayBlock, RaySlices, UNIT_ROUNDOFF, nearness, vector};
 use super::triangle::{TriangleRow, exact_triangle_t};
 use crate::bvh::by_axis;
+use crate::each::Each;
 use glam::DVec3;
 use pinhole_models::TriangleMesh;
 
@@ -372,7 +373,7 @@ impl TriangleBlock {
 
     /// One of its triangles, for exact arithmetic.
     pub(super) fn row(&self, lane: usize) -> TriangleRow {
-        let corners = self.corners.map(|corner| DVec3::from(corner.map(|axis| f64::from(axis[lane]))));
+        let corners = self.corners.each(|corner| DVec3::from(corner.each(|axis| f64::from(axis[lane]))));
         TriangleRow { corners, size: 0.0, centre: DVec3::ZERO, bounding_radius: 0.0 }
     }
 }
@@ -397,7 +398,7 @@ pub(super) fn edge_values_by_any_axis(
     [a, b, c]: [[f64; 3]; 3],
     rounding: f64,
 ) -> (EdgeValues, f64) {
-    let [x, y, z] = direction.map(f64::abs);
+    let [x, y, z] = direction.each(f64::abs);
     let by_z = (z >= x) & (z >= y);
     let by_y = !by_z & (y > x);
     let pick = |one: f64, other: f64, last: f64| if by_z { one } else { if by_y { other } else { last } };
@@ -456,7 +457,7 @@ mod triangle_edges_tests {
     use super::*;
 
     fn triangle(corners: [[f64; 3]; 3]) -> TriangleRow {
-        TriangleRow::new(corners.map(DVec3::from))
+        TriangleRow::new(corners.each(DVec3::from))
     }
 
     /// Half of a square of side 2, three units ahead.

@@ -13,6 +13,8 @@ use glam::DVec3;
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 
+use crate::each::{Each, by_lane, lanes};
+
 /// 2⁻²⁰: sixteen times f32's unit roundoff, of which the sums below need thirteen.
 const OF_SUM: f64 = 1.0 / (1 << 20) as f64;
 /// The greatest length, and the greatest 1 over a length, whose products of three are within what f32 represents.
@@ -53,7 +55,7 @@ impl Plane {
         /// 2⁻⁴⁸: 32 times f64's unit roundoff, of which the sums and a cross product over its length need eight.
         const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
         let cross = (b - a).cross(c - a);
-        let longest = [b - a, c - a, c - b].map(l1_norm).into_iter().fold(0.0, f64::max);
+        let longest = [b - a, c - a, c - b].each(l1_norm).into_iter().fold(0.0, f64::max);
         let normal = cross / l1_norm(cross);
         let thinness = longest * longest / l1_norm(cross);
         let (height, error) = (normal.dot(a), ROUNDING * (1.0 + thinness));
@@ -120,10 +122,10 @@ struct Barycentrics {
 
 impl Barycentrics {
     fn new(triangle: &TriangleRow, from: usize) -> Self {
-        let corners = [0, 1, 2].map(|corner| triangle.corners[(from + corner) % 3]);
+        let corners = [0, 1, 2].each(|corner| triangle.corners[(from + corner) % 3]);
         let plane = Plane::new(corners);
         let gradients = gradients(corners, plane.normal);
-        let steepest = gradients.map(|of| of.abs().max_element()).into_iter().fold(0.0, f64::max);
+        let steepest = gradients.each(|of| of.abs().max_element()).into_iter().fold(0.0, f64::max);
         Self { corners, plane, gradients, steepest }
     }
 }
@@ -149,7 +151,7 @@ impl Quadrilateral {
         let (at_a, at_d) = (lone(first, second)?, lone(second, first)?);
         let (own, other) = (Barycentrics::new(first, at_a), Barycentrics::new(second, at_d));
         let d = other.corners[0];
-        let [u, v] = own.gradients.map(|of| of.dot(d - own.corners[0]));
+        let [u, v] = own.gradients.each(|of| of.dot(d - own.corners[0]));
         let height = (own.plane.normal.dot(d) - own.plane.height).abs();
         let (size, steepest) = (first.size.max(second.size), own.steepest.max(other.steepest));
         let is_flat = height <= f64::from(OF_T) / 16.0 * size && height * steepest <= OF_PLANE;
@@ -162,7 +164,7 @@ impl Quadrilateral {
     /// Its edges from B to D and from C to D, as functions that are 0 on them and positive inside.
     fn edges(&self) -> [[f64; 3]; 2] {
         let [u, v] = self.of_d;
-        let of_unit = |of: [f64; 3]| of.map(|factor| factor / (of[0].abs() + of[1].abs()));
+        let of_unit = |of: [f64; 3]| of.each(|factor| factor / (of[0].abs() + of[1].abs()));
         [of_unit([-v, u - 1.0, v]), of_unit([v - 1.0, -u, u])]
     }
 }
@@ -192,9 +194,9 @@ impl PolygonInF32 {
             places,
             normal: in_f32(plane.normal),
             height_error: [of(plane.error), of(plane.error * plane.size + plane.apart[0] + UNDERFLOW)],
-            gradients: gradients.map(in_f32),
-            at_origin: gradients.map(|of| -of.dot(corners[0]) as f32),
-            edges: edges.map(|edge| edge.map(|factor| factor as f32)),
+            gradients: gradients.each(in_f32),
+            at_origin: gradients.each(|of| -of.dot(corners[0]) as f32),
+            edges: edges.each(|edge| edge.each(|factor| factor as f32)),
             size: size as f32,
             slope_error: of(3.0 * error),
             coordinate_error: [of(of_coordinates * error * steepest), of(2.0 * steepest)],
@@ -290,7 +292,7 @@ fn first_hits<const FUSED: bool>(
         (size[lane], length[lane]) = (if is_usable { from } else { f32::INFINITY }, along);
         (low[lane], high[lane]) = (until[lane] * (1.0 - OF_T), until[lane] * (1.0 + OF_T));
     }
-    let origin = o.map(|axis| axis.map(f64::from));
+    let origin: [[f64; LANES]; 3] = o.each(|axis| lanes(|lane| f64::from(axis[lane])));
     let (mut found, mut suspects) = ([NONE; LANES], [[0; LANES]; NUMBERS]);
     for (number, (polygons, planes)) in polygons.chunks(IN_ONE).zip(planes.chunks(IN_ONE)).enumerate() {
         let suspects = &mut suspects[number];
@@ -467,7 +469,7 @@ fn filtered_rows<const FUSED: bool>(
             t: [0.0; LANES],
             certain: [0; LANES],
         };
-        for (lane, &(row, place)) in (0..LANES).zip(of_block) {
+        for (lane, (row, place)) in by_lane::<LANES, _>(of_block) {
             let (row, triangle) = (row as usize, &triangles[place as usize]);
             for axis in 0..3 {
                 block.o[axis][lane] = f64::from(rays.origin[axis][row]);
@@ -479,7 +481,7 @@ fn filtered_rows<const FUSED: bool>(
             block.size[lane] = triangle.size;
         }
         block.intersect();
-        for (lane, &(row, place)) in (0..LANES).zip(of_block) {
+        for (lane, (row, place)) in by_lane::<LANES, _>(of_block) {
             let (row, place) = (row as usize, place as usize);
             let found = if block.certain[lane] != 0 {
                 block.t[lane]
@@ -581,8 +583,8 @@ mod tests {
                 let PolygonFilter { polygons, planes } = &filter;
                 of_two += triangles.len() - polygons.len();
                 for start in (0..origins.len() - LANES).step_by(LANES) {
-                    let part = |own: usize, axis: usize| std::array::from_fn(|lane| columns[own][axis][start + lane]);
-                    let block = [0, 1].map(|own| [0, 1, 2].map(|axis| part(own, axis)));
+                    let part = |own: usize, axis: usize| lanes(|lane| columns[own][axis][start + lane]);
+                    let block = [0, 1].each(|own| [0, 1, 2].each(|axis| part(own, axis)));
                     let found = first_hits::<false>((polygons, planes), &block, &[f32::INFINITY; LANES]);
                     in_doubt += (0..LANES).filter(|lane| found.count(NUMBERS, *lane) > SUSPECTS).count();
                 }

@@ -4,6 +4,8 @@ use super::kind::ShapeKind;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
+use crate::each::Each;
+
 /// The uv of a point of a sphere, given in object space at any distance from the centre.
 ///
 /// u is the longitude over 2π: 0 at −z, ¼ at −x, ½ at +z, ¾ at +x; v is the polar angle from +y over π.
@@ -23,7 +25,7 @@ pub fn sphere_uv(own: DVec3) -> [f64; 2] {
 /// a checkerboard would not remain square.
 #[inline(always)]
 pub fn planar_uv(at: [f64; 2]) -> [f64; 2] {
-    at.map(|coordinate| within_unit(0.5 + 0.5 * coordinate))
+    at.each(|coordinate| within_unit(0.5 + 0.5 * coordinate))
 }
 
 /// The two unit vectors, in a plane's object space, along which its u and v increase.
@@ -116,7 +118,7 @@ pub(super) fn planar_slope([one, other]: [DVec3; 2], uvs: [DVec2; 3]) -> UvSlope
     // Along the first edge, the first coordinate changes by 1 and the second by 0; along the second edge, vice versa.
     let (first, second) = (other.cross(across) / area_squared, across.cross(one) / area_squared);
     let (along_one, along_other) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
-    UvSlope::Planar([0, 1].map(|part| first * along_one[part] + second * along_other[part]))
+    UvSlope::Planar([0, 1].each(|part| first * along_one[part] + second * along_other[part]))
 }
 
 #[cfg(test)]

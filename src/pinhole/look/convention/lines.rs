@@ -1,4 +1,5 @@
 use super::{Described, Opening, PlacedCamera, Program, theirs_from_pinhole};
+use crate::each::Each;
 use crate::scene::FovAxis;
 use glam::{DMat3, DQuat, DVec3};
 
@@ -7,7 +8,7 @@ pub fn lines(program: Program, camera: &PlacedCamera) -> Vec<String> {
     let theirs = theirs_from_pinhole(program, camera);
     let opening = short(theirs.opening);
     let (width, height) = (camera.image.width, camera.image.height);
-    let [eye, target, up] = [camera.look.eye, camera.look.target, camera.look.up].map(|point| parts(point, ", "));
+    let [eye, target, up] = [camera.look.eye, camera.look.target, camera.look.up].each(|point| parts(point, ", "));
     match program {
         Program::OneWeekend => vec![
             format!("cam.image_width = {width}; cam.aspect_ratio = {width}.0 / {};", rows_divisor(width, height)),
@@ -27,7 +28,7 @@ pub fn lines(program: Program, camera: &PlacedCamera) -> Vec<String> {
         Program::Gltf => gltf(&theirs, &opening, camera),
         Program::Pbrt => vec![
             "Scale -1 1 1".into(),
-            format!("LookAt {}", [&eye, &target, &up].map(|point| point.replace(", ", " ")).join("  ")),
+            format!("LookAt {}", [&eye, &target, &up].each(|point| point.replace(", ", " ")).join("  ")),
             format!("Camera \"perspective\" \"float fov\" [ {opening} ]"),
             format!("Film \"rgb\" \"integer xresolution\" [ {width} ] \"integer yresolution\" [ {height} ]"),
         ],
@@ -45,7 +46,7 @@ pub fn lines(program: Program, camera: &PlacedCamera) -> Vec<String> {
 /// What *One Weekend* has to divide the width by, so that its `int(image_width / aspect_ratio)` is the height: the height
 /// itself, or half a row more where the quotients round to less than it.
 fn rows_divisor(width: u32, height: u32) -> String {
-    let [across, down] = [width, height].map(f64::from);
+    let [across, down] = [width, height].each(f64::from);
     if (across / (across / down)) as u32 == height { format!("{height}.0") } else { format!("{height}.5") }
 }
 
@@ -69,7 +70,7 @@ pub fn back(program: Program) -> [String; 2] {
 
 fn gltf(theirs: &Described, opening: &str, camera: &PlacedCamera) -> Vec<String> {
     let q = DQuat::from_mat3(&theirs.axes);
-    let rotation = [q.x, q.y, q.z, q.w].map(short).join(", ");
+    let rotation = [q.x, q.y, q.z, q.w].each(short).join(", ");
     vec![
         "\"cameras\": [{ \"type\": \"perspective\", \"perspective\": {".into(),
         format!("    \"yfov\": {opening}, \"aspectRatio\": {}, \"znear\": 0.01 }} }}],", short(camera.image.aspect())),
@@ -80,7 +81,7 @@ fn gltf(theirs: &Described, opening: &str, camera: &PlacedCamera) -> Vec<String>
 
 fn open_cv(theirs: &Described, opening: &str, camera: &PlacedCamera) -> Vec<String> {
     // OpenCV puts pixel centres at integers, so the image's centre is half a pixel less than half its size.
-    let [cx, cy] = [camera.image.width, camera.image.height].map(|side| short((f64::from(side) - 1.0) / 2.0));
+    let [cx, cy] = [camera.image.width, camera.image.height].each(|side| short((f64::from(side) - 1.0) / 2.0));
     let camera_from_world = theirs.axes.transpose();
     let t = camera_from_world * -theirs.eye;
     vec![
@@ -109,7 +110,7 @@ fn rows(matrix: DMat3, row: usize) -> String {
 }
 
 fn parts(vector: DVec3, between: &str) -> String {
-    vector.to_array().map(short).join(between)
+    vector.to_array().each(short).join(between)
 }
 
 /// A number to twelve digits: more than a 32-bit float has, fewer than rounding errors show in.

@@ -1,5 +1,6 @@
 use super::emitting::{AreaSample, Emitting, LightPoint};
 use super::parallelogram::{Parallelogram, across, parallelogram_pdf, parallelogram_point, parallelogram_solid_angle};
+use crate::each::Each;
 use crate::shapes::l1_norm;
 use glam::DVec3;
 
@@ -19,7 +20,7 @@ pub struct EmittingCuboid {
 impl EmittingCuboid {
     /// The cuboid with these half edges.
     pub fn new(centre: DVec3, half_edges: [DVec3; 3]) -> Self {
-        let normals = [0, 1, 2].map(|axis| {
+        let normals = [0, 1, 2].each(|axis| {
             let normal = half_edges[(axis + 1) % 3].cross(half_edges[(axis + 2) % 3]).normalize();
             if normal.dot(half_edges[axis]) < 0.0 { -normal } else { normal }
         });
@@ -85,7 +86,7 @@ impl Emitting for EmittingCuboid {
         let along = [2.0 * (left / areas[axis]).min(1.0) - 1.0, 2.0 * u[1] - 1.0];
         let edges = [self.half_edges[(axis + 1) % 3], self.half_edges[(axis + 2) % 3]];
         let position = self.centre + sign * self.half_edges[axis] + along[0] * edges[0] + along[1] * edges[1];
-        let size = l1_norm(self.centre) + self.half_edges.map(l1_norm).iter().sum::<f64>();
+        let size = l1_norm(self.centre) + self.half_edges.each(l1_norm).iter().sum::<f64>();
         AreaSample { position, normal: sign * self.normals[axis], area: self.area(), size }
     }
 }

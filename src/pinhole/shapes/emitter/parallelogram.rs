@@ -1,5 +1,6 @@
 use super::emitting::{ANY_WAY, AreaSample, Emitting, LightPoint, WayVisitor, angle_of, pdf_from_area};
 use super::triangle::{MIN_SOLID_ANGLE, TriangleSeen, triangle_solid_angle};
+use crate::each::Each;
 use crate::sample::circle_point;
 use crate::shapes::l1_norm;
 use glam::DVec3;
@@ -157,7 +158,7 @@ impl RectangleSeen {
     /// They are added as rotations, pairs of a cosine and a sine, so that only their sum needs an arc tangent.
     #[inline(always)]
     pub fn new(centre: DVec3, half_edges: [DVec3; 2], from: DVec3) -> Self {
-        let [a, b] = half_edges.map(|half| half.length());
+        let [a, b] = half_edges.each(|half| half.length());
         let (right, up) = (half_edges[0] / a, half_edges[1] / b);
         let ahead = right.cross(up);
         let to = centre - from;
@@ -224,13 +225,13 @@ impl RectangleSeen {
     #[inline(always)]
     fn sines(&self, x: f64, y: [f64; 2]) -> [f64; 2] {
         let depth_squared = x * x + self.z * self.z;
-        y.map(|y| y / (y * y + depth_squared).sqrt())
+        y.each(|y| y / (y * y + depth_squared).sqrt())
     }
 
     /// Half the chord at x of the ellipse inscribed in this rectangle.
     #[inline(always)]
     fn half_chord(&self, x: f64) -> f64 {
-        let [half_x, half_y] = [self.x, self.y].map(|ends| 0.5 * (ends[1] - ends[0]));
+        let [half_x, half_y] = [self.x, self.y].each(|ends| 0.5 * (ends[1] - ends[0]));
         let product = (x - self.x[0]) * (self.x[1] - x);
         half_y * (product.max(0.0)).sqrt() / half_x
     }
@@ -279,7 +280,7 @@ pub fn parallelogram_point(shape: &Parallelogram, from: DVec3, u: [f64; 2]) -> L
             let at = u[0] * whole;
             let (which, before) = if at < solid_angles[0] { (0, 0.0) } else { (1, solid_angles[0]) };
             let first = ((at - before) / solid_angles[which]).clamp(0.0, 1.0);
-            let corners = halves(shape)[which].map(|corner| corner - from);
+            let corners = halves(shape)[which].each(|corner| corner - from);
             LightPoint { to: TriangleSeen::new(corners, solid_angles[which]).at([first, u[1]]), pdf: 1.0 / whole }
         }
         Seen::Small => parallelogram_area_point(shape, from, u),
@@ -356,7 +357,7 @@ impl Seen {
                 return Self::Rectangle(seen);
             }
         }
-        let solid_angles = halves(shape).map(|half| triangle_solid_angle(&half.map(|corner| corner - from)));
+        let solid_angles = halves(shape).each(|half| triangle_solid_angle(&half.each(|corner| corner - from)));
         let enough = solid_angles[0] + solid_angles[1] >= MIN_SOLID_ANGLE;
         if enough { Self::Triangles(solid_angles) } else { Self::Small }
     }

@@ -1,4 +1,5 @@
 use super::emitting::{AreaSample, Emitting, LightPoint, angle_of, pdf_from_area};
+use crate::each::Each;
 use crate::sample::circle_point;
 use crate::shapes::l1_norm;
 use glam::DVec3;
@@ -102,7 +103,7 @@ pub struct TriangleSeen {
 #[inline(always)]
 pub fn triangle_solid_angle(corners: &[DVec3; 3]) -> f64 {
     let [a, b, c] = *corners;
-    let [la, lb, lc] = corners.map(|corner| corner.length());
+    let [la, lb, lc] = corners.each(|corner| corner.length());
     // From the edges, whose cross product keeps the area of a distant triangle.
     let volume = a.dot((b - a).cross(c - a)).abs();
     let rest = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
@@ -154,7 +155,7 @@ impl TriangleSeen {
 /// Samples a point on a triangle: uniform in solid angle, or over its area where it subtends hardly any.
 #[inline(always)]
 pub fn triangle_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> LightPoint {
-    let there = corners.map(|corner| corner - from);
+    let there = corners.each(|corner| corner - from);
     let solid_angle = triangle_solid_angle(&there);
     // Both are computed and one is picked, so that a loop over many surfaces has no branch.
     let (by_area, seen) = (triangle_area_point(corners, from, u), TriangleSeen::new(there, solid_angle).at(u));
@@ -166,7 +167,7 @@ pub fn triangle_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> LightPo
 /// The pdf of a direction sampled by [`triangle_point`], in 1/sr; `to` is the offset to the triangle's point there.
 #[inline(always)]
 pub fn triangle_pdf(corners: &[DVec3; 3], from: DVec3, to: DVec3) -> f64 {
-    let solid_angle = triangle_solid_angle(&corners.map(|corner| corner - from));
+    let solid_angle = triangle_solid_angle(&corners.each(|corner| corner - from));
     if solid_angle < MIN_SOLID_ANGLE { triangle_area_pdf(corners, to) } else { 1.0 / solid_angle }
 }
 
