@@ -13,7 +13,7 @@
 //! // A random number is a function of seed, pixel, sample and purpose: no generator is carried along.
 //! let number = |sample| uniform(7, [3, 4], sample, Purpose::Roulette);
 //! assert_eq!(number(0), number(0));
-//! let mean = (0..4096).each(number).sum::<f64>() / 4096.0;
+//! let mean = (0..4096).map(number).sum::<f64>() / 4096.0;
 //! assert!((mean - 0.5).abs() < 0.02);
 //! ```
 
