@@ -24,7 +24,8 @@ impl TriangleMesh {
     /// The positions of a triangle's vertices.
     #[inline(always)]
     pub fn corners(&self, triangle: usize) -> [[f32; 3]; 3] {
-        self.triangles[triangle].map(|vertex| self.positions[vertex as usize])
+        let ([a, b, c], at) = (self.triangles[triangle], |vertex: u32| self.positions[vertex as usize]);
+        [at(a), at(b), at(c)]
     }
 
     /// The bytes of a triangle.

@@ -1,9 +1,11 @@
-//! The elements of short arrays, one by one, and of a few lanes; and those of a whole slice at once.
+//! The elements of short arrays, one by one, and of a few lanes; and those of a whole column at once.
+//!
+//! What the standard library has for it is not inlined from one of the parts into which the compiler divides a package into
+//! another: in a kernel each call of it would be one, of a function compiled for the oldest processors.
 
 /// What `[T; N]::map` does, for the short arrays that stages have by the thousand: coordinates, axes, corners, lanes.
 /// The standard one goes through an iterator that frees what is left when the function panics: 220 lines of intermediate
-/// code for each place that asks, a twentieth of the renderer's, and not inlined from one of the parts into which the
-/// compiler divides a package into another.
+/// code for each place that asks, a twentieth of the renderer's.
 pub(crate) trait Each: Sized {
     /// What the array is made of.
     type Element;
@@ -50,10 +52,37 @@ pub(crate) fn by_lane<const N: usize, T: Copy>(of: &[T]) -> impl Iterator<Item =
     of[..of.len().min(N)].iter().enumerate().map(|(lane, &one)| (lane, one))
 }
 
-/// Sets all elements of a slice; `[T]::fill` is not inlined from one part of a package into another.
+/// Sets all elements of a slice, which is what `[T]::fill` does.
 #[inline(always)]
 pub(crate) fn set_all<T: Copy>(all: &mut [T], to: T) {
     for one in all {
         *one = to;
     }
+}
+
+/// Makes a column as long as there are rows, where all new ones are the same, by one instruction for many; `Vec::resize`
+/// is one function for whatever may be new, and writes it one by one.
+#[inline(always)]
+pub(crate) fn set_length<T>(column: &mut Vec<T>, rows: usize, new: impl Fn() -> T) {
+    column.resize_with(rows, new);
+}
+
+/// Lists the rows that count: every one is written, and the next overwrites it unless it counts (stream compaction), so
+/// that no branch depends on what a row is. Closures that say which had best own what they read: what is lent to them is
+/// looked up for each row.
+#[inline(always)]
+pub(crate) fn list_those(rows: impl ExactSizeIterator<Item = (u32, bool)>, list: &mut Vec<u32>) {
+    set_length(list, rows.len(), || 0);
+    let (own, mut length) = (&mut list[..], 0);
+    for (row, counts) in rows {
+        own[length] = row;
+        length += usize::from(counts);
+    }
+    list.truncate(length);
+}
+
+/// Whether all of three numbers are this one; the equality of arrays is a loop.
+#[inline(always)]
+pub(crate) fn all_are([a, b, c]: [f64; 3], one: f64) -> bool {
+    (a == one) & (b == one) & (c == one)
 }

@@ -12,7 +12,7 @@ use super::bsdf::at_interfaces_where;
 use super::interface::{Interface, InterfaceView};
 use super::recursive_mis::{JoinRatios, RecursiveMis, bounded, reverse_pdf, squared};
 use super::{LightPower, bsdf::without_sides};
-use crate::each::Each;
+use crate::each::{Each, all_are};
 use crate::extract::{
     GlassTable, IntegratorTable, MaterialTable, bidirectional_evidence, bsdf_evidence, lit_from_behind_evidence,
 };
@@ -349,7 +349,7 @@ fn join_vertex<B: Bsdf>(
     let opaque = ShadingContext::opaque(bsdf_row, vertex.parameters);
     let context = ShadingContext { eta: vertex.eta, transport: Transport::Importance, ..opaque };
     let scattered = bsdf.eval(&context, onward, to_source);
-    if scattered == [0.0; 3] {
+    if all_are(scattered, 0.0) {
         return None;
     }
     let geometry = sent * arriving / square;

@@ -8,7 +8,7 @@ use super::recursive_mis::{join_weight_stage, leave_with_ratios_stage};
 use super::scatter_block::{AT_ONCE, SampledBlock, SampledColumns, ScatteredBlock};
 use super::specular::{specular_from_lights_stage, specular_stage, split_stage};
 use super::{DeeperMedia, Media, Scattered, power_heuristic};
-use crate::each::{Each, by_lane};
+use crate::each::{Each, by_lane, list_those};
 use crate::extract::{
     GlassTable, MaterialTable, SamplingTable, ShapeTable, area_light_evidence, bidirectional_evidence, bsdf_evidence,
     environment_light_evidence, glass_contact_evidence, joined_evidence, mis_evidence, needed_if, traced_evidence,
@@ -58,9 +58,9 @@ pub fn sample_bsdf<B: Bsdf, const FROM_LIGHT: bool>(
     for (BsdfViewItem { rays, paths, surfaces, shading, mut scattered }, draws, columns, interface, rows) in &mut tiles
     {
         let interface = Interface::new(interface, glass.as_deref());
-        let has_bsdf = |row: &u32| materials.kind[surfaces.material[*row as usize] as usize] == B::KIND;
-        list.clear();
-        list.extend(rows.row.iter().copied().filter(has_bsdf));
+        let (kinds, of_row) = (&materials.kind[..], &surfaces.material[..]);
+        let has_bsdf = move |&row: &u32| (row, kinds[of_row[row as usize] as usize] == B::KIND);
+        list_those(rows.row.iter().map(has_bsdf), &mut list);
         let draws = draws.draws(&sampling, Some(paths));
         draws_of_two(&draws, Purpose::Direction, &list, &mut points);
         choices.clear();
@@ -289,9 +289,10 @@ pub fn classify_bsdf<B: Bsdf>(
     mut tiles: Query<(&Hits, &mut BsdfRows<B>)>,
 ) {
     // A shape without a material has a row that no table has.
-    let has_bsdf = |shape: usize| materials.kind.get(shapes.material[shape] as usize) == Some(&B::KIND);
+    let kinds = &materials.kind[..];
     for (hits, mut list) in &mut tiles {
-        list_rows(hits, shapes.kind.len(), &mut list.row, has_bsdf);
+        let has_bsdf = move |&material: &u32| kinds.get(material as usize) == Some(&B::KIND);
+        list_rows(hits, &shapes.material, &mut list.row, has_bsdf);
     }
 }
 

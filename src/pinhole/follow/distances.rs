@@ -1,6 +1,6 @@
 //! How far light goes through participating media before it is scattered.
 
-use crate::each::Each;
+use crate::each::{Each, all_are};
 use crate::extract::{Coefficients, Filled, MediumPlace, MediumTable, NO_ROW, list_around};
 use crate::shapes::{l1_norm, stretches_inside};
 use glam::DVec3;
@@ -31,7 +31,7 @@ impl Stretch {
     /// ends no path.
     #[inline(always)]
     pub(super) fn rate(&self) -> [f64; 3] {
-        if self.sum.scattering == [0.0; 3] { [0.0; 3] } else { self.sum.extinction }
+        if all_are(self.sum.scattering, 0.0) { [0.0; 3] } else { self.sum.extinction }
     }
 }
 

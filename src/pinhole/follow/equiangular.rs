@@ -11,7 +11,7 @@ use super::distances::{
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
-use crate::each::Each;
+use crate::each::{Each, all_are};
 
 /// The optical depth behind which nothing need be sampled by angle; what lies there the other pdf still finds.
 const DEEP: f64 = 40.0;
@@ -62,7 +62,7 @@ fn scattering_part(stretches: &[Stretch], choice: [f64; 3]) -> Option<([f64; 2],
     let (mut ends, mut rates) = (None, [0.0; 3]);
     for stretch in stretches {
         let rate = stretch.rate();
-        if rate == [0.0; 3] {
+        if all_are(rate, 0.0) {
             continue;
         }
         let least = (0..3).filter(|&part| choice[part] > 0.0).map(|part| rates[part]).fold(f64::INFINITY, f64::min);

@@ -2,7 +2,7 @@
 
 use super::Scattered;
 use super::specular::mirroring_normal;
-use crate::each::{Each, set_all};
+use crate::each::{Each, all_are, set_all};
 use crate::extract::{
     CameraJoinTable, LightPathTable, LightSource, MaterialTable, SamplingTable, bidirectional_evidence,
     caustics_evidence, distant_start_evidence, environment_traced_evidence, joined_caustics_evidence, joined_evidence,
@@ -171,7 +171,7 @@ fn start_rows<D: Draw>(
         direction.put(at, start.direction.as_vec3());
         first[at] = row as u32;
         powers.put(row, start.power);
-        at += usize::from(start.power != [0.0; 3]);
+        at += usize::from(!all_are(start.power, 0.0));
     }
     rays.slices_mut(at);
     paths.slices_mut(at);

@@ -241,6 +241,13 @@ impl Carrier {
         crossed: &[GlassCrossing],
         priorities: &[u32],
     ) -> MediumStack {
+        // Where the first four have room for what is entered, there is nothing to keep beyond them.
+        let has_room = beyond.is_empty() && stack.rows[3] == NO_ROW;
+        if crossed.is_empty() || (has_room && crossed.len() == 1) {
+            self.kept.0.push(beyond);
+            let across = |own: &GlassCrossing| stack.crossing(own.glass, own.from_outside, priorities).beyond;
+            return crossed.first().map_or(stack, across);
+        }
         let whole = &mut self.whole;
         whole.clear();
         whole.extend(stack.rows.iter().filter(|&&row| row != NO_ROW));
@@ -358,7 +365,9 @@ impl MediumStack {
     pub fn left(self, row: u32) -> Self {
         let Some(place) = self.rows.iter().position(|own| *own == row) else { return self };
         let mut rows = self.rows;
-        rows.copy_within(place + 1.., place);
+        for at in place..3 {
+            rows[at] = rows[at + 1];
+        }
         rows[3] = NO_ROW;
         Self { rows }
     }

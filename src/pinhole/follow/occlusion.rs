@@ -1,4 +1,4 @@
-use crate::each::set_all;
+use crate::each::{list_those, set_all};
 use crate::extract::{IntegratorTable, SamplingTable, occlusion_evidence};
 use crate::intersect::{Hits, NO_SHAPE, Surfaces, shape_evidence};
 use crate::material::{cosine_direction, frame_of};
@@ -55,8 +55,7 @@ pub fn sample_sky_with(
 ) {
     let SkyLists { row: list, points } = &mut *lists;
     for SkyViewItem { tile, number, samples, hits, surfaces, mut rays } in &mut tiles {
-        list.clear();
-        list.extend((0..hits.rows() as u32).filter(|&row| hits.shape[row as usize] != NO_SHAPE));
+        list_those(hits.shape.iter().enumerate().map(|(row, &shape)| (row as u32, shape != NO_SHAPE)), list);
         let draws = Draws { sampling, tile, number, samples, paths: None, depth: Depth(0) };
         draws_of_two(&draws, Purpose::Direction, list, points);
         let (path, mut origin, mut direction, t_max, mut irradiance) = rays.slices_mut(list.len());

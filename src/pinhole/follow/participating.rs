@@ -10,7 +10,7 @@ use super::distances::{MediaAlong, emission_along, sample_distance};
 use super::equiangular::sample_distance_towards;
 use super::light_paths::{LightPower, StartedOn};
 use super::recursive_mis::{leave_with_ratios, weight_joins};
-use crate::each::Each;
+use crate::each::{Each, all_are};
 use crate::extract::{
     EquiangularTable, LightPathTable, MediumTable, NO_ROW, SamplingTable, area_light_evidence, bidirectional_evidence,
     distant_start_evidence, emitting_medium_evidence, environment_light_evidence, medium_evidence, mis_evidence,
@@ -178,7 +178,7 @@ pub fn attenuate_shadow_rays(
             let way = [rays.origin_of(ray), rays.direction_of(ray)];
             let end = light_distance(rays.t_max[ray]);
             let reached_by = along.find_transmittance(&media, (way, time), end);
-            if reached_by != [1.0; 3] {
+            if !all_are(reached_by, 1.0) {
                 rays.weight_by(ray, reached_by);
             }
         }

@@ -3,7 +3,7 @@
 use super::media::{deeper_media_evidence, media_evidence};
 use super::previous_surfaces::previous_surface_evidence;
 use super::{CausticPaths, DeeperMedia, Media, PreviousSurfaces, RecursiveMis};
-use crate::each::{Each, set_all};
+use crate::each::{Each, all_are, set_all};
 use crate::extract::{
     IntegratorTable, SamplingTable, bidirectional_evidence, filtered_evidence, followed_evidence, motion_evidence,
     needed_if, photon_evidence, wavelength_evidence,
@@ -125,7 +125,7 @@ impl ScatteredRoom<'_> {
         self.direction.put(at, ray.direction.as_vec3());
         self.throughput.put(at, ray.throughput);
         self.pdf[at] = ray.pdf;
-        self.length += usize::from(ray.throughput != [0.0; 3]);
+        self.length += usize::from(!all_are(ray.throughput, 0.0));
     }
 }
 

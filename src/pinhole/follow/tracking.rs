@@ -3,7 +3,7 @@
 use super::distances::{
     ChosenColour, MediaAlong, SampledDistance, Span, Stretch, add_depth, depth, emission_between, over, transmittances,
 };
-use crate::each::Each;
+use crate::each::{Each, all_are};
 use crate::extract::{Coefficients, MediumTable, PlacedGrid};
 use crate::sample::RandomStream;
 use glam::DVec3;
@@ -126,7 +126,7 @@ impl MediaAlong {
         for stretch in &self.stretches {
             self.add_depths(media, [at, stretch.from], &mut depths);
             at = stretch.from;
-            if stretch.sum.emission == [0.0; 3] {
+            if all_are(stretch.sum.emission, 0.0) {
                 continue;
             }
             if !stretch.varies {
@@ -136,7 +136,7 @@ impl MediaAlong {
                 continue;
             }
             if let Some(own) = self.spans.get(stretch.only as usize)
-                && absorption == [0.0; 3]
+                && all_are(absorption, 0.0)
             {
                 let of = &media.medium[own.medium];
                 let (integral, arrives) = (self.length(media, own, [stretch.from, stretch.to]), reached(&depths, at));
@@ -186,7 +186,7 @@ impl MediaAlong {
         };
         for stretch in &self.stretches {
             let (majorants, range) = (stretch.rate(), [stretch.from, stretch.to]);
-            if majorants == [0.0; 3] {
+            if all_are(majorants, 0.0) {
                 self.add_depths(media, range, &mut unscattered);
                 continue;
             }

@@ -1,6 +1,6 @@
 use super::hits::{EmissiveRows, MaterialRows, ShapeRows};
 use super::{Hits, SurfaceSides, SurfaceUvs, Surfaces};
-use crate::each::set_all;
+use crate::each::{list_those, set_all};
 use crate::extract::{NO_ROW, ShapeTable, kind_evidence, shape_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems, VectorRowsMut};
 use crate::shapes::{Listed, ShapeKind, with_shapes};
@@ -32,7 +32,7 @@ macro_rules! shape_lists {
 
         fn list_shapes(hits: &Hits, shapes: &ShapeTable, lists: ShapeListsViewItem<'_, '_>) {
             $(if let Some(mut list) = lists.$field {
-                list_rows(hits, shapes.kind.len(), &mut list.row, |shape| shapes.kind[shape] == ShapeKind::$kind);
+                list_rows(hits, &shapes.kind, &mut list.row, |&kind| kind == ShapeKind::$kind);
             })+
         }
     };
@@ -46,11 +46,11 @@ pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(ShapeLis
     for (lists, HitListsViewItem { hits, materials, emissive, surfaces, uvs, sides }) in &mut tiles {
         list_shapes(hits, &shapes, lists);
         if let Some(mut list) = materials {
-            list_rows(hits, shapes.kind.len(), &mut list.row, |shape| shapes.non_specular[shape]);
+            list_rows(hits, &shapes.non_specular, &mut list.row, |&is| is);
         }
         if let Some(mut list) = emissive {
             let list = &mut *list;
-            list_rows(hits, shapes.kind.len(), &mut list.row, |shape| shapes.emissive[shape] != NO_ROW);
+            list_rows(hits, &shapes.emissive, &mut list.row, |&emissive| emissive != NO_ROW);
             list.emissive.clear();
             list.emissive.extend(list.row.iter().map(|&row| shapes.emissive[hits.shape[row as usize] as usize]));
         }
@@ -66,19 +66,16 @@ pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(ShapeLis
     }
 }
 
-/// Lists the rows that hit a shape of a kind, of so many shapes: every row is written, and the next overwrites it unless it counts (stream
-/// compaction), so that no branch depends on what was hit.
+/// Lists the rows that hit a shape that counts, by what is known of each shape.
 ///
 /// A row that hit nothing has a number that no shape has: it is asked like the last one, and does not count.
-pub fn list_rows(hits: &Hits, shapes: usize, list: &mut Vec<u32>, of_kind: impl Fn(usize) -> bool) {
-    let Some(last) = shapes.checked_sub(1) else { return list.clear() };
-    list.resize(hits.rows(), 0);
-    let (rows, mut length) = (&mut list[..], 0);
-    for (row, &shape) in hits.shape.iter().enumerate() {
-        rows[length] = row as u32;
-        length += usize::from((shape as usize <= last) & of_kind(last.min(shape as usize)));
-    }
-    list.truncate(length);
+pub fn list_rows<T>(hits: &Hits, of_shapes: &[T], list: &mut Vec<u32>, counts: impl Fn(&T) -> bool) {
+    let Some(last) = of_shapes.len().checked_sub(1) else { return list.clear() };
+    let seen = move |(row, &shape): (usize, &u32)| {
+        let shape = shape as usize;
+        (row as u32, (shape <= last) & counts(&of_shapes[last.min(shape)]))
+    };
+    list_those(hits.shape.iter().enumerate().map(seen), list);
 }
 
 /// Clears all rows: those that hit something are written by the stage of their shape.
@@ -93,7 +90,7 @@ fn clear_surfaces(surfaces: &mut Surfaces, rows: usize) {
 /// Lists the rows that hit one kind of shape, one that a program adds.
 pub fn classify_shape<S: Listed>(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(&Hits, &mut ShapeRows<S>)>) {
     for (hits, mut list) in &mut tiles {
-        list_rows(hits, shapes.kind.len(), &mut list.row, |shape| shapes.kind[shape] == S::KIND);
+        list_rows(hits, &shapes.kind, &mut list.row, |&kind| kind == S::KIND);
     }
 }
 

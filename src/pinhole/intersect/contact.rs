@@ -146,7 +146,7 @@ pub fn merge_contacts(
             contacts.behind.clear();
         }
         // Neither a miss nor a scattering event is in the table.
-        list_rows(&hits, table.row.len(), &mut list, |shape| table.row[shape] != NO_ROW);
+        list_rows(&hits, &table.row, &mut list, |&row| row != NO_ROW);
         for row in list.iter().map(|&row| row as usize) {
             together.clear();
             let time = times.map_or(0.0, |times| times.time[row]);

@@ -1,5 +1,5 @@
 use super::TileSystems;
-use crate::each::set_all;
+use crate::each::{set_all, set_length};
 use bevy_ecs::prelude::*;
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
 use glam::{DVec2, DVec3, Vec3};
@@ -226,7 +226,7 @@ impl<T: ComponentValue> ColumnArrays for Vec<T> {
     #[inline(always)]
     fn slices_mut(&mut self, rows: usize) -> &mut [T] {
         if self.len() != rows {
-            self.resize(rows, T::default());
+            set_length(self, rows, T::default);
         }
         &mut self[..rows]
     }

@@ -1,5 +1,7 @@
 //! A column whose rows hold lists of different lengths.
 
+use crate::each::set_length;
+
 /// A list for each row, all of them in one array, so that a row without any entry needs no space in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowLists<T> {
@@ -27,7 +29,7 @@ impl<T: Clone> RowLists<T> {
     pub fn start(&mut self, rows: usize) {
         self.entry.clear();
         self.end.clear();
-        self.end.resize(rows, 0);
+        set_length(&mut self.end, rows, || 0);
     }
 
     /// Appends rows with empty lists up to so many rows.
@@ -36,8 +38,11 @@ impl<T: Clone> RowLists<T> {
     }
 
     /// Appends a row with this list.
+    #[inline(always)]
     pub fn push(&mut self, list: &[T]) {
-        self.entry.extend_from_slice(list);
+        if !list.is_empty() {
+            self.entry.extend_from_slice(list);
+        }
         self.end.push(self.entry.len() as u32);
     }
 

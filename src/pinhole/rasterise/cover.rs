@@ -2,10 +2,11 @@
 
 use super::table::RasterTriangles;
 use super::triangle::{Edge, RasterTriangle, SUBPIXELS, within};
-use crate::each::Each;
+use crate::each::{Each, set_length};
 use crate::plan::Column;
 use crate::rays::{RasterPoints, Tile};
 use multiversion::multiversion;
+use std::hint::select_unpredictable;
 
 /// How many samples are tested at once; a triangle is tested at more samples than its own rather than at fewer at once.
 const SAMPLES: usize = 4;
@@ -31,12 +32,12 @@ impl Cover {
         let rows = raster.rows();
         let room = rows.max(SAMPLES);
         for column in [&mut self.x, &mut self.y] {
-            column.resize(room, 0.0);
+            set_length(column, room, || 0.0);
         }
         self.nearness.clear();
-        self.nearness.resize(room, f64::NEG_INFINITY);
+        set_length(&mut self.nearness, room, || f64::NEG_INFINITY);
         self.nearest.clear();
-        self.nearest.resize(room, NONE);
+        set_length(&mut self.nearest, room, || NONE);
         cover(self, table, (tile, raster), in_order);
     }
 
@@ -105,49 +106,41 @@ impl Cover {
     fn keep_nearest(&mut self, triangle: &TileTriangle, rows: std::ops::Range<usize>) {
         let last = self.x.len() - SAMPLES;
         for start in rows.step_by(SAMPLES) {
-            self.keep_nearest_at(triangle, start.min(last));
+            let start = start.min(last);
+            let (Some(x), Some(y)) = (self.x[start..].first_chunk(), self.y[start..].first_chunk()) else { return };
+            let (nearness, nearest) = (&mut self.nearness[start..], &mut self.nearest[start..]);
+            let (Some(nearness), Some(nearest)) = (nearness.first_chunk_mut(), nearest.first_chunk_mut()) else {
+                return;
+            };
+            keep_nearest_of(triangle, [x, y], nearness, nearest);
         }
     }
-
-    // ANCHOR: keep_nearest
-    /// Keeps the triangle at those of a few samples that are inside it and where nothing is nearer; of equally near
-    /// triangles the first wins, which is that of the lowest number.
-    #[inline(always)]
-    fn keep_nearest_at(&mut self, triangle: &TileTriangle, start: usize) {
-        let rows = start..start + SAMPLES;
-        let [x, y] = [&self.x, &self.y].each(|column| of(&column[rows.clone()]));
-        let [ab, bc, ca] = triangle.edges.each(|edge| samples(|sample| edge.at(x[sample], y[sample])));
-        let [right, down, at_corner] = triangle.nearness;
-        let near: Samples = samples(|sample| {
-            let near = within(right * x[sample] + down * y[sample] + at_corner, triangle.range);
-            if lesser(lesser(ab[sample], bc[sample]), ca[sample]) >= 0.0 { near } else { f64::NEG_INFINITY }
-        });
-        let (nearness, nearest) = (of(&self.nearness[rows.clone()]), of(&self.nearest[rows.clone()]));
-        let wins = |sample: usize| near[sample] > nearness[sample];
-        let number = samples(|sample| if wins(sample) { triangle.number } else { nearest[sample] });
-        let near = samples(|sample| if wins(sample) { near[sample] } else { nearness[sample] });
-        if let (Some(of_number), Some(of_nearness)) =
-            (self.nearest[rows.clone()].first_chunk_mut(), self.nearness[rows].first_chunk_mut())
-        {
-            (*of_number, *of_nearness) = (number, near);
-        }
-    }
-    // ANCHOR_END: keep_nearest
 }
 
 /// A number for each of a few samples: an operation on all of them is one instruction.
 type Samples = [f64; SAMPLES];
 
+// ANCHOR: keep_nearest
+/// Keeps the triangle at those of a few samples that are inside it and where nothing is nearer; of equally near
+/// triangles the first wins, which is that of the lowest number.
 #[inline(always)]
-fn samples(of: impl Fn(usize) -> f64) -> Samples {
-    [0, 1, 2, 3].each(of)
+fn keep_nearest_of(triangle: &TileTriangle, [x, y]: [&Samples; 2], nearness: &mut Samples, nearest: &mut Samples) {
+    let ([ab, bc, ca], [right, down, at_corner]) = (triangle.edges, triangle.nearness);
+    // In arrays of their own, which overlap nothing that is read, and without a branch: only then is an operation on all
+    // samples one instruction.
+    let (mut nearness_now, mut nearest_now) = ([0.0; SAMPLES], [0.0; SAMPLES]);
+    for sample in 0..SAMPLES {
+        let (x, y) = (x[sample], y[sample]);
+        let near = within(right * x + down * y + at_corner, triangle.range);
+        let is_inside = lesser(lesser(ab.at(x, y), bc.at(x, y)), ca.at(x, y)) >= 0.0;
+        let near = select_unpredictable(is_inside, near, f64::NEG_INFINITY);
+        let wins = near > nearness[sample];
+        nearness_now[sample] = select_unpredictable(wins, near, nearness[sample]);
+        nearest_now[sample] = select_unpredictable(wins, triangle.number, nearest[sample]);
+    }
+    (*nearness, *nearest) = (nearness_now, nearest_now);
 }
-
-/// A few rows of a column.
-#[inline(always)]
-fn of(rows: &[f64]) -> Samples {
-    samples(|sample| rows[sample])
-}
+// ANCHOR_END: keep_nearest
 
 /// The lesser of two numbers that are not NaN, in the one instruction that `f64::min` is not.
 #[inline(always)]

@@ -1,7 +1,7 @@
 //! Random numbers of rays.
 
 use super::{Depth, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
-use crate::each::Each;
+use crate::each::{Each, set_length};
 use crate::extract::SamplingTable;
 use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
 use bevy_ecs::query::QueryData;
@@ -60,7 +60,7 @@ impl Draws<'_> {
 
 /// Draws a uniform point in [0, 1)² for each of these rows.
 pub fn draws_of_two(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut Vec<[f64; 2]>) {
-    into.resize(rows.len(), [0.0; 2]);
+    set_length(into, rows.len(), || [0.0; 2]);
     with_sampler!(of.sampling.sampler, D => {
         let draw = D::of(of.sample(), purpose);
         of.of_blocks(rows, into, |pixels, points| points_of_pixels(draw, of.sampling.seed, pixels, points));
@@ -69,7 +69,7 @@ pub fn draws_of_two(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut V
 
 /// Draws a uniform number in [0, 1) for each of these rows.
 pub fn draws_of_one(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut Vec<f64>) {
-    into.resize(rows.len(), 0.0);
+    set_length(into, rows.len(), || 0.0);
     with_sampler!(of.sampling.sampler, D => {
         let draw = D::of(of.sample(), purpose);
         of.of_blocks(rows, into, |pixels, numbers| {
@@ -82,7 +82,7 @@ pub fn draws_of_one(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut V
 
 /// Draws a 32-bit fraction for each of these rows.
 pub fn fractions_of_one(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut Vec<u32>) {
-    into.resize(rows.len(), 0);
+    set_length(into, rows.len(), || 0);
     with_sampler!(of.sampling.sampler, D => {
         let draw = D::of(of.sample(), purpose);
         of.of_blocks(rows, into, |pixels, fractions| fractions_of_pixels(draw, of.sampling.seed, pixels, fractions));

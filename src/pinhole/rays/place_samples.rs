@@ -98,9 +98,10 @@ pub fn place_samples(
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn draw_points<D: Draw>(draw: D, (active, tile, seed): (&[u32], &Tile, u64), xs: &mut [f64], ys: &mut [f64]) {
     for (run, [first, line]) in tile.runs_of(active) {
-        for ((x, y), column) in xs[run.clone()].iter_mut().zip(&mut ys[run]).zip(first..) {
-            let [right, down] = draw.two(PixelKey::new(seed, [column, line]));
-            (*x, *y) = (unit(right), unit(down));
+        let (xs, ys) = (&mut xs[run.clone()], &mut ys[run]);
+        for at in 0..xs.len().min(ys.len()) {
+            let [right, down] = draw.two(PixelKey::new(seed, [first + at as u32, line]));
+            (xs[at], ys[at]) = (unit(right), unit(down));
         }
     }
 }
@@ -118,9 +119,10 @@ fn fill_signs(cells: &FilterCells, xs: &[f64], ys: &[f64], signs: &mut [f32]) {
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn spread<K: Kernel>((kernel, cells): (K, &FilterCells), active: &[u32], tile: &Tile, xs: &mut [f64], ys: &mut [f64]) {
     for (run, [first, line]) in tile.runs_of(active) {
-        for ((x, y), column) in xs[run.clone()].iter_mut().zip(&mut ys[run]).zip(first..) {
-            *x = f64::from(column) + 0.5 + kernel.offset(*x, cells).0;
-            *y = f64::from(line) + 0.5 + kernel.offset(*y, cells).0;
+        let (xs, ys) = (&mut xs[run.clone()], &mut ys[run]);
+        for at in 0..xs.len().min(ys.len()) {
+            xs[at] = f64::from(first + at as u32) + 0.5 + kernel.offset(xs[at], cells).0;
+            ys[at] = f64::from(line) + 0.5 + kernel.offset(ys[at], cells).0;
         }
     }
 }

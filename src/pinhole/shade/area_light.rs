@@ -4,7 +4,7 @@ use super::radiance::{LightSamplingView, LightSamplingViewItem};
 use super::receivers::{
     AT_ONCE, LightDraws, LightRay, LightRows, MakesRays, RayLists, Starts, append_rays, append_sampled,
 };
-use crate::each::Each;
+use crate::each::{Each, list_those, set_length};
 use crate::extract::{AreaLightTable, SamplingTable, area_light_evidence, light_sampling_evidence, material_evidence};
 use crate::intersect::Surface;
 use crate::lights::Receiver;
@@ -109,10 +109,8 @@ pub fn sample_area_lights(
             if !samples_each {
                 let has_chosen = lights.fractions_of(light);
                 for ((rows, fractions), list) in receivers.rows().into_iter().zip(&*fractions).zip(lists.iter_mut()) {
-                    list.clear();
-                    let with_fractions =
-                        rows.iter().zip(fractions).filter(|(_, fraction)| has_chosen.contains(&u64::from(**fraction)));
-                    list.extend(with_fractions.map(|(row, _)| *row));
+                    let drawn = rows.iter().zip(fractions);
+                    list_those(drawn.map(|(&row, &drawn)| (row, has_chosen.contains(&u64::from(drawn)))), list);
                 }
                 chosen = [&lists[0], &lists[1]];
             }
@@ -171,8 +169,8 @@ impl OneLight<'_> {
         for (side, (rows, draws)) in self.receivers.rows().into_iter().zip(self.draws).enumerate() {
             let mut counts = [0; WAYS];
             for chosen in self.by_way.iter_mut() {
-                chosen[side].row.resize(rows.len(), 0);
-                chosen[side].point.resize(rows.len(), [0.0; 2]);
+                set_length(&mut chosen[side].row, rows.len(), || 0);
+                set_length(&mut chosen[side].point, rows.len(), || [0.0; 2]);
             }
             let mut found = [0; AT_ONCE];
             for (rows, draws) in rows.chunks(AT_ONCE).zip(draws.chunks(AT_ONCE)) {

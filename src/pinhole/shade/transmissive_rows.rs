@@ -1,3 +1,4 @@
+use crate::each::list_those;
 use crate::extract::{MaterialTable, NO_ROW, ShapeTable, lit_from_behind_evidence};
 use crate::intersect::{Hits, MaterialRows};
 use crate::plan::{Shared, Stage, TileSystems, column};
@@ -24,12 +25,11 @@ pub fn list_transmissive_rows(
     mut tiles: Query<(&Hits, &MaterialRows, &mut TransmissiveRows)>,
 ) {
     for (hits, list, mut far) in &mut tiles {
-        let transmits = |row: &u32| match shapes.material[hits.shape[*row as usize] as usize] {
+        let transmits = |row: u32| match shapes.material[hits.shape[row as usize] as usize] {
             NO_ROW => false,
             material => materials.kind[material as usize].transmits(),
         };
-        far.row.clear();
-        far.row.extend(list.row.iter().copied().filter(transmits));
+        list_those(list.row.iter().map(|&row| (row, transmits(row))), &mut far.row);
     }
 }
 

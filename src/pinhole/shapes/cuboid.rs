@@ -45,7 +45,7 @@ impl Slabs {
     /// Whether the normals are the axes, so that two of three products in every dot product are 0.
     #[inline(always)]
     fn is_upright(&self) -> bool {
-        self.normal == DVec3::AXES
+        self.normal[0] == DVec3::X && self.normal[1] == DVec3::Y && self.normal[2] == DVec3::Z
     }
 
     /// The offsets from the centre to the midpoints of the faces at the ends of the three edges.

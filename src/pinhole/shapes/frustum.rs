@@ -8,7 +8,7 @@ use super::ray_block::{Intersection, RayHit, SurfacePoint};
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::{UnitRay, UnitSpace};
 use super::uv::{UvSlope, face_axes, within_unit};
-use crate::each::Each;
+use crate::each::{Each, all_are};
 use crate::sample::circle_point;
 use crate::scene::{SceneError, positive_length};
 use glam::{DMat3, DVec3};
@@ -406,7 +406,7 @@ impl Emitting for EmittingFrustum {
 
     fn point(&self, from: DVec3, u: [f64; 2]) -> LightPoint {
         let visible = self.visible(from);
-        if visible.areas == [0.0; 3] {
+        if all_are(visible.areas, 0.0) {
             return LightPoint::NONE;
         }
         let (point, normal, area) = self.sample(&visible, u);

@@ -226,6 +226,7 @@ impl Shape for PlacedMesh {
         }
     }
 
+    #[inline(always)]
     fn uv(&self, _: &(), hit: &RayHit, at: DVec3, _own: DVec3) -> [f64; 2] {
         let uvs = self.uvs_of(hit.primitive);
         (at.x * uvs[0] + at.y * uvs[1] + at.z * uvs[2]).into()
@@ -235,6 +236,7 @@ impl Shape for PlacedMesh {
         UvSlope::OfPrimitive
     }
 
+    #[inline(always)]
     fn uv_slope_of(&self, _: &(), triangle: u32) -> UvSlope {
         let [a, b, c] = self.triangle(triangle).corners.each(|corner| self.world_from_object * corner);
         planar_slope([b - a, c - a], self.uvs_of(triangle))
@@ -401,6 +403,7 @@ const GRAZING: f64 = 0.01;
 impl PlacedMesh {
     /// The shading normal where a ray hits it, in render space and facing the ray: interpolated from the vertex normals,
     /// as unit vector; none where the mesh has none, or where they do not all point to one side of the triangle.
+    #[inline(always)]
     pub fn shading_normal(&self, hit: &RayHit) -> Option<DVec3> {
         let normals = self.geometry.normals.as_ref()?;
         let vertices = self.geometry.triangles[hit.primitive as usize];

@@ -449,7 +449,9 @@ fn filtered_rows<const FUSED: bool>(
                         let suspect = (before + left.trailing_zeros()) as usize;
                         if !planes[suspect].is_beyond(ray, until) {
                             let [first, last] = polygons[suspect].places;
-                            pairs.extend((first..=last).map(|place| (row, place)));
+                            for place in first..=last {
+                                pairs.push((row, place));
+                            }
                         }
                         left &= left - 1;
                     }

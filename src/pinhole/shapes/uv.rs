@@ -112,6 +112,7 @@ pub(super) fn round_step(own: DVec3, step: DVec3) -> DVec3 {
 }
 
 /// The gradients of a triangle with these two edges from its first corner, from u and v of its corners.
+#[inline(always)]
 pub(super) fn planar_slope([one, other]: [DVec3; 2], uvs: [DVec2; 3]) -> UvSlope {
     let across = one.cross(other);
     let area_squared = across.length_squared();
