@@ -37,7 +37,10 @@ impl<S: Shape> StreamLeaves for ShapeLeaves<'_, '_, S> {
             if S::IN_BLOCKS && some.len() >= FEW {
                 self.test_together(leaf, some);
             } else {
-                some.iter().for_each(|&ray| self.test_alone(leaf, usize::from(ray)));
+                // No closure: it would be compiled for the oldest processors.
+                for &ray in some {
+                    self.test_alone(leaf, usize::from(ray));
+                }
             }
         }
     }
