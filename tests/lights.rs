@@ -99,7 +99,9 @@ impl Squares {
                 radius: radius * draws.between(0.5, 1.5),
             });
         }
-        let targets = Targets { scene: Target::around_all(&sphere), sphere, infinite: Vec::new() };
+        let scene = Target::around_all(&sphere);
+        let whole = (draws.unit() < 0.5).then_some(scene);
+        let targets = Targets { sphere, whole, scene, infinite: Vec::new() };
         let place = |[x, y]: [f64; 2]| middle + (right * (x - 0.5) + up * (y - 0.5)) * side;
 
         let mut sums = Sums::default();

@@ -106,7 +106,8 @@ fn every_light_brings_what_paths_from_the_camera_bring() {
     let spot = SpotLight { intensity: Rgb::grey(3.0), ..SpotLight::default() };
     let sun = DirectionalLight { irradiance: Rgb::grey(1.0), ..DirectionalLight::default() };
     let front = &front;
-    let cases: [(&str, Box<dyn Fn(&mut World)>); 11] = [
+    let from_front = LookAt { eye: DVec3::new(0.2, 0.4, 2.0), target: DVec3::ZERO, up: DVec3::Y };
+    let cases: [(&str, Box<dyn Fn(&mut World)>); 14] = [
         (
             "a one-sided rectangle",
             Box::new(move |world| _ = world.spawn((Rectangle { width: 0.5, depth: 0.5 }, front(), down))),
@@ -155,8 +156,28 @@ fn every_light_brings_what_paths_from_the_camera_bring() {
         (
             "a sun and a spot",
             Box::new(move |world| {
-                world.spawn((sun, LookAt { eye: DVec3::new(0.2, 0.4, 2.0), target: DVec3::ZERO, up: DVec3::Y }));
+                world.spawn((sun, from_front));
                 world.spawn((spot, ahead(1.7)));
+            }),
+        ),
+        ("a sun", Box::new(move |world| _ = world.spawn((sun, from_front)))),
+        (
+            "two suns, one without shadows, over an endless ground",
+            Box::new(move |world| {
+                world.spawn((sun, from_front));
+                let fill = DirectionalLight { irradiance: Rgb::grey(0.2), casts_shadows: false };
+                world.spawn((fill, LookAt { eye: DVec3::new(-1.0, 1.0, 2.0), ..from_front }));
+                world.spawn((Plane::default(), Placement::at(0.0, -0.1, 0.0), Matte::default()));
+            }),
+        ),
+        (
+            "two suns, a sky and a lamp over a large ground",
+            Box::new(move |world| {
+                world.spawn((sun, from_front));
+                world.spawn((sun, LookAt { eye: DVec3::new(-1.0, 1.0, 2.0), ..from_front }));
+                world.spawn(Gradient::default());
+                world.spawn((Rectangle { width: 0.5, depth: 0.5 }, front(), down));
+                world.spawn((Sphere { radius: 100.0 }, Placement::at(0.0, -100.1, 0.0), Matte::default()));
             }),
         ),
         (

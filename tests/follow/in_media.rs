@@ -63,7 +63,11 @@ fn shine(world: &mut World, number: usize) {
             let lamp = PointLight { intensity: Rgb::grey(1.0), casts_shadows: true };
             world.spawn((lamp, Placement::at(0.3, 1.6, 0.2)));
         }
-        _ => _ = world.spawn((SpotLight { intensity: Rgb::grey(3.0), ..SpotLight::default() }, look)),
+        3 => _ = world.spawn((SpotLight { intensity: Rgb::grey(3.0), ..SpotLight::default() }, look)),
+        _ => {
+            let sun = DirectionalLight { irradiance: Rgb::grey(1.0), ..DirectionalLight::default() };
+            world.spawn((sun, LookAt { eye: DVec3::new(0.2, 0.4, 2.0), target: DVec3::ZERO, up: DVec3::Y }));
+        }
     }
 }
 
@@ -74,7 +78,7 @@ fn shine(world: &mut World, number: usize) {
 fn joined_paths_bring_what_paths_from_the_camera_bring() {
     let mut tried = 0;
     for filling in 0..FILLINGS {
-        let lights: &[usize] = if [4, 5, 7].contains(&filling) { &[0, 1] } else { &[0, 1, 2, 3] };
+        let lights: &[usize] = if [4, 5, 7].contains(&filling) { &[0, 1] } else { &[0, 1, 4, 2, 3] };
         let all = 0..if times_samples() > 1 { lights.len() } else { 2 };
         for light in all.map(|step| lights[(filling + step) % lights.len()]) {
             let make = || room(&|world| (fill(world, filling), shine(world, light)).0);

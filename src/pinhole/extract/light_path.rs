@@ -65,13 +65,19 @@ pub struct LightPathTable {
     pub power: f64,
     /// The mirrors and the glass, towards which they start.
     pub targets: Targets,
+    /// The area that the power of a light without a position is counted over, in square scene units.
+    pub across: f64,
     /// Whether light paths are joined to those of the camera, and start in all directions on lights with a position.
     pub is_for_all_light: bool,
 }
 
 /// Where paths start in all directions.
-static NO_TARGETS: Targets =
-    Targets { sphere: Vec::new(), scene: Target { centre: DVec3::ZERO, radius: 0.0 }, infinite: Vec::new() };
+static NO_TARGETS: Targets = Targets {
+    sphere: Vec::new(),
+    whole: None,
+    scene: Target { centre: DVec3::ZERO, radius: 0.0 },
+    infinite: Vec::new(),
+};
 
 impl LightPathTable {
     /// The light chosen by a 32-bit fraction.
@@ -99,21 +105,32 @@ impl LightPathTable {
         }
     }
 
-    /// The luminance of the irradiance at normal incidence that a light without an area sends to a point; 0 from another.
-    pub fn delta_irradiance(&self, light: usize, point: DVec3) -> f64 {
+    /// How many paths arrive at a unit of area at right angles to a ray from a light without an area that hits this point,
+    /// of one path in all; 0 from another light.
+    pub fn delta_density(&self, light: usize, direction: DVec3, point: DVec3) -> f64 {
         match self.light.get(light) {
-            Some(LightSource::Delta(own)) => luminance(own.irradiance(point)),
+            Some(LightSource::Delta(own)) if own.position().is_none() => {
+                self.distant_density(luminance(own.irradiance(point)), direction, point)
+            }
+            Some(LightSource::Delta(own)) => luminance(own.irradiance(point)) / self.power,
             _ => 0.0,
         }
     }
 
+    /// The same of a light without a position that sends so much irradiance along a direction.
+    #[inline(always)]
+    pub fn distant_density(&self, irradiance: f64, direction: DVec3, point: DVec3) -> f64 {
+        irradiance / self.power * self.across * self.targets.parallel_pdf(direction, point)
+    }
+
+    /// Whether paths start on lights without a position towards everything.
+    pub fn is_whole(&self) -> bool {
+        self.targets.whole.is_some()
+    }
+
     /// Whether paths start on a light outside the scene, since it has no position.
     pub fn is_distant(&self, light: usize) -> bool {
-        match self.light.get(light) {
-            Some(LightSource::Delta(own)) => own.position().is_none(),
-            Some(LightSource::Environment(..)) => true,
-            Some(LightSource::Area { .. }) | None => false,
-        }
+        self.light.get(light).is_some_and(LightSource::is_distant)
     }
 
     /// The mesh of a light that is one of its triangles.
@@ -123,43 +140,72 @@ impl LightPathTable {
     }
 }
 
+impl LightSource {
+    /// The luminance of its power; for a light without a position, of what passes through so many square scene units.
+    fn power(&self, across: f64) -> f64 {
+        match self {
+            Self::Area { emitter, radiance, one_sided } => {
+                luminance(*radiance) * emitter.area() * PI * if *one_sided { 1.0 } else { 2.0 }
+            }
+            Self::Delta(light) => luminance(light.power(across)),
+            Self::Environment(environment, _) => environment_strength(environment) * across,
+        }
+    }
+
+    /// Whether paths start on it outside the scene, since it has no position.
+    fn is_distant(&self) -> bool {
+        match self {
+            Self::Area { .. } => false,
+            Self::Delta(light) => light.position().is_none(),
+            Self::Environment(..) => true,
+        }
+    }
+}
+
+/// Lights without a position are chosen at most so many times as often as all others together, however large the scene is
+/// that they shine on: most of it may be far from what the camera sees.
+const MAX_DISTANT: f64 = 4.0;
+
 impl Table for LightPathTable {
     const NAME: &'static str = "light paths";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let areas = scene.table::<AreaLightTable>()?;
-        let (mut light, mut powers) = (Vec::new(), Vec::new());
+        let mut light = Vec::new();
         for (number, emitter) in areas.emitter.iter().enumerate() {
             let (radiance, one_sided) = (areas.radiance[number], areas.one_sided[number]);
-            let sides = if one_sided { 1.0 } else { 2.0 };
-            powers.push(luminance(radiance) * emitter.area() * PI * sides);
             light.push(LightSource::Area { emitter: *emitter, radiance, one_sided });
         }
         let is_for_all_light = bidirectional_evidence(scene).needed;
         let is_needed = !is_for_all_light || distant_start_evidence(scene).needed;
         let targets = if is_needed { Targets::clone(&*targets(scene)?) } else { Targets::default() };
-        let across = targets.across();
-        let is_started = |is_distant: bool| !is_distant || !targets.sphere.is_empty();
+        let is_started = |is_distant: bool| !is_distant || !targets.is_empty();
         for kind in light_kinds(scene).filter(|kind| is_started(kind.is_distant)) {
-            for source in (kind.sources)(scene)? {
-                powers.push(luminance(source.power(across)));
-                light.push(LightSource::Delta(source));
-            }
+            light.extend((kind.sources)(scene)?.into_iter().map(LightSource::Delta));
         }
         if started_environment_evidence(scene).needed && is_started(true) {
-            let environment = scene.table::<EnvironmentTable>()?;
-            powers.push(environment_strength(&environment) * across);
-            light.push(LightSource::Environment(environment, scene.table()?));
+            light.push(LightSource::Environment(scene.table()?, scene.table()?));
         }
         let mut mesh = areas.mesh.clone();
+        let mut of_mesh = Vec::new();
         for lights in &mut mesh {
-            lights.first = powers.len() as u32;
+            lights.first = (light.len() + of_mesh.len()) as u32;
             let own = lights.first as usize..lights.first as usize + lights.triangles();
-            powers.extend(own.map(|light| lights.power(light)));
+            of_mesh.extend(own.map(|light| lights.power(light)));
         }
+        let mut across = targets.across();
+        if targets.whole.is_some() {
+            let sum = |is_distant: bool| {
+                let own = light.iter().filter(|light| light.is_distant() == is_distant);
+                own.map(|light| light.power(1.0)).filter(|power| *power > 0.0).sum::<f64>()
+            };
+            let near = sum(false) + of_mesh.iter().filter(|power| **power > 0.0).sum::<f64>();
+            across = if near > 0.0 { across.min(MAX_DISTANT * near / sum(true)) } else { across };
+        }
+        let powers: Vec<f64> = light.iter().map(|light| light.power(across)).chain(of_mesh).collect();
         let (until, probability) = light_distribution(&powers, if is_for_all_light { 0.0 } else { EVEN });
         let power = powers.iter().filter(|power| !power.is_nan()).sum();
-        Ok(Self { light, mesh, until, probability, power, targets, is_for_all_light })
+        Ok(Self { light, mesh, until, probability, power, targets, across, is_for_all_light })
     }
 
     fn bytes(&self) -> usize {
@@ -208,8 +254,25 @@ fn find_targets(scene: &Census<'_>) -> Result<Targets, SceneError> {
     if found.len() > MAX_TARGETS {
         found = vec![Target::around_all(&found)];
     }
-    let scene = all.map_or_else(Target::default, |all| Target::around(all.sphere_around()));
-    Ok(Targets { sphere: found, scene, infinite })
+    let around = all.map_or_else(Target::default, |all| Target::around(all.sphere_around()));
+    let whole = (infinite.is_empty() && all.is_some() && starts_on_everything(scene)).then_some(around);
+    Ok(Targets { sphere: found, whole, scene: around, infinite })
+}
+
+/// Whether paths on lights without a position start towards everything, if it has an end: where they are joined to those of
+/// the camera, unless one of many such lights is chosen for each surface, with a probability that a path does not know.
+fn starts_on_everything(scene: &Census<'_>) -> bool {
+    let mut distant = light_kinds(scene).filter(|kind| kind.is_distant);
+    bidirectional_request(scene).needed && !distant.any(|kind| kind.is_chosen_of_many(scene))
+}
+
+/// Evidence that paths on lights without a position start towards mirrors and glass alone.
+pub fn specular_start_evidence(scene: &Census<'_>) -> Evidence {
+    let own = "paths on such a light start towards mirrors and glass alone";
+    distant_start_evidence(scene).and(|| match targets(scene) {
+        Ok(targets) if targets.whole.is_none() => Evidence::always(own),
+        _ => Evidence { needed: false, reason: "they start towards everything".into(), count: 0 },
+    })
 }
 
 /// Evidence of an environment image on which light paths start: not where they are joined to those of the camera, which
@@ -227,7 +290,8 @@ fn started_environment_evidence(scene: &Census<'_>) -> Evidence {
 pub fn distant_start_evidence(scene: &Census<'_>) -> Evidence {
     let distant = shadowed_evidence(scene, true).or(started_environment_evidence(scene));
     distant.and(|| match targets(scene) {
-        Ok(targets) if !targets.sphere.is_empty() => Evidence::always("every mirror and glass is bounded"),
+        Ok(targets) if targets.whole.is_some() => Evidence::always("every shape is bounded"),
+        Ok(targets) if !targets.is_empty() => Evidence::always("every mirror and glass is bounded"),
         _ => Evidence { needed: false, reason: "a mirror or glass is infinite".into(), count: 0 },
     })
 }

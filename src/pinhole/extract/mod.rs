@@ -78,7 +78,7 @@ pub use integrator::{
     light_sampling_evidence, mis_evidence, needed_if, occlusion_evidence, photon_evidence, shadowed_distant_evidence,
     shadowed_point_evidence, started_on_evidence, traced_evidence, unless_occlusion,
 };
-pub use light_path::{LightPathTable, LightSource, distant_start_evidence};
+pub use light_path::{LightPathTable, LightSource, distant_start_evidence, specular_start_evidence};
 pub use lights_of::{
     DirectionalLightTable, LightKind, LightsOf, PointLightTable, SpotLightTable, add_light, delta_light_evidence,
     delta_light_rays, delta_light_shines, light_kinds, lights_evidence, many_lights_evidence, point_evidence,

@@ -10,7 +10,7 @@
 
 use super::bsdf::at_interfaces_where;
 use super::interface::{Interface, InterfaceView};
-use super::recursive_mis::{JoinRatios, RecursiveMis, bounded, reverse_pdf, squared};
+use super::recursive_mis::{JoinRatios, RecursiveMis, bounded, squared};
 use super::{LightPower, bsdf::without_sides};
 use crate::each::{Each, all_are};
 use crate::extract::{
@@ -348,16 +348,15 @@ fn join_vertex<B: Bsdf>(
     let (onward, to_source) = (local_from_world * -direction, local_from_world * source);
     let opaque = ShadingContext::opaque(bsdf_row, vertex.parameters);
     let context = ShadingContext { eta: vertex.eta, transport: Transport::Importance, ..opaque };
-    let scattered = bsdf.eval(&context, onward, to_source);
+    let (scattered, [forth, back]) = bsdf.eval_and_pdfs(&context, onward, to_source);
     if all_are(scattered, 0.0) {
         return None;
     }
     let geometry = sent * arriving / square;
 
     // As many paths from either end come along the ray as its BSDF samples this direction.
-    let from_light = bsdf.pdf(&context, onward, to_source) * kind.cosine(normal, direction) / square;
-    let back = squared(reverse_pdf(bsdf, &context, onward, to_source));
-    let known = bounded(vertex.arrival + vertex.earlier * back);
+    let from_light = forth * kind.cosine(normal, direction) / square;
+    let known = bounded(vertex.arrival + vertex.earlier * squared(back));
     Some(Join {
         direction: direction.as_vec3(),
         distance: square.sqrt(),

@@ -5,8 +5,8 @@ use super::specular::mirroring_normal;
 use crate::each::{Each, all_are, set_all};
 use crate::extract::{
     CameraJoinTable, LightPathTable, LightSource, MaterialTable, SamplingTable, bidirectional_evidence,
-    caustics_evidence, distant_start_evidence, environment_traced_evidence, joined_caustics_evidence, joined_evidence,
-    lens_evidence, normal_map_evidence, traced_evidence,
+    caustics_evidence, environment_traced_evidence, joined_caustics_evidence, joined_evidence, lens_evidence,
+    normal_map_evidence, specular_start_evidence, traced_evidence,
 };
 use crate::intersect::{Hits, MaterialRows, NO_SHAPE, ShadingNormals, Surfaces, vertex_normal_evidence};
 use crate::lights::{LightStart, MAX_TARGETS_SOLID_ANGLE, StartDraws, direction_to_targets};
@@ -279,8 +279,8 @@ impl Splats {
 /// Leaves light that goes straight from lights to non-specular surfaces to the camera's paths: at the first bounce,
 /// only mirrors and glass scatter.
 ///
-/// Where paths start in all directions, that holds of lights without a position alone: towards everything else than mirrors
-/// and glass none start on these.
+/// Where paths start in all directions, that holds of lights without a position alone, and only where paths on these start
+/// towards mirrors and glass alone.
 pub fn keep_specular(
     starts: Res<Shared<LightPathTable>>,
     mut tiles: Query<(&Paths, Option<&StartedOn>, &mut MaterialRows)>,
@@ -310,7 +310,7 @@ pub fn keep_specular_stage() -> Stage {
 /// Evidence that some light is left to the camera's paths where it has not come through mirrors or glass.
 fn specular_first_evidence(scene: &Census<'_>) -> Evidence {
     let caustics = caustics_evidence(scene);
-    if caustics.needed { caustics } else { bidirectional_evidence(scene).and(|| distant_start_evidence(scene)) }
+    if caustics.needed { caustics } else { bidirectional_evidence(scene).and(|| specular_start_evidence(scene)) }
 }
 
 /// Rays that reached the camera, what they carry, and the splats that become of them.

@@ -27,7 +27,7 @@ use crate::extract::{
 use crate::follow::PreviousSurfaces;
 use crate::intersect::{EmissiveRows, HitPrimitives, Hits, NO_SHAPE, ShadingNormals, Surface, SurfaceSides, Surfaces};
 use crate::lights::Receiver;
-use crate::material::{Bsdf, MaterialKind, ShadingContext, Transport};
+use crate::material::{Bsdf, MaterialKind, Transport, reverse_pdf};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
 use crate::rays::{Depth, LensPoints, Paths, WorldRays, join_camera};
 use crate::shade::{EmissionFactors, LightPdfs, ParameterColumns, Radiance, ShadowRays, area_light_pdf};
@@ -93,21 +93,6 @@ pub(super) fn squared(ratio: f64) -> f64 {
     bounded(ratio * ratio)
 }
 
-// ANCHOR: reverse_pdf
-/// The pdf with which a path would go from a surface to the eye if it came from the light.
-///
-/// A transmitted path comes from the other side, where the index of refraction is the inverse.
-#[inline(always)]
-pub(super) fn reverse_pdf<B: Bsdf>(bsdf: &B, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> f64 {
-    if to_light.z >= 0.0 {
-        return bsdf.pdf(context, to_eye, to_light);
-    }
-    let flipped = |direction: DVec3| DVec3::new(direction.x, direction.y, -direction.z);
-    let behind = ShadingContext { eta: 1.0 / context.eta, ..*context };
-    bsdf.pdf(&behind, flipped(to_eye), flipped(to_light))
-}
-// ANCHOR_END: reverse_pdf
-
 /// Surfaces where paths arrive.
 #[derive(QueryData)]
 #[query_data(mutable)]
@@ -167,13 +152,13 @@ fn first_from_camera(join: &CameraJoinTable, paths: f64, lens: DVec2, point: DVe
 #[inline(always)]
 fn first_from_light(
     (starts, areas): (&LightPathTable, &AreaLightTable),
-    (light, origin): (usize, DVec3),
+    (light, [origin, direction]): (usize, [DVec3; 2]),
     surface: &Surface,
     cosine: f64,
 ) -> [f64; 2] {
     let Some((own, radiance)) = starts.area_light(areas, light) else {
-        let arriving = starts.delta_irradiance(light, surface.position.as_dvec3()) * cosine;
-        return [starts.power / arriving, 0.0];
+        let arriving = starts.delta_density(light, direction, surface.position.as_dvec3()) * cosine;
+        return [1.0 / arriving, 0.0];
     };
     // From where a light sample would start, which is off the surface.
     let from = offset_origin(surface.position, surface.normal, surface.bound);
@@ -199,7 +184,8 @@ pub fn arrive_with_ratios(
             }),
             Some(started) => view.arrive(|row, surface, cosine| {
                 let light = started.light[paths.first[row] as usize] as usize;
-                first_from_light((&starts, &areas), (light, rays.origin_of(row)), surface, cosine)
+                let ray = [rays.origin_of(row), rays.direction_of(row)];
+                first_from_light((&starts, &areas), (light, ray), surface, cosine)
             }),
         }
     }
@@ -244,7 +230,8 @@ fn by_area(
 
 // ANCHOR: light_sample_ratios
 /// Begins the list of ratios with those of the light samples: as many light paths arrive along a ray as its share of all
-/// power says, E / Φ; none from an environment, a distant light or one without shadows.
+/// power says, E / Φ; none from an environment, from a light without shadows, or from a distant one where paths on such start
+/// towards mirrors and glass alone.
 pub fn begin_join_ratios(
     (starts, materials): (Res<Shared<LightPathTable>>, Res<Shared<MaterialTable>>),
     mut tiles: Query<LightSampleView>,
@@ -256,10 +243,17 @@ pub fn begin_join_ratios(
             let (row, direction) = (rays.row[ray] as usize, rays.direction_of(ray));
             let by_light = pdfs.pdf[ray];
             onward[ray] = if by_light > 0.0 { squared(1.0 / by_light) } else { 0.0 };
-            let is_started_on = rays.t_max[ray] > 0.0 && rays.t_max[ray] < f32::INFINITY;
-            let share = luminance(rays.irradiance(ray).each(f64::from)) / starts.power;
+            let irradiance = luminance(rays.irradiance(ray).each(f64::from));
+            let arriving = match rays.t_max[ray] {
+                t_max if !(t_max > 0.0) => 0.0,
+                f32::INFINITY if starts.is_whole() && by_light == 0.0 => {
+                    starts.distant_density(irradiance, -direction, rays.origin_of(ray))
+                }
+                f32::INFINITY => 0.0,
+                _ => irradiance / starts.power,
+            };
             let more = by_area((&materials, surfaces, shading), row, [direction; 2]);
-            reverse[ray] = if is_started_on { squared(share * more) } else { 0.0 };
+            reverse[ray] = squared(arriving * more);
         }
     }
 }
@@ -346,10 +340,10 @@ pub fn weight_joins<B: Bsdf>(
             let to_eye = local_from_world * -eye.direction_of(row);
             let of_row = (columns.get(&materials, row, material), row, material);
             let context = shading_context::<B>(&materials, &interface, of_row, Transport::Radiance);
-            let onward = ratios.onward[ray] * squared(bsdf.pdf(&context, to_light, to_eye));
+            let [onward, back] = bsdf.pdfs(&context, to_light, to_eye).each(squared);
             let path = paths.first[row] as usize;
-            let back = squared(reverse_pdf(&**bsdf, &context, to_light, to_eye));
-            let others = onward + ratios.reverse[ray] * bounded(mis.arrival[path] + mis.earlier[path] * back);
+            let reverse = ratios.reverse[ray] * bounded(mis.arrival[path] + mis.earlier[path] * back);
+            let others = ratios.onward[ray] * onward + reverse;
             rays.weight_by(ray, [1.0 / (1.0 + others); 3]);
         }
     }

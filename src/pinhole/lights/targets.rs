@@ -47,6 +47,8 @@ impl Target {
 pub struct Targets {
     /// Spheres that together bound all mirrors and glass; none where one of these is infinite.
     pub sphere: Vec<Target>,
+    /// A sphere around everything, where parallel light starts towards all shapes and not towards mirrors and glass alone.
+    pub whole: Option<Target>,
     /// A sphere around every shape that is not infinite.
     pub scene: Target,
     /// The infinite shapes, none of them specular where there are targets: they hide targets from distant lights.
@@ -54,6 +56,11 @@ pub struct Targets {
 }
 
 impl Targets {
+    /// Whether no light starts from outside.
+    pub fn is_empty(&self) -> bool {
+        self.sphere.is_empty() && self.whole.is_none()
+    }
+
     /// The radius of the disk at right angles to parallel light that its rays through a target pass, enlarged by as
     /// much as a ray in f32 may miss it by.
     #[inline(always)]
@@ -68,8 +75,51 @@ impl Targets {
 
     /// The area of the disks of all targets, in square scene units: overlapping ones count once each.
     #[inline(always)]
-    pub fn across(&self) -> f64 {
+    fn of_spheres(&self) -> f64 {
         self.sphere.iter().map(|target| self.disk_area(target)).sum()
+    }
+
+    /// The area that parallel light is sampled over, in square scene units: that of the disk of everything, or the sum of
+    /// those of the targets.
+    #[inline(always)]
+    pub fn across(&self) -> f64 {
+        self.whole.map_or_else(|| self.of_spheres(), |whole| self.disk_area(&whole))
+    }
+
+    /// By how many square scene units mirrors and glass are chosen together, and everything: one start in two goes towards
+    /// each where there are both.
+    #[inline(always)]
+    fn chosen_by(&self) -> [f64; 2] {
+        let of_spheres = self.of_spheres();
+        match self.whole {
+            Some(whole) if self.sphere.is_empty() => [0.0, self.disk_area(&whole)],
+            Some(_) => [of_spheres; 2],
+            None => [of_spheres, 0.0],
+        }
+    }
+
+    /// How many targets a line of parallel light through a point passes, and how far from the point the first of them
+    /// begins; it passes `chosen`, whatever rounding says. Everything counts as much as it is chosen more than for its area.
+    #[inline(always)]
+    fn passed(&self, direction: DVec3, point: DVec3, chosen: Option<usize>) -> (f64, f64) {
+        let counts = |whole| self.chosen_by()[1] / self.disk_area(whole);
+        let targets = self.sphere.iter().map(|target| (target, 1.0));
+        let (mut passed, mut first) = (0.0, f64::INFINITY);
+        for (number, (target, counts)) in targets.chain(self.whole.iter().map(|own| (own, counts(own)))).enumerate() {
+            let to = target.centre - point;
+            let (along, disk) = (to.dot(direction), self.disk(target));
+            if chosen == Some(number) || (to - direction * along).length_squared() <= disk * disk {
+                passed += counts;
+                first = first.min(along - disk);
+            }
+        }
+        (passed, first)
+    }
+
+    /// How far from a point a line of parallel light through it enters the scene, whose first target begins there.
+    #[inline(always)]
+    fn outside(&self, direction: DVec3, point: DVec3, first: f64) -> f64 {
+        first.min((self.scene.centre - point).dot(direction) - self.scene.radius)
     }
 
     // ANCHOR: parallel_start
@@ -82,37 +132,39 @@ impl Targets {
     /// An infinite shape has no outside: where one of them crosses the ray before the first target, the power is 0.
     #[inline(always)]
     pub fn parallel_start(&self, direction: DVec3, irradiance: [f64; 3], draws: &StartDraws) -> LightStart {
-        let all = self.across();
+        let [of_spheres, of_whole] = self.chosen_by();
+        let all = of_spheres + of_whole;
+        let targets = || self.sphere.iter().chain(&self.whole);
         let (mut left, mut chosen) = (draws.target * all, 0);
-        while chosen + 1 < self.sphere.len() && left >= self.disk_area(&self.sphere[chosen]) {
+        while chosen + 1 < targets().count() && left >= self.disk_area(&self.sphere[chosen]) {
             left -= self.disk_area(&self.sphere[chosen]);
             chosen += 1;
         }
-        let Some(target) = self.sphere.get(chosen) else { return LightStart::default() };
+        let Some(target) = targets().nth(chosen) else { return LightStart::default() };
         let (right, up) = direction.any_orthonormal_pair();
         let [x, y] = disk_point(draws.point).point();
         let from_centre = (right * x + up * y) * self.disk(target);
         let middle = target.centre + from_centre;
 
-        let (mut passed, mut first) = (0, f64::INFINITY);
-        for (number, other) in self.sphere.iter().enumerate() {
-            let to = other.centre - middle;
-            let (along, disk) = (to.dot(direction), self.disk(other));
-            if number == chosen || (to - direction * along).length_squared() <= disk * disk {
-                passed += 1;
-                first = first.min(along - disk);
-            }
-        }
+        let (passed, first) = self.passed(direction, middle, Some(chosen));
         let nearest = middle + direction * first;
         if self.infinite.iter().any(|shape| shape.t(nearest, -direction) < f64::INFINITY) {
             return LightStart::default();
         }
-        let outside = first.min((self.scene.centre - middle).dot(direction) - self.scene.radius);
-        let weight = all / f64::from(passed);
-        let origin = (middle + direction * outside).as_vec3();
+        let origin = (middle + direction * self.outside(direction, middle, first)).as_vec3();
+        let weight = all / passed;
         LightStart { origin, direction, power: irradiance.each(|part| part * weight) }
     }
     // ANCHOR_END: parallel_start
+
+    /// The pdf with which [`Self::parallel_start`] samples the line through a point, in 1 over square scene units; 0 where it
+    /// would start behind the point.
+    #[inline(always)]
+    pub fn parallel_pdf(&self, direction: DVec3, point: DVec3) -> f64 {
+        let (passed, first) = self.passed(direction, point, None);
+        let reaches = self.outside(direction, point, first) <= 0.0;
+        if reaches { passed / self.chosen_by().iter().sum::<f64>() } else { 0.0 }
+    }
 }
 
 /// The axis of the cone that a sphere subtends from a point, and 1 − cos of its half angle; all directions from inside.
@@ -171,6 +223,51 @@ mod tests {
     use super::*;
     use crate::measure::draws::Draws;
     use crate::shapes::emitter::sphere_direction;
+
+    /// Rays of parallel light towards balls of glass and towards everything have the pdf that is said of them, wherever they
+    /// are asked for it after their start, and 0 before; it integrates to 1 over a plane across them.
+    #[test]
+    fn parallel_rays_have_their_pdf() {
+        const TRIED: u64 = 40_000;
+        let mut asked = 0;
+        for index in 0..12 {
+            let mut draws = Draws::new(2712, index);
+            let of = |draws: &mut Draws| Target { centre: draws.unit_vector() * 2.0, radius: draws.between(0.2, 1.5) };
+            let sphere: Vec<Target> = (0..index % 4).map(|_| of(&mut draws)).collect();
+            let scene = Target { centre: DVec3::ZERO, radius: 4.0 };
+            let whole = (index % 4 == 0 || index > 5).then_some(scene);
+            let targets = Targets { sphere, whole, scene, infinite: Vec::new() };
+            let direction = draws.unit_vector().normalize();
+            let (right, up) = direction.any_orthonormal_pair();
+            let (mut sum, mut squares) = (0.0, 0.0);
+            for _ in 0..TRIED {
+                let on_plane = right * draws.between(-5.0, 5.0) + up * draws.between(-5.0, 5.0);
+                let value = 100.0 * targets.parallel_pdf(direction, on_plane + direction * 5.0);
+                (sum, squares) = (sum + value, squares + value * value);
+                let draws = StartDraws {
+                    light: 0,
+                    point: [draws.unit(), draws.unit()],
+                    direction: [0.0; 2],
+                    target: draws.unit(),
+                    side: 0.0,
+                };
+                let start = targets.parallel_start(direction, [1.0; 3], &draws);
+                let origin = start.origin.as_dvec3();
+                for along in [1e-3, 3.0, 20.0] {
+                    let pdf = targets.parallel_pdf(direction, origin + direction * along);
+                    // On the edge of a disk rounding may say either.
+                    asked += usize::from((pdf * start.power[0] - 1.0).abs() < 1e-9);
+                }
+                assert_eq!(targets.parallel_pdf(direction, origin - direction * 1e-3), 0.0, "{index}");
+            }
+            let n = TRIED as f64;
+            let error = (squares / n - sum * sum / (n * n)).sqrt() / n.sqrt();
+            assert!((sum / n - 1.0).abs() < 4.0 * error, "{index}: {} ± {error}", sum / n);
+        }
+        let all = 12 * 3 * TRIED as usize;
+        assert!(all - asked < all / 10_000, "{} of {all} apart", all - asked);
+        eprintln!("parallel rays: {asked} of {all} have their pdf, 12 integrals are 1");
+    }
 
     /// Directions to targets, each weighted by 1 over its pdf, cover the union of the cones as uniform directions do.
     #[test]

@@ -1,8 +1,7 @@
 use super::highlight::lobe_direction;
-use super::{HighlightTable, Lobe, highlight, mirror_direction};
+use super::{HighlightTable, Lobe, mirror_direction};
 use crate::scene::{BlinnPhong, Rgb};
 use glam::DVec3;
-use std::f64::consts::TAU;
 
 /// Blinn–Phong highlights.
 pub type BlinnPhongTable = HighlightTable<BlinnPhongLobe>;
@@ -59,15 +58,14 @@ impl Lobe for BlinnPhongLobe {
     }
 
     #[inline(always)]
-    fn value(peak: f64, exponent: f64, to_light: DVec3, to_eye: DVec3) -> f64 {
-        highlight(peak, exponent, half_vector_cosine(DVec3::Z, to_light, to_eye))
+    fn cosine(to_light: DVec3, to_eye: DVec3) -> f64 {
+        half_vector_cosine(DVec3::Z, to_light, to_eye)
     }
 
     /// Reflection at the half vector h spreads the pdf of h over 4 (ωₒ · h) times the solid angle.
     #[inline(always)]
-    fn pdf(exponent: f64, to_light: DVec3, to_eye: DVec3) -> f64 {
+    fn pdf(of_half: f64, to_light: DVec3, to_eye: DVec3) -> f64 {
         let facing = to_eye.dot((to_light + to_eye).normalize_or_zero());
-        let of_half = highlight((exponent + 1.0) / TAU, exponent, half_vector_cosine(DVec3::Z, to_light, to_eye));
         if facing > 0.0 { of_half / (4.0 * facing) } else { 0.0 }
     }
 

@@ -71,6 +71,21 @@ impl ShadingContext {
     }
 }
 
+// ANCHOR: reverse_pdf
+/// The pdf with which a path would go from a surface to the eye if it came from the light.
+///
+/// A transmitted path comes from the other side, where the index of refraction is the inverse.
+#[inline(always)]
+pub(crate) fn reverse_pdf<B: Bsdf + ?Sized>(bsdf: &B, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> f64 {
+    if to_light.z >= 0.0 {
+        return bsdf.pdf(context, to_eye, to_light);
+    }
+    let flipped = |direction: DVec3| DVec3::new(direction.x, direction.y, -direction.z);
+    let behind = ShadingContext { eta: 1.0 / context.eta, ..*context };
+    bsdf.pdf(&behind, flipped(to_eye), flipped(to_light))
+}
+// ANCHOR_END: reverse_pdf
+
 /// A direction sampled from a BSDF that is not specular.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BsdfSample {
@@ -211,6 +226,18 @@ pub trait Bsdf: Table + Named {
     /// The pdf with which [`Self::sample`] chooses `to_light`, in 1/sr.
     fn pdf(&self, _site: &ShadingContext, _to_light: DVec3, _to_eye: DVec3) -> f64 {
         0.0
+    }
+
+    /// [`Self::eval`] and [`Self::pdfs`], of which a lobe has a part in common.
+    #[inline(always)]
+    fn eval_and_pdfs(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> ([f64; 3], [f64; 2]) {
+        (self.eval(context, to_light, to_eye), self.pdfs(context, to_light, to_eye))
+    }
+
+    /// [`Self::pdf`], and that of the way back: [`reverse_pdf`].
+    #[inline(always)]
+    fn pdfs(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> [f64; 2] {
+        [self.pdf(context, to_light, to_eye), reverse_pdf(self, context, to_light, to_eye)]
     }
 
     /// Samples a direction to the light by two numbers in [0, 1), and by a third where it [`chooses`](Self::chooses);

@@ -3,7 +3,7 @@
 use super::bsdf::entities_of_kind;
 use super::{
     Bsdf, BsdfClass, BsdfSample, Example, Named, Parameters, ShadingContext, cosine_direction, cosine_pdf, frame_of,
-    lambertian,
+    lambertian, reverse_pdf,
 };
 use crate::check::{kind_and_name, number, reflectance, triple};
 use crate::each::Each;
@@ -12,6 +12,7 @@ use crate::sample::disk_point;
 use crate::scene::{Feeds, Rgb, SceneError};
 use bevy_ecs::prelude::Component;
 use glam::DVec3;
+use std::f64::consts::TAU;
 use std::marker::PhantomData;
 
 // ANCHOR: highlight
@@ -20,7 +21,13 @@ use std::marker::PhantomData;
 /// It is 0 from a right angle on; a cosine above 1 by rounding is clamped, since a large power would amplify it.
 #[inline(always)]
 pub fn highlight(peak: f64, exponent: f64, cosine: f64) -> f64 {
-    if cosine > 0.0 { peak * libm::pow(cosine.min(1.0), exponent) } else { 0.0 }
+    peak * lobe_power(exponent, cosine)
+}
+
+/// cosⁿ of the angle from a lobe's axis.
+#[inline(always)]
+fn lobe_power(exponent: f64, cosine: f64) -> f64 {
+    if cosine > 0.0 { libm::pow(cosine.min(1.0), exponent) } else { 0.0 }
 }
 // ANCHOR_END: highlight
 
@@ -102,6 +109,20 @@ where
     }
 
     #[inline(always)]
+    fn eval_and_pdfs(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> ([f64; 3], [f64; 2]) {
+        let own = Highlight::new(self, context.row, context.parameters.colour);
+        let power = own.power(to_light, to_eye);
+        (own.brdf_of(power), own.pdfs_of(power, [to_light, to_eye], || reverse_pdf(self, context, to_light, to_eye)))
+    }
+
+    #[inline(always)]
+    fn pdfs(&self, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> [f64; 2] {
+        let own = Highlight::new(self, context.row, context.parameters.colour);
+        let power = own.power(to_light, to_eye);
+        own.pdfs_of(power, [to_light, to_eye], || reverse_pdf(self, context, to_light, to_eye))
+    }
+
+    #[inline(always)]
     fn sample(&self, context: &ShadingContext, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
         Highlight::new(self, context.row, context.parameters.colour).sample(to_eye, numbers, choice)
     }
@@ -161,10 +182,10 @@ pub trait Lobe: Send + Sync + Sized + 'static {
 
     /// The value at the centre of a lobe, in 1/sr.
     fn peak(exponent: f64) -> f64;
-    /// The lobe without its albedo, in 1/sr.
-    fn value(peak: f64, exponent: f64, to_light: DVec3, to_eye: DVec3) -> f64;
-    /// The pdf with which [`Self::sample`] chooses `to_light`, in 1/sr.
-    fn pdf(exponent: f64, to_light: DVec3, to_eye: DVec3) -> f64;
+    /// The cosine of the angle from its axis; light and eye may change places.
+    fn cosine(to_light: DVec3, to_eye: DVec3) -> f64;
+    /// The pdf with which [`Self::sample`] chooses `to_light`, in 1/sr, given that of the angle from the axis.
+    fn pdf(of_angle: f64, to_light: DVec3, to_eye: DVec3) -> f64;
     /// Samples a direction to the light with two numbers in [0, 1); it may lead below the surface.
     fn sample(exponent: f64, to_eye: DVec3, numbers: [f64; 2]) -> DVec3;
 }
@@ -205,17 +226,41 @@ impl<'a, L: Lobe> Highlight<'a, L> {
     /// The BRDF in 1/sr: red, green, blue.
     #[inline(always)]
     pub fn brdf(&self, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        let (peak, specular) = (self.lobes.peak[self.row], self.lobes.specular[self.row]);
-        let value = L::value(peak, self.lobes.exponent[self.row], to_light, to_eye);
-        let diffuse = lambertian(self.colour);
-        [0, 1, 2].each(|part| diffuse[part] + specular[part] * value)
+        self.brdf_of(self.power(to_light, to_eye))
     }
 
     /// The pdf with which [`Self::sample`] chooses `to_light`, in 1/sr.
     #[inline(always)]
     pub fn pdf(&self, to_light: DVec3, to_eye: DVec3) -> f64 {
-        let of_lobe = if self.of_lobe > 0.0 { L::pdf(self.lobes.exponent[self.row], to_light, to_eye) } else { 0.0 };
+        let power = if self.of_lobe > 0.0 { self.power(to_light, to_eye) } else { 0.0 };
+        self.pdf_of(power, [to_light, to_eye])
+    }
+
+    /// cosⁿ of the angle from the lobe's axis, which takes most of the time, and which all that follows has in common.
+    #[inline(always)]
+    fn power(&self, to_light: DVec3, to_eye: DVec3) -> f64 {
+        lobe_power(self.lobes.exponent[self.row], L::cosine(to_light, to_eye))
+    }
+
+    #[inline(always)]
+    fn brdf_of(&self, power: f64) -> [f64; 3] {
+        let (value, specular) = (self.lobes.peak[self.row] * power, self.lobes.specular[self.row]);
+        let diffuse = lambertian(self.colour);
+        [0, 1, 2].each(|part| diffuse[part] + specular[part] * value)
+    }
+
+    #[inline(always)]
+    fn pdf_of(&self, power: f64, [to_light, to_eye]: [DVec3; 2]) -> f64 {
+        let of_angle = (self.lobes.exponent[self.row] + 1.0) / TAU * power;
+        let of_lobe = if self.of_lobe > 0.0 { L::pdf(of_angle, to_light, to_eye) } else { 0.0 };
         self.of_lobe * of_lobe + (1.0 - self.of_lobe) * cosine_pdf(to_light.z)
+    }
+
+    /// The pdfs of both ways; that of the way back is given where it leads to the other side.
+    #[inline(always)]
+    fn pdfs_of(&self, power: f64, [to_light, to_eye]: [DVec3; 2], behind: impl FnOnce() -> f64) -> [f64; 2] {
+        let back = if to_light.z >= 0.0 { self.pdf_of(power, [to_eye, to_light]) } else { behind() };
+        [self.pdf_of(power, [to_light, to_eye]), back]
     }
 
     /// Samples a direction to the light; none where it leads below the surface.
@@ -226,8 +271,9 @@ impl<'a, L: Lobe> Highlight<'a, L> {
         let specular = choice < self.of_lobe;
         let exponent = self.lobes.exponent[self.row];
         let to_light = if specular { L::sample(exponent, to_eye, numbers) } else { cosine_direction(numbers) };
-        let pdf = self.pdf(to_light, to_eye);
-        let weight = self.brdf(to_light, to_eye).each(|brdf| brdf * to_light.z / pdf);
+        let power = self.power(to_light, to_eye);
+        let pdf = self.pdf_of(power, [to_light, to_eye]);
+        let weight = self.brdf_of(power).each(|brdf| brdf * to_light.z / pdf);
         (to_light.z > 0.0 && pdf > 0.0).then_some(BsdfSample { to_light, pdf, weight })
     }
 }

@@ -1,8 +1,7 @@
 use super::highlight::lobe_direction;
-use super::{HighlightTable, Lobe, highlight};
+use super::{HighlightTable, Lobe};
 use crate::scene::{Phong, Rgb};
 use glam::DVec3;
-use std::f64::consts::TAU;
 
 /// Phong highlights.
 pub type PhongTable = HighlightTable<PhongLobe>;
@@ -58,13 +57,13 @@ impl Lobe for PhongLobe {
     }
 
     #[inline(always)]
-    fn value(peak: f64, exponent: f64, to_light: DVec3, to_eye: DVec3) -> f64 {
-        highlight(peak, exponent, mirror_cosine(DVec3::Z, to_light, to_eye))
+    fn cosine(to_light: DVec3, to_eye: DVec3) -> f64 {
+        mirror_cosine(DVec3::Z, to_light, to_eye)
     }
 
     #[inline(always)]
-    fn pdf(exponent: f64, to_light: DVec3, to_eye: DVec3) -> f64 {
-        highlight((exponent + 1.0) / TAU, exponent, mirror_cosine(DVec3::Z, to_light, to_eye))
+    fn pdf(of_angle: f64, _to_light: DVec3, _to_eye: DVec3) -> f64 {
+        of_angle
     }
 
     #[inline(always)]
