@@ -72,6 +72,7 @@ impl LightVertices {
     }
 
     /// A row.
+    #[inline(always)]
     pub fn get(&self, row: usize) -> LightVertex {
         LightVertex {
             position: self.position(row),

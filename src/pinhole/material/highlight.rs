@@ -1,6 +1,7 @@
 //! Highlights: lobes about a direction.
 
 use super::bsdf::entities_of_kind;
+use super::power::power_of_cosine;
 use super::{
     Bsdf, BsdfClass, BsdfSample, Example, Named, Parameters, ShadingContext, cosine_direction, cosine_pdf, frame_of,
     lambertian, reverse_pdf,
@@ -27,7 +28,7 @@ pub fn highlight(peak: f64, exponent: f64, cosine: f64) -> f64 {
 /// cosⁿ of the angle from a lobe's axis.
 #[inline(always)]
 fn lobe_power(exponent: f64, cosine: f64) -> f64 {
-    if cosine > 0.0 { libm::pow(cosine.min(1.0), exponent) } else { 0.0 }
+    if cosine > 0.0 { power_of_cosine(cosine.min(1.0), exponent) } else { 0.0 }
 }
 // ANCHOR_END: highlight
 

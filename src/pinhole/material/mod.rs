@@ -30,6 +30,7 @@ mod mirror;
 mod multiple_scattering;
 mod phase;
 mod phong;
+mod power;
 mod principled;
 mod rough_glass;
 mod thin_glass;
