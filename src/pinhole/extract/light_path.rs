@@ -8,7 +8,7 @@ use super::{
     bidirectional_evidence, environment_light_evidence, luminance,
 };
 use crate::each::Each;
-use crate::lights::{AnyLight, MAX_TARGETS, Target, Targets};
+use crate::lights::{AnyLight, Cones, MAX_TARGETS, MAX_TARGETS_SOLID_ANGLE, TOWARDS, Target, Targets};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::SceneError;
 use crate::shapes::{Bounds, Emitter};
@@ -67,17 +67,37 @@ pub struct LightPathTable {
     pub targets: Targets,
     /// The area that the power of a light without a position is counted over, in square scene units.
     pub across: f64,
-    /// Whether light paths are joined to those of the camera, and start in all directions on lights with a position.
+    /// Whether light paths are joined to those of the camera, and start in all directions on lights with a position, some of
+    /// them towards mirrors and glass.
     pub is_for_all_light: bool,
 }
 
-/// Where paths start in all directions.
-static NO_TARGETS: Targets = Targets {
-    sphere: Vec::new(),
-    whole: None,
-    scene: Target { centre: DVec3::ZERO, radius: 0.0 },
-    infinite: Vec::new(),
-};
+/// Whether a path starts towards mirrors and glass from a point of a light, or elsewhere.
+pub struct Towards {
+    /// What they subtend from there; none where all directions are sampled alike.
+    cones: Option<Cones>,
+    /// Selects one of them; none where the path starts elsewhere.
+    choice: Option<f64>,
+    /// 1 over the probability of that.
+    weight: f64,
+}
+
+impl Towards {
+    /// A direction towards mirrors and glass and 1 over its pdf, in sr; none where the path starts elsewhere.
+    #[inline(always)]
+    pub fn sample(&self, u: [f64; 2]) -> Option<(DVec3, f64)> {
+        let (direction, weight) = self.cones.as_ref()?.sample(self.choice?, u);
+        Some((direction, weight * self.weight))
+    }
+
+    /// By what the power of a path in a direction that is sampled as if there were neither is multiplied: nothing starts that
+    /// way towards mirrors and glass, where other paths do.
+    #[inline(always)]
+    pub fn weight_elsewhere(&self, direction: DVec3) -> f64 {
+        let is_towards = self.cones.as_ref().is_some_and(|cones| cones.around(direction, None) > 0);
+        if is_towards { 0.0 } else { self.weight }
+    }
+}
 
 impl LightPathTable {
     /// The light chosen by a 32-bit fraction.
@@ -86,10 +106,42 @@ impl LightPathTable {
         self.until.partition_point(|&until| until <= u64::from(fraction))
     }
 
-    /// The targets of lights with a position.
+    /// What mirrors and glass subtend from a point of a light; none where that is nothing, or so much that sampling directions
+    /// towards them gains nothing.
     #[inline(always)]
-    pub fn near_targets(&self) -> &Targets {
-        if self.is_for_all_light { &NO_TARGETS } else { &self.targets }
+    fn cones(&self, from: DVec3) -> Option<Cones> {
+        if self.targets.sphere.is_empty() {
+            return None;
+        }
+        let cones = Cones::new(&self.targets.sphere, from);
+        (cones.all > 0.0 && cones.all < MAX_TARGETS_SOLID_ANGLE).then_some(cones)
+    }
+
+    /// Whether a path starts towards mirrors and glass from this point, by a number in [0, 1): all do where caustics are all
+    /// that is asked for, and some where all light is.
+    #[inline(always)]
+    pub fn towards(&self, from: DVec3, u: f64) -> Towards {
+        let cones = self.cones(from);
+        if !self.is_for_all_light || cones.is_none() {
+            return Towards { choice: cones.is_some().then_some(u), cones, weight: 1.0 };
+        }
+        let is_towards = u < TOWARDS;
+        let weight = 1.0 / if is_towards { TOWARDS } else { 1.0 - TOWARDS };
+        Towards { cones, choice: is_towards.then_some(u / TOWARDS), weight }
+    }
+
+    /// How many times as many paths start from a point of a light in a direction as its share of the power says, where they
+    /// are joined to those of the camera.
+    ///
+    /// Lights are taken to be as bright in all directions. Any function of the two will do, for all ways to find a path are
+    /// weighted by the same one; the nearer it is to the truth, the better they are.
+    #[inline(always)]
+    pub fn density(&self, from: DVec3, direction: DVec3) -> f64 {
+        let Some(cones) = self.cones(from) else { return 1.0 };
+        match cones.around(direction, None) {
+            0 => 1.0 - TOWARDS,
+            passed => TOWARDS * 4.0 * PI * passed as f64 / cones.all,
+        }
     }
 
     /// The number that a light has among those with an area, and the luminance of its radiance; none for one without.
@@ -112,7 +164,10 @@ impl LightPathTable {
             Some(LightSource::Delta(own)) if own.position().is_none() => {
                 self.distant_density(luminance(own.irradiance(point)), direction, point)
             }
-            Some(LightSource::Delta(own)) => luminance(own.irradiance(point)) / self.power,
+            Some(LightSource::Delta(own)) => {
+                let from = own.position().unwrap_or(point);
+                luminance(own.irradiance(point)) / self.power * self.density(from, direction)
+            }
             _ => 0.0,
         }
     }
@@ -177,8 +232,7 @@ impl Table for LightPathTable {
             light.push(LightSource::Area { emitter: *emitter, radiance, one_sided });
         }
         let is_for_all_light = bidirectional_evidence(scene).needed;
-        let is_needed = !is_for_all_light || distant_start_evidence(scene).needed;
-        let targets = if is_needed { Targets::clone(&*targets(scene)?) } else { Targets::default() };
+        let targets = Targets::clone(&*targets(scene)?);
         let is_started = |is_distant: bool| !is_distant || !targets.is_empty();
         for kind in light_kinds(scene).filter(|kind| is_started(kind.is_distant)) {
             light.extend((kind.sources)(scene)?.into_iter().map(LightSource::Delta));

@@ -9,7 +9,7 @@ use crate::extract::{
     normal_map_evidence, specular_start_evidence, traced_evidence,
 };
 use crate::intersect::{Hits, MaterialRows, NO_SHAPE, ShadingNormals, Surfaces, vertex_normal_evidence};
-use crate::lights::{LightStart, MAX_TARGETS_SOLID_ANGLE, StartDraws, direction_to_targets};
+use crate::lights::{AnyLight, LightStart, NO_TARGETS, StartDraws};
 use crate::material::{cosine_direction, frame_of};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
 use crate::rays::{Depth, Paths, SampleNumber, Tile, WorldRays, join_camera};
@@ -69,9 +69,7 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
     let of_mesh;
     let (emitter, radiance, one_sided) = match table.light.get(light) {
         Some(LightSource::Area { emitter, radiance, one_sided }) => (emitter, *radiance, *one_sided),
-        Some(LightSource::Delta(light)) => {
-            return times(light.start([table.near_targets(), &table.targets], draws), chosen);
-        }
+        Some(LightSource::Delta(light)) => return times(delta_start(table, light, draws), chosen),
         Some(LightSource::Environment(environment, light)) => {
             let (to_light, pdf) = environment_direction(light, environment.turn, draws.direction);
             let radiance = environment_radiance(environment, to_light);
@@ -85,11 +83,13 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
         }
     };
     let point = leaving_point(emitter, one_sided, draws.point, draws.side);
-    let (targets, limit) = (&table.near_targets().sphere, MAX_TARGETS_SOLID_ANGLE);
-    let (direction, weight) = match direction_to_targets(targets, point.position, limit, draws.target, draws.direction)
-    {
+    let towards = table.towards(point.position, draws.target);
+    let (direction, weight) = match towards.sample(draws.direction) {
         Some((direction, weight)) => (direction, direction.dot(point.normal).max(0.0) * weight),
-        None => (frame_of(point.normal) * cosine_direction(draws.direction), PI),
+        None => {
+            let direction = frame_of(point.normal) * cosine_direction(draws.direction);
+            (direction, PI * towards.weight_elsewhere(direction))
+        }
     };
     let bound = offset_bound(point.position, DVec3::ZERO, point.size);
     LightStart {
@@ -99,6 +99,26 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
     }
 }
 // ANCHOR_END: light_start
+
+/// A ray that leaves a light without an area.
+#[inline(always)]
+fn delta_start(table: &LightPathTable, light: &AnyLight, draws: &StartDraws) -> LightStart {
+    let Some(position) = light.position().filter(|_| table.is_for_all_light) else {
+        return light.start([&table.targets; 2], draws);
+    };
+    let towards = table.towards(position, draws.target);
+    match towards.sample(draws.direction) {
+        // At a distance of 1 the irradiance is the radiant intensity.
+        Some((direction, weight)) => times(
+            LightStart { origin: position.as_vec3(), direction, power: light.irradiance(position + direction) },
+            weight,
+        ),
+        None => {
+            let start = light.start([&NO_TARGETS; 2], draws);
+            times(start, towards.weight_elsewhere(start.direction))
+        }
+    }
+}
 
 /// The same ray where the light was chosen with a probability of 1 over `weight`.
 #[inline(always)]

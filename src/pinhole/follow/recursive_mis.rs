@@ -30,7 +30,9 @@ use crate::lights::Receiver;
 use crate::material::{Bsdf, MaterialKind, Transport, reverse_pdf};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
 use crate::rays::{Depth, LensPoints, Paths, WorldRays, join_camera};
-use crate::shade::{EmissionFactors, LightPdfs, ParameterColumns, Radiance, ShadowRays, area_light_pdf};
+use crate::shade::{
+    EmissionFactors, LightPdfs, ParameterColumns, Radiance, ShadowRays, area_light_pdf, light_distance,
+};
 use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
@@ -163,7 +165,7 @@ fn first_from_light(
     // From where a light sample would start, which is off the surface.
     let from = offset_origin(surface.position, surface.normal, surface.bound);
     let receiver = Receiver { position: from.as_dvec3(), normal: surface.normal.as_dvec3(), depth: 0 };
-    let paths = radiance * cosine / starts.power;
+    let paths = radiance * cosine / starts.power * starts.density(origin, direction);
     [area_light_pdf(areas, own, &receiver, origin) / paths, 1.0 / paths]
 }
 // ANCHOR_END: arrive_from_light
@@ -250,7 +252,10 @@ pub fn begin_join_ratios(
                     starts.distant_density(irradiance, -direction, rays.origin_of(ray))
                 }
                 f32::INFINITY => 0.0,
-                _ => irradiance / starts.power,
+                t_max => {
+                    let light = rays.origin_of(ray) + direction * light_distance(t_max);
+                    irradiance / starts.power * starts.density(light, -direction)
+                }
             };
             let more = by_area((&materials, surfaces, shading), row, [direction; 2]);
             reverse[ray] = squared(arriving * more);
@@ -474,9 +479,11 @@ pub fn add_found_emission(
                 Some(light) => {
                     let normal = previous.map_or(DVec3::ZERO, |previous| previous.normal(row).as_dvec3());
                     let receiver = Receiver { position: rays.origin_of(row), normal, depth: 0 };
-                    let by_light = area_light_pdf(&lights, light, &receiver, rays.point_at(row, hits.t[row]));
-                    let cosine = surfaces.normal(row).as_dvec3().dot(rays.direction_of(row));
+                    let (point, direction) = (rays.point_at(row, hits.t[row]), rays.direction_of(row));
+                    let by_light = area_light_pdf(&lights, light, &receiver, point);
+                    let cosine = surfaces.normal(row).as_dvec3().dot(direction);
                     let share = luminance(emitted.each(f64::from)) * cosine / starts.power;
+                    let share = share * starts.density(point, -direction);
                     let from_light = squared(share) * mis.earlier[paths.first[row] as usize];
                     1.0 / (1.0 + squared(by_light / paths.pdf[row]) + from_light)
                 }

@@ -46,4 +46,6 @@ pub use light_bounds::LightBounds;
 pub use light_hierarchy::LightHierarchy;
 pub use point::PlacedPointLight;
 pub use spot::{PlacedSpotLight, spot_falloff, versine, versine_of_half};
-pub use targets::{MAX_TARGETS, MAX_TARGETS_SOLID_ANGLE, Target, Targets, direction_to_targets};
+pub use targets::{
+    Cones, MAX_TARGETS, MAX_TARGETS_SOLID_ANGLE, NO_TARGETS, TOWARDS, Target, Targets, direction_to_targets,
+};

@@ -10,6 +10,8 @@ use std::f64::consts::{PI, TAU};
 
 /// With more specular shapes than this, one sphere bounds them all.
 pub const MAX_TARGETS: usize = 16;
+/// Where paths start on a light with a position in all directions, this part of them starts towards mirrors and glass.
+pub const TOWARDS: f64 = 0.25;
 /// The factor by which a bounding sphere is enlarged, so that no rounding of a ray leads past it.
 const MARGIN: f64 = 1.0 + 1e-5;
 /// The rounding error of a ray in f32, relative to its origin and to the distance travelled.
@@ -167,6 +169,14 @@ impl Targets {
     }
 }
 
+/// Where paths start in all directions.
+pub static NO_TARGETS: Targets = Targets {
+    sphere: Vec::new(),
+    whole: None,
+    scene: Target { centre: DVec3::ZERO, radius: 0.0 },
+    infinite: Vec::new(),
+};
+
 /// The axis of the cone that a sphere subtends from a point, and 1 − cos of its half angle; all directions from inside.
 ///
 /// The sphere is enlarged by as much as a ray in f32 may miss it by.
@@ -179,12 +189,54 @@ fn cone_to(target: &Target, from: DVec3) -> (DVec3, f64) {
     if distance <= radius { (DVec3::Z, 2.0) } else { (to / distance, cone_versine(radius * radius / dd)) }
 }
 
-// ANCHOR: direction_to_targets
-/// A direction to one of the targets, and 1 over its pdf, in sr; none where the targets subtend `limit` sr or more, or
-/// there is none.
-///
-/// A target is chosen in proportion to its solid angle, and a direction uniformly in its cone.
-/// In the cone of a single target the pdf is 1 over the sum Ω of all solid angles; where n cones overlap it is n / Ω.
+/// The cones that targets subtend from a point.
+pub struct Cones {
+    cone: [(DVec3, f64); MAX_TARGETS],
+    count: usize,
+    /// The sum of their solid angles, in sr.
+    pub all: f64,
+}
+
+impl Cones {
+    /// Those of some targets.
+    #[inline(always)]
+    pub fn new(targets: &[Target], from: DVec3) -> Self {
+        let mut cone = [(DVec3::Z, 0.0); MAX_TARGETS];
+        cone.iter_mut().zip(targets).for_each(|(cone, target)| *cone = cone_to(target, from));
+        let all = TAU * cone[..targets.len()].iter().map(|(_, whole)| whole).sum::<f64>();
+        Self { cone, count: targets.len(), all }
+    }
+
+    /// How many of them a direction is in; it is in `chosen`, whatever rounding says.
+    #[inline(always)]
+    pub fn around(&self, direction: DVec3, chosen: Option<usize>) -> usize {
+        let own = self.cone[..self.count].iter().enumerate();
+        own.filter(|(number, (axis, whole))| {
+            chosen == Some(*number) || 0.5 * (direction - *axis).length_squared() <= *whole
+        })
+        .count()
+    }
+
+    // ANCHOR: direction_to_targets
+    /// A direction to one of the targets, and 1 over its pdf, in sr.
+    ///
+    /// A target is chosen in proportion to its solid angle, and a direction uniformly in its cone.
+    /// In the cone of a single target the pdf is 1 over the sum Ω of all solid angles; where n cones overlap it is n / Ω.
+    #[inline(always)]
+    pub fn sample(&self, choice: f64, u: [f64; 2]) -> (DVec3, f64) {
+        let (mut left, mut chosen) = (choice * self.all, 0);
+        while chosen + 1 < self.count && left >= TAU * self.cone[chosen].1 {
+            left -= TAU * self.cone[chosen].1;
+            chosen += 1;
+        }
+        let (axis, whole) = self.cone[chosen];
+        let direction = cone_direction(axis, whole, u);
+        (direction, self.all / self.around(direction, Some(chosen)) as f64)
+    }
+    // ANCHOR_END: direction_to_targets
+}
+
+/// The same; none where the targets subtend `limit` sr or more, or there is none.
 #[inline(always)]
 pub fn direction_to_targets(
     targets: &[Target],
@@ -193,27 +245,9 @@ pub fn direction_to_targets(
     choice: f64,
     u: [f64; 2],
 ) -> Option<(DVec3, f64)> {
-    let mut cones = [(DVec3::Z, 0.0); MAX_TARGETS];
-    let cones = &mut cones[..targets.len()];
-    cones.iter_mut().zip(targets).for_each(|(cone, target)| *cone = cone_to(target, from));
-    let all = TAU * cones.iter().map(|(_, whole)| whole).sum::<f64>();
-    if all == 0.0 || all >= limit {
-        return None;
-    }
-    let (mut left, mut chosen) = (choice * all, 0);
-    while chosen + 1 < cones.len() && left >= TAU * cones[chosen].1 {
-        left -= TAU * cones[chosen].1;
-        chosen += 1;
-    }
-    let (axis, whole) = cones[chosen];
-    let direction = cone_direction(axis, whole, u);
-    let others = cones
-        .iter()
-        .enumerate()
-        .filter(|(number, (axis, whole))| *number != chosen && 0.5 * (direction - *axis).length_squared() <= *whole);
-    Some((direction, all / (1 + others.count()) as f64))
+    let cones = Cones::new(targets, from);
+    (cones.all > 0.0 && cones.all < limit).then(|| cones.sample(choice, u))
 }
-// ANCHOR_END: direction_to_targets
 
 /// Where the targets subtend more than this many sr, sampling directions towards them gains nothing.
 pub const MAX_TARGETS_SOLID_ANGLE: f64 = PI;
