@@ -76,7 +76,7 @@ impl ShadingContext {
 ///
 /// A transmitted path comes from the other side, where the index of refraction is the inverse.
 #[inline(always)]
-pub(crate) fn reverse_pdf<B: Bsdf + ?Sized>(bsdf: &B, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> f64 {
+pub(crate) fn reverse_pdf<B: Bsdf>(bsdf: &B, context: &ShadingContext, to_light: DVec3, to_eye: DVec3) -> f64 {
     if to_light.z >= 0.0 {
         return bsdf.pdf(context, to_eye, to_light);
     }
