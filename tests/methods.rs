@@ -176,11 +176,16 @@ fn a_method_that_is_refused_says_why_and_one_without_work_says_whose_it_does() {
     }
 }
 
-/// All but what depends on times.
+/// All but what depends on times; two methods are nearly as efficient, so that the choice between them does.
 #[test]
 fn a_pilot_is_the_same_twice() {
     let told = || {
         let mut told = pilot("tests/methods/caustic.ron");
+        let own = told.as_object_mut().expect("a pilot");
+        let chosen = own.remove("chosen").expect("a choice");
+        let asked = own.remove("ask").expect("how to ask for it");
+        assert!(["light_tracing", "bidirectional_path_tracing"].iter().any(|method| chosen == *method), "{chosen}");
+        assert!(asked.as_str().is_some_and(|asked| asked.contains(chosen.as_str().expect("a name"))), "{asked}");
         for row in told["methods"].as_array_mut().expect("methods") {
             let measured = row["measured"].as_object_mut().expect("measured");
             assert!(measured.remove("seconds").is_some_and(|time| time.as_f64() > Some(0.0)));
