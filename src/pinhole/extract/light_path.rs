@@ -218,8 +218,8 @@ impl LightSource {
 }
 
 /// Lights without a position are chosen at most so many times as often as all others together, however large the scene is
-/// that they shine on: most of it may be far from what the camera sees.
-const MAX_DISTANT: f64 = 4.0;
+/// that they shine on: most of it may be far from what the camera sees, or behind the walls of a room.
+const MAX_DISTANT: f64 = 1.0;
 
 impl Table for LightPathTable {
     const NAME: &'static str = "light paths";

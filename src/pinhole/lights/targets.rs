@@ -104,10 +104,10 @@ impl Targets {
     /// begins; it passes `chosen`, whatever rounding says. Everything counts as much as it is chosen more than for its area.
     #[inline(always)]
     fn passed(&self, direction: DVec3, point: DVec3, chosen: Option<usize>) -> (f64, f64) {
-        let counts = |whole| self.chosen_by()[1] / self.disk_area(whole);
-        let targets = self.sphere.iter().map(|target| (target, 1.0));
+        let whole = self.whole.iter().map(|whole| (whole, self.chosen_by()[1] / self.disk_area(whole)));
+        let targets = self.sphere.iter().map(|target| (target, 1.0)).chain(whole);
         let (mut passed, mut first) = (0.0, f64::INFINITY);
-        for (number, (target, counts)) in targets.chain(self.whole.iter().map(|own| (own, counts(own)))).enumerate() {
+        for (number, (target, counts)) in targets.enumerate() {
             let to = target.centre - point;
             let (along, disk) = (to.dot(direction), self.disk(target));
             if chosen == Some(number) || (to - direction * along).length_squared() <= disk * disk {

@@ -1,7 +1,5 @@
+use crate::sample::{NO_PLACES, series};
 use std::f64::consts::{LN_2, LOG2_E};
-
-/// A number so large that f64 has no binary places left beside it: what is added to it is rounded to whole numbers.
-const NO_PLACES: f64 = 1.5 * (1_u64 << 52) as f64;
 
 /// The bits of √½, of 1, and how far the exponent is shifted in a number's bits.
 const ROOT_OF_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
@@ -24,16 +22,7 @@ const ARTANH: [f64; 11] = {
     }
     all
 };
-const EXPONENTIAL: [f64; 14] = {
-    let (mut all, mut factorial) = ([1.0; 14], 1.0);
-    let mut place = 1;
-    while place < all.len() {
-        factorial *= place as f64;
-        all[place] = 1.0 / factorial;
-        place += 1;
-    }
-    all
-};
+const EXPONENTIAL: [f64; 14] = series([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]);
 
 /// The sum of a series, its even and its odd powers apart, so that the two are computed side by side (Estrin).
 #[inline(always)]

@@ -3,13 +3,14 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use crate::each::Each;
 
 /// A number so large that f64 has no binary places left beside it: what is added to it is rounded to whole numbers.
-const NO_PLACES: f64 = 1.5 * (1_u64 << 52) as f64;
+pub(crate) const NO_PLACES: f64 = 1.5 * (1_u64 << 52) as f64;
 
 /// Coefficients of the series of sin x / x and of cos x in powers of −x²: 1/3!, 1/5!, … and 1/2!, 1/4!, ….
 const SINE: [f64; 7] = series([3, 5, 7, 9, 11, 13, 15]);
 const COSINE: [f64; 8] = series([2, 4, 6, 8, 10, 12, 14, 16]);
 
-const fn series<const N: usize>(of: [u64; N]) -> [f64; N] {
+/// 1 over the factorials of whole numbers up to 20.
+pub(crate) const fn series<const N: usize>(of: [u64; N]) -> [f64; N] {
     let mut inverse = [0.0; N];
     let mut place = 0;
     while place < N {

@@ -29,6 +29,7 @@ mod stratified;
 
 pub use crate::filters::{box_offset, table_offset, tent_offset};
 pub use circle::{DiskPoint, circle_point, disk_point, square_of_disk};
+pub(crate) use circle::{NO_PLACES, series};
 pub use hash::{PixelKey, RandomStream, unit, unit_of_ray};
 pub use independent::{Independent, uniform};
 pub use mean_error::{INTEGRANDS, Integrand, MeanError, mean_error, slope};
