@@ -3,6 +3,8 @@
 //! What the standard library has for it is not inlined from one of the parts into which the compiler divides a package into
 //! another: in a kernel each call of it would be one, of a function compiled for the oldest processors.
 
+use std::ops::Range;
+
 /// What `[T; N]::map` does, for the short arrays that stages have by the thousand: coordinates, axes, corners, lanes.
 /// The standard one goes through an iterator that frees what is left when the function panics: 220 lines of intermediate
 /// code for each place that asks, a twentieth of the renderer's.
@@ -42,6 +44,62 @@ pub(crate) fn lanes<T: Copy + Default, const N: usize>(of: impl Fn(usize) -> T) 
     let mut all = [T::default(); N];
     for lane in 0..N {
         all[lane] = of(lane);
+    }
+    all
+}
+
+/// The first elements of a slice, as many as there are lanes; what is given beyond the last one.
+///
+/// Of a whole block the number is known when this is compiled, so that it is a few instructions and not a loop. It is a
+/// value of its own, since lanes that are filled with something else before are copied from a constant, by a call.
+#[inline(always)]
+pub(crate) fn lanes_of<T: Copy, U: Copy + From<T>, const N: usize>(from: &[T], beyond: U) -> [U; N] {
+    let mut all = [beyond; N];
+    if let Some(from) = from.first_chunk::<N>() {
+        for lane in 0..N {
+            all[lane] = from[lane].into();
+        }
+    } else {
+        for (lane, from) in by_lane::<N, _>(from) {
+            all[lane] = from.into();
+        }
+    }
+    all
+}
+
+/// The same for the components of three axes.
+#[inline(always)]
+pub(crate) fn vectors_of<T: Copy, U: Copy + From<T>, const N: usize>([x, y, z]: [&[T]; 3], beyond: U) -> [[U; N]; 3] {
+    [lanes_of(x, beyond), lanes_of(y, beyond), lanes_of(z, beyond)]
+}
+
+/// Some rows of the components of three axes.
+#[inline(always)]
+pub(crate) fn rows_of<'a, T>([x, y, z]: [&'a [T]; 3], rows: Range<usize>) -> [&'a [T]; 3] {
+    [&x[rows.clone()], &y[rows.clone()], &z[rows]]
+}
+
+/// Writes the first lanes, as many as there are elements.
+#[inline(always)]
+pub(crate) fn put_lanes<T: Copy, const N: usize>(to: &mut [T], from: &[T; N]) {
+    if let Some(to) = to.first_chunk_mut::<N>() {
+        *to = *from;
+    } else {
+        let count = to.len();
+        to.copy_from_slice(&from[..count]);
+    }
+}
+
+/// The elements at so many places of a slice; beyond its end the last one, so that no branch leaves the loop: one
+/// instruction for several of them where there is one.
+#[inline(always)]
+pub(crate) fn gathered<T: Copy + Default, const N: usize>(of: &[T], places: &[u32; N]) -> [T; N] {
+    let mut all = [T::default(); N];
+    if let Some(last) = of.len().checked_sub(1) {
+        // Written out, since the compiler makes sixteen loads of a closure's.
+        for lane in 0..N {
+            all[lane] = of[last.min(places[lane] as usize)];
+        }
     }
     all
 }

@@ -396,12 +396,14 @@ impl Default for PhotonMapping {
 ///
 /// The same light is found in many ways, from a path of the camera that hits a lamp to one of a lamp that is joined to the
 /// camera; each counts by its MIS weight.
-/// Paths start on lights with a position or an area, in all directions, and on directional lights towards mirrors and glass;
-/// light of a sky or an environment image is found as without it.
+/// Paths start on lights with a position or an area in all directions, a quarter of them towards mirrors and glass; on
+/// directional lights towards the whole scene, or towards mirrors and glass alone where a shape is endless.
+/// Light of a sky or an environment image is found as without it.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BidirectionalPathTracing {
-    /// Light paths per camera path, from 1/1024 to 1024.
+    /// Light paths per camera path, from 1/1024 to 1024. Half as many save more time than they cost in error where they easily
+    /// reach what the camera sees, as in a Cornell box, and less where they hardly do, as behind a keyhole.
     pub paths: f64,
 }
 

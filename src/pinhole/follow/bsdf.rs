@@ -8,7 +8,7 @@ use super::recursive_mis::{join_weight_stage, leave_with_ratios_stage};
 use super::scatter_block::{AT_ONCE, SampledBlock, SampledColumns, ScatteredBlock};
 use super::specular::{specular_from_lights_stage, specular_stage, split_stage};
 use super::{DeeperMedia, Media, Scattered, power_heuristic};
-use crate::each::{Each, by_lane, list_those};
+use crate::each::{Each, by_lane, gathered, lanes, lanes_of, list_those, put_lanes};
 use crate::extract::{
     GlassTable, MaterialTable, SamplingTable, ShapeTable, area_light_evidence, bidirectional_evidence, bsdf_evidence,
     environment_light_evidence, glass_contact_evidence, joined_evidence, mis_evidence, needed_if, traced_evidence,
@@ -28,6 +28,7 @@ use crate::shade::{LightPdfs, ParameterColumns, ReflectionView, ReflectionViewIt
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::{DVec3, Vec3};
+use multiversion::multiversion;
 
 /// What a path carries, by the pass that a stage runs in.
 pub(super) const fn transport(from_light: bool) -> Transport {
@@ -123,6 +124,12 @@ impl<'a> Seen<'a> {
         Self { ray: rays.direction.slices(material.len()), normal, shading, material }
     }
 
+    /// The components of the shading normals, or of the geometric ones where there are no others.
+    #[inline(always)]
+    fn normals(&self) -> [&'a [f32]; 3] {
+        self.shading.map_or(self.normal, |normals| normals.normal.slices(self.material.len()))
+    }
+
     /// A direction of world space and that to the eye, in the frame of a row's surface.
     #[inline(always)]
     fn local<B: Bsdf>(&self, row: usize, to_light: DVec3) -> [DVec3; 2] {
@@ -142,6 +149,11 @@ pub fn mis_bsdf<B: Bsdf>(
     for (LightWeightViewItem { eye, surfaces, shading, pdfs, mut rays }, columns, interface) in &mut tiles {
         let interface = Interface::new(interface, glass.as_deref());
         let seen = Seen::new(eye, surfaces, shading);
+        // Of many at once, where nothing about the material is asked: the same bits.
+        if B::PDF_OF_DIRECTIONS {
+            weight_in_blocks(&**bsdf, &materials, &seen, &pdfs.pdf, &mut rays);
+            continue;
+        }
         for ray in 0..rays.rows() {
             let (row, by_light) = (rays.row[ray] as usize, pdfs.pdf[ray]);
             let material = seen.material[row] as usize;
@@ -157,6 +169,45 @@ pub fn mis_bsdf<B: Bsdf>(
     }
 }
 // ANCHOR_END: mis_bsdf
+
+/// The same for many rays at once, for a BSDF whose pdf no parameter changes: what is not weighted is multiplied by 1.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn weight_in_blocks<B: Bsdf>(
+    bsdf: &B,
+    materials: &MaterialTable,
+    seen: &Seen<'_>,
+    by_light: &[f64],
+    rays: &mut ShadowRays,
+) {
+    let context = ShadingContext::opaque(0, Parameters::coloured([0.0; 3]));
+    let (rows, _, direction, _, mut irradiance) = rays.slices_mut(by_light.len());
+    for start in (0..by_light.len()).step_by(AT_ONCE) {
+        let end = by_light.len().min(start + AT_ONCE);
+        let row: [u32; AT_ONCE] = lanes_of(&rows[start..end], 0_u32);
+        let pdf: [f64; AT_ONCE] = lanes_of(&by_light[start..end], 0.0);
+        let to_light: [[f32; AT_ONCE]; 3] = [0, 1, 2].each(|axis: usize| lanes_of(&direction[axis][start..end], 0.0));
+        let (ray, normal) =
+            (seen.ray.each(|axis| gathered(axis, &row)), seen.normals().each(|axis| gathered(axis, &row)));
+        let mut counts = [0_u32; AT_ONCE];
+        for (lane, row) in by_lane::<AT_ONCE, _>(&rows[start..end]) {
+            counts[lane] = u32::from(materials.kind[seen.material[row as usize] as usize] == B::KIND);
+        }
+        let mut weight = [1.0; AT_ONCE];
+        for lane in 0..AT_ONCE {
+            let [normal, to_light, ray] =
+                [&normal, &to_light, &ray].each(|vectors| Vec3::from(vectors.at(lane)).as_dvec3());
+            let local_from_world = B::frame(normal).transpose();
+            let by_bsdf = bsdf.pdf(&context, local_from_world * to_light, local_from_world * -ray);
+            let is_weighted = (counts[lane] != 0) & (pdf[lane] != 0.0);
+            weight[lane] = if is_weighted { power_heuristic(pdf[lane], by_bsdf) } else { 1.0 };
+        }
+        for part in &mut irradiance {
+            let carried: [f32; AT_ONCE] = lanes_of(&part[start..end], 0.0);
+            let weighted: [f32; AT_ONCE] = lanes(|lane| (f64::from(carried[lane]) * weight[lane]) as f32);
+            put_lanes(&mut part[start..end], &weighted);
+        }
+    }
+}
 
 // ANCHOR: add_direct_light
 /// Adds the light of each unblocked shadow ray that a surface with this BSDF reflects or transmits to the eye.
@@ -396,4 +447,50 @@ pub struct BsdfView {
     pub shading: Option<&'static ShadingNormals>,
     /// The rays that go on.
     pub scattered: &'static mut Scattered,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::draws::Draws;
+
+    /// Lengths about those of a block; some surfaces of another material, some lights that have no area.
+    #[test]
+    fn many_light_samples_are_weighted_as_each() {
+        let (mut tried, mut weighted) = (0, 0);
+        for length in [1, AT_ONCE - 1, AT_ONCE, AT_ONCE + 1, 5 * AT_ONCE + 7] {
+            let mut draws = Draws::new(9_127, length as u64);
+            let (mut eye, mut surfaces) = (WorldRays::default(), Surfaces::default());
+            let (mut rays, mut by_light) = (ShadowRays::default(), vec![0.0; length]);
+            let (_, mut to_surface) = eye.slices_mut(length);
+            let (_, mut normal, _, material) = surfaces.slices_mut(length);
+            let (row, _, mut to_light, _, mut irradiance) = rays.slices_mut(length);
+            for ray in 0..length {
+                to_surface.put(ray, draws.unit_vector().as_vec3());
+                normal.put(ray, draws.unit_vector().as_vec3());
+                material[ray] = u32::from(draws.unit() < 0.2);
+                row[ray] = (draws.unit() * length as f64) as u32;
+                to_light.put(ray, draws.unit_vector().as_vec3());
+                irradiance.put(ray, [draws.unit() as f32, draws.power_of_ten(-40.0, 38.0) as f32, 0.0]);
+                by_light[ray] = if draws.unit() < 0.1 { 0.0 } else { draws.power_of_ten(-3.0, 3.0) };
+            }
+            let materials = MaterialTable::opaque(vec![MaterialKind::Matte, MaterialKind::Phong], vec![[0.5; 3]; 2]);
+            let (seen, before) = (Seen::new(&eye, &surfaces, None), rays.clone());
+            weight_in_blocks(&MatteTable, &materials, &seen, &by_light, &mut rays);
+            for ray in 0..length {
+                let row = before.row[ray] as usize;
+                let [to_light, to_eye] = seen.local::<MatteTable>(row, before.direction_of(ray));
+                let by_bsdf = MatteTable.pdf(&ShadingContext::opaque(0, Parameters::default()), to_light, to_eye);
+                let counts = seen.material[row] == 0 && by_light[ray] != 0.0;
+                let weight = if counts { power_heuristic(by_light[ray], by_bsdf) } else { 1.0 };
+                let expected = before.irradiance(ray).each(|part| (f64::from(part) * weight) as f32);
+                assert_eq!(rays.irradiance(ray).each(f32::to_bits), expected.each(f32::to_bits), "{length}, {ray}");
+                tried += 1;
+                weighted += usize::from(weight < 1.0);
+            }
+        }
+        eprintln!("{tried} light samples, {weighted} of them weighted");
+        // Half of the directions are above the surface, 0.8 of the surfaces matte, 0.9 of the lights with an area.
+        assert!(4 * weighted > tried);
+    }
 }

@@ -127,6 +127,27 @@ impl ScatteredRoom<'_> {
         self.pdf[at] = ray.pdf;
         self.length += usize::from(!all_are(ray.throughput, 0.0));
     }
+
+    /// Appends rays that all go on, given component by component.
+    #[inline(always)]
+    pub fn append_all<const N: usize>(
+        &mut self,
+        rows: &[u32],
+        origin: &[[f32; N]; 3],
+        direction: &[[f32; N]; 3],
+        throughput: &[[f64; N]; 3],
+        pdf: &[f64; N],
+    ) {
+        let to = self.length..self.length + N;
+        self.row[to.clone()].copy_from_slice(rows);
+        for axis in 0..3 {
+            self.origin[axis][to.clone()].copy_from_slice(&origin[axis]);
+            self.direction[axis][to.clone()].copy_from_slice(&direction[axis]);
+            self.throughput[axis][to.clone()].copy_from_slice(&throughput[axis]);
+        }
+        self.pdf[to.clone()].copy_from_slice(pdf);
+        self.length = to.end;
+    }
 }
 
 /// Clears every tile's list of scattered rays.

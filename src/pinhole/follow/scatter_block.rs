@@ -5,7 +5,7 @@
 
 use super::ScatteredRay;
 use super::paths::ScatteredRoom;
-use crate::each::{Each, by_lane};
+use crate::each::{Each, all_are, by_lane, gathered, lanes, lanes_of};
 use crate::intersect::{ShadingNormals, Surfaces};
 use crate::material::{Bsdf, BsdfSample, Parameters, ShadingContext, Transport};
 use crate::plan::{ColumnArrays, VectorRows, VectorRowsMut};
@@ -52,6 +52,8 @@ pub(super) struct ScatteredBlock {
     direction: [[f32; AT_ONCE]; 3],
     throughput: [[f64; AT_ONCE]; 3],
     pdf: [f64; AT_ONCE],
+    /// 0 if none of the block ends here.
+    ends: u32,
 }
 
 impl SampledBlock {
@@ -74,19 +76,7 @@ impl SampledBlock {
     /// Gathers the rows.
     #[inline(always)]
     pub fn gather(&mut self, columns: &SampledColumns<'_>, rows: &[u32]) {
-        let (position, geometric, bound, _) = columns.surfaces.slices();
-        let arriving = columns.rays.direction.slices(bound.len());
-        let throughput = columns.paths.throughput.slices(bound.len());
-        for (lane, row) in by_lane::<AT_ONCE, _>(rows) {
-            let row = row as usize;
-            self.direction.put(lane, arriving.at(row));
-            self.position.put(lane, position.at(row));
-            self.geometric.put(lane, geometric.at(row));
-            self.bound[lane] = bound[row];
-            self.throughput.put(lane, throughput.at(row));
-            let own = || Vec3::from(geometric.at(row)).as_dvec3();
-            self.normal.put(lane, columns.shading.map_or_else(own, |normals| normals.get(row)));
-        }
+        gather_rows(self, columns, rows);
     }
 
     /// Sets what is known of a row's material: its row of the BSDF's table, its parameters and its relative index of
@@ -117,6 +107,7 @@ impl ScatteredBlock {
         direction: [[0.0; AT_ONCE]; 3],
         throughput: [[0.0; AT_ONCE]; 3],
         pdf: [0.0; AT_ONCE],
+        ends: 0,
     };
 
     /// Samples the BSDF for the first rows of a block.
@@ -141,9 +132,12 @@ impl ScatteredBlock {
         }
     }
 
-    /// Appends those that go on.
+    /// Appends those that go on; all of them at once where there are none that do not.
     #[inline(always)]
     pub fn append(&self, rows: &[u32], to: &mut ScatteredRoom<'_>) {
+        if rows.len() == AT_ONCE && self.ends == 0 {
+            return to.append_all(rows, &self.origin, &self.direction, &self.throughput, &self.pdf);
+        }
         for (lane, row) in by_lane::<AT_ONCE, _>(rows) {
             to.append(row, &self.ray(lane));
         }
@@ -155,6 +149,23 @@ fn sample_at_once<B: Bsdf>(bsdf: &B, block: &SampledBlock, made: &mut ScatteredB
     sample_rows::<B, true>(bsdf, block, made, AT_ONCE, transport);
 }
 
+/// Gathers rows component by component, with row 0 for what follows the last one.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn gather_rows(block: &mut SampledBlock, columns: &SampledColumns<'_>, rows: &[u32]) {
+    let SampledColumns { rays, paths, surfaces, shading } = columns;
+    let (rows, (position, geometric, bound, _)) = (lanes_of(rows, 0_u32), surfaces.slices());
+    let of_normals = shading.map_or(geometric, |shading| shading.normal.slices(bound.len()));
+    for axis in 0..3 {
+        block.direction[axis] = gathered(&rays.direction[axis], &rows);
+        block.position[axis] = gathered(position[axis], &rows);
+        block.geometric[axis] = gathered(geometric[axis], &rows);
+        let normal: [f32; AT_ONCE] = gathered(of_normals[axis], &rows);
+        block.normal[axis] = lanes(|lane| f64::from(normal[lane]));
+        block.throughput[axis] = gathered(&paths.throughput[axis], &rows);
+    }
+    block.bound = gathered(bound, &rows);
+}
+
 #[inline(always)]
 fn sample_rows<B: Bsdf, const IN_BLOCK: bool>(
     bsdf: &B,
@@ -164,6 +175,7 @@ fn sample_rows<B: Bsdf, const IN_BLOCK: bool>(
     transport: Transport,
 ) {
     const NONE: BsdfSample = BsdfSample { to_light: DVec3::Z, pdf: 0.0, weight: [0.0; 3] };
+    let mut ends = 0;
     for lane in 0..rows.min(AT_ONCE) {
         let world_from_local = B::frame(block.normal.at(lane).into());
         let to_eye = world_from_local.transpose() * -Vec3::from(block.direction.at(lane)).as_dvec3();
@@ -190,9 +202,12 @@ fn sample_rows<B: Bsdf, const IN_BLOCK: bool>(
         let throughput = block.throughput.at(lane);
         made.origin.put(lane, offset_origin(Vec3::from(block.position.at(lane)), side, block.bound[lane]));
         made.direction.put(lane, direction.as_vec3());
-        made.throughput.put(lane, [0, 1, 2].each(|part| if leaves { throughput[part] * weight[part] } else { 0.0 }));
+        let throughput = [0, 1, 2].each(|part| if leaves { throughput[part] * weight[part] } else { 0.0 });
+        made.throughput.put(lane, throughput);
         made.pdf[lane] = pdf;
+        ends |= u32::from(all_are(throughput, 0.0));
     }
+    made.ends = ends;
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ use crate::sample::Purpose;
 use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
+use multiversion::multiversion;
 
 /// The normal to reflect by: the shading normal, or the geometric one where reflection by the former would lead into
 /// the surface.
@@ -81,6 +82,7 @@ const MIN_THROUGHPUT: f64 = 1.0 / 512.0;
 // ANCHOR: split_rays
 /// Traces both rays at every surface with this BSDF (Whitted 1980), except for those with too little throughput to be
 /// seen.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 pub fn split_rays<B: Bsdf>(
     (materials, bsdf, glass): (Res<Shared<MaterialTable>>, Res<Shared<B>>, Option<Res<Shared<GlassTable>>>),
     mut tiles: Query<(BsdfView, InterfaceView, &BsdfRows<B>)>,

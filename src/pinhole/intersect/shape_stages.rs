@@ -66,12 +66,14 @@ pub fn fill_surfaces<S: Listed>(
 ) {
     for SurfaceViewItem { rays, hits, primitives, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
         let (mut position, mut normal, bound, material) = surfaces.slices_mut(hits.rows());
+        let primitives = primitives.map(|primitives| &primitives.primitive[..]);
         for rows in list.row.chunks(if S::IS_TRIANGULAR { HITS } else { 1 }) {
-            for (lane, row) in by_lane::<HITS, _>(rows) {
-                let row = row as usize;
-                let primitive = primitives.map_or(0, |primitives| primitives.primitive[row]);
+            if S::IS_TRIANGULAR {
+                block.gather(rays.ray_components(), (&hits.t, &hits.shape), primitives, &all.row, rows);
+            } else {
+                let row = rows[0] as usize;
                 let hit = RayHit::at_rest(rays.origin_of(row), rays.direction_of(row), hits.t[row]);
-                block.set_hit(lane, all.row[hits.shape[row] as usize], &RayHit { primitive, ..hit });
+                block.set_hit(0, all.row[hits.shape[row] as usize], &hit);
             }
             S::fill_surfaces(&shapes.row, &shapes.surface_data, &mut block, rows.len());
             for (lane, row) in by_lane::<HITS, _>(rows) {

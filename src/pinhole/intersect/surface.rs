@@ -70,19 +70,10 @@ impl SurfaceSides {
 /// All components of [`Surfaces`] at one length, so that one check of a row's number serves them all.
 #[derive(Clone, Copy)]
 pub(crate) struct SurfaceSlices<'a> {
-    position: [&'a [f32]; 3],
-    normal: [&'a [f32]; 3],
-    bound: &'a [f32],
-    material: &'a [u32],
-}
-
-impl SurfaceSlices<'_> {
-    /// Reads a row.
-    #[inline(always)]
-    pub fn get(&self, row: usize) -> Surface {
-        let [position, normal] = [&self.position, &self.normal].each(|vectors| Vec3::from(vectors.at(row)));
-        Surface { position, normal, bound: self.bound[row], material: self.material[row] }
-    }
+    pub position: [&'a [f32]; 3],
+    pub normal: [&'a [f32]; 3],
+    pub bound: &'a [f32],
+    pub material: &'a [u32],
 }
 
 /// One row of [`Surfaces`].

@@ -187,6 +187,9 @@ pub trait Bsdf: Table + Named {
     const TAKES: &'static [Feeds] = &[];
     /// Whether [`Self::sample_in_block`] is so nearly without branches that it is compiled for many rows at once.
     const IN_BLOCKS: bool = false;
+    /// Whether [`Self::pdf`] is of the directions alone, whatever the surface's parameters, and so nearly without branches
+    /// that it is compiled for many rows at once.
+    const PDF_OF_DIRECTIONS: bool = false;
     /// Whether its lobes can be so narrow that the length of a normal rounded to f32 shows in them.
     const NARROW: bool = false;
 

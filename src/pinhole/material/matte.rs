@@ -40,6 +40,7 @@ impl Bsdf for MatteTable {
     const CLASS: BsdfClass = BsdfClass::Diffuse;
     const TAKES: &'static [Feeds] = &[Feeds::Colour];
     const IN_BLOCKS: bool = true;
+    const PDF_OF_DIRECTIONS: bool = true;
 
     fn parameters(matte: &Matte, who: &str) -> Result<Parameters, SceneError> {
         Ok(Parameters::coloured(reflectance(who, "colour", matte.colour)?.to_array()))

@@ -1,7 +1,7 @@
 //! Random numbers of rays.
 
 use super::{Depth, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
-use crate::each::{Each, set_length};
+use crate::each::{Each, gathered, lanes_of, set_length};
 use crate::extract::SamplingTable;
 use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
 use bevy_ecs::query::QueryData;
@@ -97,33 +97,68 @@ impl Draws<'_> {
     #[inline(always)]
     fn of_blocks<T>(&self, rows: &[u32], into: &mut [T], fill: impl Fn(&[[u32; AT_ONCE]; 2], &mut [T])) {
         for (rows, into) in rows.chunks(AT_ONCE).zip(into.chunks_mut(AT_ONCE)) {
-            fill(&self.pixels(rows.iter().map(|&row| row as usize)), into);
+            fill(&self.pixels(&lanes_of(rows, 0_u32)), into);
         }
     }
 
-    /// The pixels of at most so many rows, x and y.
+    /// The pixels of so many rows, x and y.
     #[inline(always)]
-    fn pixels(&self, rows: impl Iterator<Item = usize>) -> [[u32; AT_ONCE]; 2] {
-        let mut pixels = [[0; AT_ONCE]; 2];
-        for (lane, row) in rows.take(AT_ONCE).enumerate() {
-            let [x, y] = pixel_of_row(self.tile, self.samples, self.paths, row);
-            (pixels[0][lane], pixels[1][lane]) = (x, y);
-        }
-        pixels
+    fn pixels(&self, rows: &[u32; AT_ONCE]) -> [[u32; AT_ONCE]; 2] {
+        pixels_of_rows(self.tile, self.samples, self.paths, rows)
     }
+
+    /// Those of as many rows from one on.
+    #[inline(always)]
+    fn pixels_from(&self, first: usize) -> [[u32; AT_ONCE]; 2] {
+        let mut rows = [0; AT_ONCE];
+        for (row, number) in rows.iter_mut().zip(first as u32..) {
+            *row = number;
+        }
+        self.pixels(&rows)
+    }
+}
+
+/// [`pixel_of_row`] of many rows; of those that are not there, some pixels.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn pixels_of_rows(
+    tile: &Tile,
+    samples: Option<&PixelSamples>,
+    paths: Option<&Paths>,
+    rows: &[u32; AT_ONCE],
+) -> [[u32; AT_ONCE]; 2] {
+    let mut of = *rows;
+    if let Some(paths) = paths {
+        of = gathered(&paths.first, &of);
+    }
+    if let Some(samples) = samples {
+        of = gathered(&samples.pixel, &of);
+    }
+    // No processor divides several integers at once. Of (row + ½) / width the part before the point is what f64 rounds it to
+    // less ½, since it is further from an integer than all rounding leads; a number so large that its last digit counts
+    // ones does the rounding.
+    const ONES: f64 = 1.5 * (1_u64 << 52) as f64;
+    let of_one = 1.0 / f64::from(tile.width);
+    let before = 0.5 * of_one - 0.5;
+    let mut pixels = [[0; AT_ONCE]; 2];
+    for lane in 0..AT_ONCE {
+        let line = (f64::from(of[lane]) * of_one + before + ONES).to_bits() as u32;
+        pixels[0][lane] = tile.x.wrapping_add(of[lane].wrapping_sub(line.wrapping_mul(tile.width)));
+        pixels[1][lane] = tile.y.wrapping_add(line);
+    }
+    pixels
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn points_of_pixels<D: Draw>(draw: D, seed: u64, [xs, ys]: &[[u32; AT_ONCE]; 2], into: &mut [[f64; 2]]) {
-    for (point, (&x, &y)) in into.iter_mut().zip(xs.iter().zip(ys)) {
-        *point = draw.two(PixelKey::new(seed, [x, y])).each(unit);
+    for lane in 0..into.len().min(AT_ONCE) {
+        into[lane] = draw.two(PixelKey::new(seed, [xs[lane], ys[lane]])).each(unit);
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn fractions_of_pixels<D: Draw>(draw: D, seed: u64, [xs, ys]: &[[u32; AT_ONCE]; 2], into: &mut [u32]) {
-    for (fraction, (&x, &y)) in into.iter_mut().zip(xs.iter().zip(ys)) {
-        *fraction = draw.one(PixelKey::new(seed, [x, y]));
+    for lane in 0..into.len().min(AT_ONCE) {
+        into[lane] = draw.one(PixelKey::new(seed, [xs[lane], ys[lane]]));
     }
 }
 
@@ -136,7 +171,7 @@ pub(super) fn draw_two(of: &Draws<'_>, purpose: Purpose, xs: &mut [f64], ys: &mu
         for (block, (xs, ys)) in xs.chunks_mut(AT_ONCE).zip(ys.chunks_mut(AT_ONCE)).enumerate() {
             let first = block * AT_ONCE;
             let points = &mut points[..xs.len()];
-            points_of_pixels(draw, of.sampling.seed, &of.pixels(first..first + xs.len()), points);
+            points_of_pixels(draw, of.sampling.seed, &of.pixels_from(first), points);
             for (point, (x, y)) in points.iter().zip(xs.iter_mut().zip(ys)) {
                 [*x, *y] = *point;
             }
@@ -151,8 +186,47 @@ pub(super) fn draw_one(of: &Draws<'_>, purpose: Purpose, xs: &mut [f64]) {
         for (block, xs) in xs.chunks_mut(AT_ONCE).enumerate() {
             let first = block * AT_ONCE;
             let fractions = &mut fractions[..xs.len()];
-            fractions_of_pixels(draw, of.sampling.seed, &of.pixels(first..first + xs.len()), fractions);
+            fractions_of_pixels(draw, of.sampling.seed, &of.pixels_from(first), fractions);
             fractions.iter().zip(xs).for_each(|(&fraction, x)| *x = unit(fraction));
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of whole tiles and of their last rows, of every width up to 70 and of some as wide as an image may be, with and
+    /// without samples and paths.
+    #[test]
+    fn the_pixels_of_many_rows_are_those_of_each() {
+        let mut tried = 0;
+        for width in (1..=70).chain([1024, 1 << 20, (1 << 20) - 1, 65_537]) {
+            let tile = Tile { x: 5, y: 1 << 20, width, height: 2000 };
+            let last = tile.rows() as u32 - 1;
+            let firsts = [0, width - 1, width, 17 * width - 1, last / 2, last - 64 * (last / 65), last];
+            let mixed: Vec<u32> = (0..500).map(|row: u32| row.wrapping_mul(7919) % (last + 1)).collect();
+            let (samples, paths) = (
+                PixelSamples { pixel: mixed.clone(), ..Default::default() },
+                Paths { first: mixed.clone(), ..Default::default() },
+            );
+            let all: [(Option<&PixelSamples>, Option<&Paths>, u32); 4] =
+                [(None, None, last), (Some(&samples), None, 499), (None, Some(&paths), 499), (None, None, last)];
+            for (samples, paths, end) in all {
+                for first in firsts {
+                    let rows: [u32; AT_ONCE] = std::array::from_fn(|lane| (first + lane as u32 * 3).min(end));
+                    let [x, y] = pixels_of_rows(&tile, samples, paths, &rows);
+                    for (lane, &row) in rows.iter().enumerate() {
+                        assert_eq!(
+                            [x[lane], y[lane]],
+                            pixel_of_row(&tile, samples, paths, row as usize),
+                            "{width}, {row}"
+                        );
+                        tried += 1;
+                    }
+                }
+            }
+        }
+        eprintln!("pixels of {tried} rows");
+    }
 }

@@ -147,6 +147,20 @@ struct OneLight<'a> {
 pub struct ChosenRows {
     row: Vec<u32>,
     point: Vec<[f64; 2]>,
+    /// How many there are; what follows is room.
+    count: usize,
+}
+
+impl ChosenRows {
+    /// The rows.
+    fn rows(&self) -> &[u32] {
+        &self.row[..self.count]
+    }
+
+    /// Their points.
+    fn points(&self) -> &[[f64; 2]] {
+        &self.point[..self.count]
+    }
 }
 
 /// Those of each way, on the near side and behind.
@@ -168,14 +182,15 @@ impl OneLight<'_> {
     fn part_by_way(&mut self, ways_at: &dyn Fn(&Starts, &mut [u32; AT_ONCE])) {
         for (side, (rows, draws)) in self.receivers.rows().into_iter().zip(self.draws).enumerate() {
             let mut counts = [0; WAYS];
-            for chosen in self.by_way.iter_mut() {
+            for chosen in self.by_way.iter_mut().filter(|chosen| chosen[side].row.len() < rows.len()) {
                 set_length(&mut chosen[side].row, rows.len(), || 0);
                 set_length(&mut chosen[side].point, rows.len(), || [0.0; 2]);
             }
             let mut found = [0; AT_ONCE];
             for (rows, draws) in rows.chunks(AT_ONCE).zip(draws.chunks(AT_ONCE)) {
                 ways_at(&self.receivers.starts(rows, side == 1), &mut found);
-                for ((&row, &u), &found) in rows.iter().zip(draws).zip(&found) {
+                for lane in 0..rows.len().min(AT_ONCE) {
+                    let (row, u, found) = (rows[lane], draws[lane], found[lane]);
                     let (way, shines) = ((found >> 1) as usize % WAYS, found & 1);
                     let (chosen, count) = (&mut self.by_way[way][side], &mut counts[way]);
                     // Every row is written, and the next one of its way overwrites it where no light shines on it.
@@ -184,8 +199,7 @@ impl OneLight<'_> {
                 }
             }
             for (chosen, count) in self.by_way.iter_mut().zip(counts) {
-                chosen[side].row.truncate(count);
-                chosen[side].point.truncate(count);
+                chosen[side].count = count;
             }
         }
     }
@@ -212,7 +226,7 @@ impl WayVisitor for InWays<'_> {
         let (light, to) = (InWay::<E, WAY> { emitter: *emitter, light: *light }, (&mut **rays, pdfs.as_deref_mut()));
         let [near, far] = &by_way[WAY];
         let (receivers, draws) = if E::HAS_WAYS | light.light.1 {
-            (receivers.part(&near.row, &far.row), [&near.point[..], &far.point[..]])
+            (receivers.part(near.rows(), far.rows()), [near.points(), far.points()])
         } else {
             (receivers.part(receivers.rows()[0], receivers.rows()[1]), *draws)
         };

@@ -2,11 +2,12 @@
 
 use super::light::ShadowRay;
 use super::{LightPdfs, ShadowRays, TransmissiveRows};
-use crate::each::{Each, by_lane};
+use crate::each::{Each, by_lane, gathered, lanes_of};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, SurfaceSlices, Surfaces};
 use crate::plan::{Column, VectorRows, VectorRowsMut};
 use crate::shapes::offset_origin;
 use glam::{DVec3, Vec3};
+use multiversion::multiversion;
 
 /// A shadow ray with the irradiance that it carries.
 #[derive(Default)]
@@ -52,13 +53,7 @@ impl<'a> LightRows<'a> {
     /// Where the shadow rays of some rows start; of those behind, on the other side.
     #[inline(always)]
     pub fn starts(&self, rows: &[u32], behind: bool) -> Starts {
-        let (mut starts, surfaces) = ([[0.0; AT_ONCE]; 3], self.surfaces.to_read());
-        let sign = if behind { -1.0 } else { 1.0 };
-        for (lane, row) in by_lane::<AT_ONCE, _>(rows) {
-            let surface = surfaces.get(row as usize);
-            starts.put(lane, offset_origin(surface.position, sign * surface.normal, surface.bound));
-        }
-        starts
+        starts_of(&self.surfaces.to_read(), rows, if behind { -1.0 } else { 1.0 })
     }
 
     /// A row's surface and shading normal.
@@ -94,8 +89,6 @@ pub(super) trait MakesRays {
 pub(super) type LightDraws<'a> = [&'a [[f64; 2]]; 2];
 
 /// Appends the shadow rays from all surfaces of a list to one light, where they carry light.
-///
-/// A scene without shading normals has a loop of its own.
 #[inline(always)]
 pub(super) fn append_rays(
     receivers: &LightRows<'_>,
@@ -105,44 +98,9 @@ pub(super) fn append_rays(
     [draws, far_draws]: LightDraws<'_>,
 ) {
     let mut to = (rays, pdfs);
-    let rows = (receivers.rows, draws);
-    match receivers.shading {
-        None => append(rows, &mut to, casts_shadows, light, &Plain(receivers.surfaces.to_read())),
-        Some(normals) => append(rows, &mut to, casts_shadows, light, &Shaded(receivers.surfaces.to_read(), normals)),
-    }
+    append((receivers.rows, draws), &mut to, casts_shadows, light, (receivers, 1.0));
     if !receivers.far.is_empty() {
-        append((receivers.far, far_draws), &mut to, casts_shadows, light, &Behind(receivers));
-    }
-}
-
-/// Where the surface and the normal of a row are found.
-trait Receivers {
-    fn of_row(&self, row: usize) -> (Surface, DVec3);
-}
-
-struct Plain<'a>(SurfaceSlices<'a>);
-struct Shaded<'a>(SurfaceSlices<'a>, &'a ShadingNormals);
-struct Behind<'a>(&'a LightRows<'a>);
-
-impl Receivers for Plain<'_> {
-    #[inline(always)]
-    fn of_row(&self, row: usize) -> (Surface, DVec3) {
-        let surface = self.0.get(row);
-        (surface, surface.normal.as_dvec3())
-    }
-}
-
-impl Receivers for Shaded<'_> {
-    #[inline(always)]
-    fn of_row(&self, row: usize) -> (Surface, DVec3) {
-        (self.0.get(row), self.1.get(row))
-    }
-}
-
-impl Receivers for Behind<'_> {
-    #[inline(always)]
-    fn of_row(&self, row: usize) -> (Surface, DVec3) {
-        self.0.behind(row)
+        append((receivers.far, far_draws), &mut to, casts_shadows, light, (receivers, -1.0));
     }
 }
 
@@ -189,19 +147,51 @@ impl SurfaceBlock {
     };
 
     #[inline(always)]
-    fn set(&mut self, lane: usize, (surface, normal): (Surface, DVec3)) {
-        self.position.put(lane, surface.position);
-        self.geometric.put(lane, surface.normal);
-        self.normal.put(lane, normal);
-        (self.bound[lane], self.material[lane]) = (surface.bound, surface.material);
-    }
-
-    #[inline(always)]
     fn get(&self, lane: usize) -> (Surface, DVec3) {
         let [position, normal] = [&self.position, &self.geometric].each(|vectors| Vec3::from(vectors.at(lane)));
         let surface = Surface { position, normal, bound: self.bound[lane], material: self.material[lane] };
         (surface, self.normal.at(lane).into())
     }
+}
+
+/// Where the shadow rays of rows start, on this side of the geometric normals or the other.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn starts_of(surfaces: &SurfaceSlices<'_>, rows: &[u32], side: f32) -> Starts {
+    let rows = lanes_of(rows, 0_u32);
+    let bound: [f32; AT_ONCE] = gathered(surfaces.bound, &rows);
+    let [position, normal] = [surfaces.position, surfaces.normal].each(|all| all.each(|axis| gathered(axis, &rows)));
+    let mut starts = [[0.0; AT_ONCE]; 3];
+    for lane in 0..AT_ONCE {
+        let (position, normal): ([f32; 3], [f32; 3]) = (position.at(lane), normal.at(lane));
+        starts.put(lane, offset_origin(position.into(), side * Vec3::from(normal), bound[lane]));
+    }
+    starts
+}
+
+/// Gathers the surfaces of rows, seen from this side of their normals or from the other.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn gather_surfaces(
+    block: &mut SurfaceBlock,
+    surfaces: &SurfaceSlices<'_>,
+    shading: Option<&ShadingNormals>,
+    rows: &[u32],
+    side: f32,
+) {
+    let rows = lanes_of(rows, 0_u32);
+    for axis in 0..3 {
+        block.position[axis] = gathered(surfaces.position[axis], &rows);
+        let geometric: [f32; AT_ONCE] = gathered(surfaces.normal[axis], &rows);
+        let normal = match shading {
+            Some(shading) => gathered(&shading.normal[axis], &rows),
+            None => geometric,
+        };
+        for lane in 0..AT_ONCE {
+            block.geometric[axis][lane] = side * geometric[lane];
+            block.normal[axis][lane] = f64::from(side * normal[lane]);
+        }
+    }
+    block.bound = gathered(surfaces.bound, &rows);
+    block.material = gathered(surfaces.material, &rows);
 }
 
 impl LightRayBlock {
@@ -248,15 +238,13 @@ fn append(
     (rays, pdfs): &mut RayLists<'_>,
     casts_shadows: bool,
     light: &impl MakesRays,
-    receivers: &impl Receivers,
+    (receivers, side): (&LightRows<'_>, f32),
 ) {
     let (mut block, mut made) = (SurfaceBlock::NONE, LightRayBlock::NONE);
-    let mut path = [0; AT_ONCE];
+    let (mut path, surfaces) = ([0; AT_ONCE], receivers.surfaces.to_read());
     let mut draws = draws.chunks(AT_ONCE);
     for rows in rows.chunks(AT_ONCE) {
-        for (lane, row) in by_lane::<AT_ONCE, _>(rows) {
-            block.set(lane, receivers.of_row(row as usize));
-        }
+        gather_surfaces(&mut block, &surfaces, receivers.shading, rows, side);
         for (lane, [u, v]) in by_lane::<AT_ONCE, _>(draws.next().unwrap_or_default()) {
             (block.u[0][lane], block.u[1][lane]) = (u, v);
         }
@@ -280,16 +268,24 @@ fn append(
         if !casts_shadows {
             made.t_max = [0.0; AT_ONCE];
         }
-        rays.row.extend_from_slice(&path[..count]);
+        append_lanes(&mut rays.row, &path, count);
         let ShadowRays { origin: [ox, oy, oz], direction: [dx, dy, dz], t_max, irradiance: [r, g, b], .. } = rays;
         for (column, component) in [ox, oy, oz, dx, dy, dz, t_max, r, g, b].into_iter().zip(made.components()) {
-            column.extend_from_slice(&component[..count]);
+            append_lanes(column, component, count);
         }
         if let Some(pdfs) = pdfs {
-            pdfs.row.extend_from_slice(&path[..count]);
-            pdfs.pdf.extend_from_slice(&made.pdf[..count]);
+            append_lanes(&mut pdfs.row, &path, count);
+            append_lanes(&mut pdfs.pdf, &made.pdf, count);
         }
     }
+}
+
+/// Appends the first lanes: all of them, which is a few instructions, of which the last are cut off again.
+#[inline(always)]
+fn append_lanes<T: Copy>(column: &mut Vec<T>, lanes: &[T; AT_ONCE], count: usize) {
+    let length = column.len() + count;
+    column.extend_from_slice(lanes);
+    column.truncate(length);
 }
 
 /// Appends one shadow ray per row in a sampled direction, and its pdf; all of them cast shadows.

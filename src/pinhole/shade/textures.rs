@@ -19,6 +19,7 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use bevy_ecs::system::SystemParam;
 use glam::{DMat3, DVec2, DVec3};
+use multiversion::multiversion;
 
 column! {
     /// The texture coordinates of each surface, and the pixel's footprint in them; all 0 where there is no texture.
@@ -197,14 +198,17 @@ impl SurfaceColours {
 /// A square wave: 1 where x is in an even cell, −1 in an odd one.
 #[inline(always)]
 pub fn wave(x: f64) -> f64 {
-    if x.floor().rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 }
+    let pairs = 0.5 * x.floor();
+    if pairs == pairs.floor() { 1.0 } else { -1.0 }
 }
 
 // ANCHOR: wave_mean
 /// The integral of `wave` from 0 to x: it rises to 1 over every even cell and falls back to 0 over every odd one.
+///
+/// Within its pair of cells x is where `rem_euclid` says, which is a call where `floor` is an instruction.
 #[inline(always)]
 fn wave_area(x: f64) -> f64 {
-    1.0 - (x.rem_euclid(2.0) - 1.0).abs()
+    1.0 - (x - 2.0 * (0.5 * x).floor() - 1.0).abs()
 }
 
 /// The mean of `wave` over an interval of this width about x.
@@ -240,6 +244,7 @@ pub fn box_width(right: f64, down: f64) -> f64 {
 ///
 /// The colour is the first where an even number of the three coordinates are in odd cells, so it is a product of three
 /// waves, and the mean of a product over a box is the product of the means.
+#[inline(always)]
 pub fn checker_fraction(at: &TexturePoint) -> f64 {
     let [right, down] = at.steps;
     let mean = |axis: usize| wave_mean(at.point[axis], box_width(right[axis], down[axis]));
@@ -248,6 +253,7 @@ pub fn checker_fraction(at: &TexturePoint) -> f64 {
 // ANCHOR_END: checker_fraction
 
 /// The fraction of the first colour of stripes across x within a pixel's footprint.
+#[inline(always)]
 pub fn stripes_fraction(at: &TexturePoint) -> f64 {
     let [right, down] = at.steps;
     0.5 + 0.5 * wave_mean(at.point.x, box_width(right.x, down.x))
@@ -291,6 +297,7 @@ fn mixed(fraction: f64, first: Rgb, second: Rgb) -> [f64; 3] {
 }
 
 /// Evaluates the colours of materials with one kind of pattern.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 pub fn evaluate_pattern<T: Pattern>(
     table: Res<Shared<PatternTable<T>>>,
     mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,

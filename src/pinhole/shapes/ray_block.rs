@@ -3,7 +3,7 @@
 use super::bounds::{l1_norm, offset_bound};
 use super::shape::Shape;
 use crate::bvh::by_axis;
-use crate::each::Each;
+use crate::each::{Each, gathered, lanes_of, put_lanes, rows_of, vectors_of};
 use glam::DVec3;
 use multiversion::multiversion;
 use std::ops::Range;
@@ -123,22 +123,18 @@ pub(crate) struct RayBlock {
 }
 
 impl RayBlock {
-    const DUMMIES: Self = Self { o: [[0.0; LANES]; 3], d: [[1.0; LANES]; 3] };
-
     #[inline(always)]
     pub fn of(rays: RaySlices<'_>, start: usize, end: usize) -> Self {
-        let mut block = Self::DUMMIES;
-        for axis in 0..3 {
-            fill_lanes(&mut block.o[axis], &rays.origin[axis][start..end]);
-            fill_lanes(&mut block.d[axis], &rays.direction[axis][start..end]);
+        Self {
+            o: vectors_of(rows_of(rays.origin, start..end), 0.0),
+            d: vectors_of(rows_of(rays.direction, start..end), 1.0),
         }
-        block
     }
 
     /// The rays of the listed rows, at most one per lane.
     #[inline(always)]
     pub fn of_rows(rays: RaySlices<'_>, rows: &[u32]) -> Self {
-        let mut block = Self::DUMMIES;
+        let mut block = Self { o: [[0.0; LANES]; 3], d: [[1.0; LANES]; 3] };
         let ([ox, oy, oz], [dx, dy, dz]) = (rays.origin, rays.direction);
         // All of one length: one check of a row's number serves them all.
         let all = ox.len();
@@ -159,22 +155,6 @@ impl RayBlock {
             *inverse = 1.0 / vector(&self.d, lane).dot(vector(&self.d, lane));
         }
         inverse
-    }
-}
-
-/// Fills the first lanes, as many as there are numbers.
-///
-/// Of a whole block the number is known when this is compiled, so that it is a few instructions and not a loop.
-#[inline(always)]
-pub(super) fn fill_lanes<T: Copy, U: From<T>>(to: &mut [U; LANES], from: &[T]) {
-    if let Some(from) = from.first_chunk::<LANES>() {
-        for lane in 0..LANES {
-            to[lane] = from[lane].into();
-        }
-    } else {
-        for (lane, &from) in from.iter().enumerate() {
-            to[lane] = from.into();
-        }
     }
 }
 
@@ -206,10 +186,7 @@ impl BlockHits {
     #[inline(always)]
     pub fn of(t: &[f64], shape: &[u32]) -> Self {
         // Nothing is closer to a lane without a row.
-        let mut own = Self { t: [f64::NEG_INFINITY; LANES], shape: [0; LANES] };
-        fill_lanes(&mut own.t, t);
-        fill_lanes(&mut own.shape, shape);
-        own
+        Self { t: lanes_of(t, f64::NEG_INFINITY), shape: lanes_of(shape, 0_u32) }
     }
 
     /// Those of the listed rows, at most one per lane.
@@ -233,13 +210,8 @@ impl BlockHits {
     /// Writes them to the rows.
     #[inline(always)]
     pub fn write(&self, t: &mut [f64], shape: &mut [u32]) {
-        match (t.first_chunk_mut::<LANES>(), shape.first_chunk_mut::<LANES>()) {
-            (Some(t), Some(shape)) => (*t, *shape) = (self.t, self.shape),
-            _ => {
-                t.copy_from_slice(&self.t[..t.len()]);
-                shape.copy_from_slice(&self.shape[..shape.len()]);
-            }
-        }
+        put_lanes(t, &self.t);
+        put_lanes(shape, &self.shape);
     }
 }
 
@@ -426,6 +398,18 @@ impl HitBlock {
         (self.t[lane], self.primitive[lane], self.shape[lane]) = (hit.t, hit.primitive, shape);
     }
 
+    /// Gathers the hits of rows: their rays, distances and primitives, and the rows of their shapes, by the shapes' numbers.
+    pub fn gather(
+        &mut self,
+        rays: RaySlices<'_>,
+        (t, shape): (&[f64], &[u32]),
+        primitive: Option<&[u32]>,
+        row_of_shape: &[u32],
+        rows: &[u32],
+    ) {
+        gather_hits(self, rays, (t, shape), primitive, row_of_shape, rows);
+    }
+
     /// The hit, and the row of its shape.
     #[inline(always)]
     pub fn hit(&self, lane: usize) -> (u32, RayHit) {
@@ -448,13 +432,6 @@ impl HitBlock {
     pub fn surface(&self, lane: usize) -> SurfacePoint {
         let [point, normal, at] = [&self.point, &self.normal, &self.at].each(|of| DVec3::from(at(of, lane)));
         SurfacePoint { point, normal, bound: self.bound[lane], outside: self.outside[lane] > 0.0, at }
-    }
-
-    /// Sets the normal of a triangle, and whether it is opposite to that of its corners' order.
-    #[inline(always)]
-    pub(super) fn set_face(&mut self, lane: usize, normal: DVec3, is_turned: bool) {
-        set(&mut self.normal, lane, normal.into());
-        self.outside[lane] = if is_turned { 1.0 } else { 0.0 };
     }
 
     /// Whether f64 is certain of the surface of a triangle.
@@ -483,6 +460,31 @@ impl HitBlock {
         self.outside[lane] = if outside { 1.0 } else { 0.0 };
         let [point, origin] = [&self.point, &self.origin].each(|of| DVec3::from(at(of, lane)));
         self.bound[lane] = offset_bound(point, origin, size);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn gather_hits(
+    block: &mut HitBlock,
+    rays: RaySlices<'_>,
+    (t, shape): (&[f64], &[u32]),
+    primitive: Option<&[u32]>,
+    row_of_shape: &[u32],
+    rows: &[u32],
+) {
+    let rows: [u32; HITS] = lanes_of(rows, 0_u32);
+    for axis in 0..3 {
+        let origin: [f32; HITS] = gathered(rays.origin[axis], &rows);
+        let direction: [f32; HITS] = gathered(rays.direction[axis], &rows);
+        for lane in 0..HITS {
+            block.origin[axis][lane] = f64::from(origin[lane]);
+            block.direction[axis][lane] = f64::from(direction[lane]);
+        }
+    }
+    block.t = gathered(t, &rows);
+    block.shape = gathered(row_of_shape, &gathered(shape, &rows));
+    if let Some(primitive) = primitive {
+        block.primitive = gathered(primitive, &rows);
     }
 }
 

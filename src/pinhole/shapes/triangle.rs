@@ -126,11 +126,7 @@ impl Shape for TriangleRow {
     }
 
     fn fill_surfaces(triangles: &[Self], faces: &[TriangleFace], hits: &mut HitBlock, count: usize) {
-        for lane in 0..count.min(HITS) {
-            let row = hits.shape[lane] as usize;
-            hits.set_corners(lane, triangles[row].corners);
-            hits.set_face(lane, faces[row].normal, faces[row].turned);
-        }
+        gather_triangles(hits, triangles, faces);
         interpolate_triangles(hits);
         for lane in 0..count.min(HITS) {
             if !hits.is_certain(lane) {
@@ -379,6 +375,26 @@ fn max(one: f64, other: f64) -> f64 {
 #[inline(always)]
 fn interpolated([u, v, w]: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     [u * a[0] + v * b[0] + w * c[0], u * a[1] + v * b[1] + w * c[1], u * a[2] + v * b[2] + w * c[2]]
+}
+
+/// Sets the triangles that are hit.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn gather_triangles(hits: &mut HitBlock, triangles: &[TriangleRow], faces: &[TriangleFace]) {
+    let Some(last) = triangles.len().min(faces.len()).checked_sub(1) else { return };
+    let (triangles, faces) = (&triangles[..=last], &faces[..=last]);
+    for corner in 0..3 {
+        for lane in 0..HITS {
+            let DVec3 { x, y, z } = triangles[last.min(hits.shape[lane] as usize)].corners[corner];
+            set(&mut hits.corners[corner], lane, [x, y, z]);
+        }
+    }
+    for lane in 0..HITS {
+        let DVec3 { x, y, z } = faces[last.min(hits.shape[lane] as usize)].normal;
+        set(&mut hits.normal, lane, [x, y, z]);
+    }
+    for lane in 0..HITS {
+        hits.outside[lane] = if faces[last.min(hits.shape[lane] as usize)].turned { 1.0 } else { 0.0 };
+    }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]

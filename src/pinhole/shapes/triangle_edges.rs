@@ -204,7 +204,8 @@ fn rows_along<const Z: usize>(
             (own_t[lane], own_shape[lane]) = (t[row as usize], shape[row as usize]);
         }
         let sheared = [x, y, z, size];
-        for (triangle, &number) in triangles.iter().zip(numbers) {
+        for place in 0..triangles.len() {
+            let (triangle, number) = (&triangles[place], numbers[place]);
             let mut nearest = [f64::NEG_INFINITY; LANES];
             for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
                 let f = triangle.centre - vector(o, lane);

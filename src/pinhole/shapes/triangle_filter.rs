@@ -5,7 +5,7 @@
 //! all of them.
 
 use super::l1_norm;
-use super::ray_block::{LANES, RaySlices, fill_lanes};
+use super::ray_block::{LANES, RaySlices};
 use super::shape::Shape;
 use super::triangle::{TriangleRow, exact_triangle_t};
 use super::triangle_edges::{ROUNDING, certain_t, edge_values_by_any_axis, rows_by_axis};
@@ -13,7 +13,7 @@ use glam::DVec3;
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 
-use crate::each::{Each, by_lane, lanes};
+use crate::each::{Each, by_lane, lanes, lanes_of, rows_of, vectors_of};
 
 /// 2⁻²⁰: sixteen times f32's unit roundoff, of which the sums below need thirteen.
 const OF_SUM: f64 = 1.0 / (1 << 20) as f64;
@@ -292,11 +292,13 @@ fn first_hits<const FUSED: bool>(
         (size[lane], length[lane]) = (if is_usable { from } else { f32::INFINITY }, along);
         (low[lane], high[lane]) = (until[lane] * (1.0 - OF_T), until[lane] * (1.0 + OF_T));
     }
-    let origin: [[f64; LANES]; 3] = o.each(|axis| lanes(|lane| f64::from(axis[lane])));
+    let origin: [[f64; LANES]; 3] = vectors_of([&o[0], &o[1], &o[2]], 0.0);
     let (mut found, mut suspects) = ([NONE; LANES], [[0; LANES]; NUMBERS]);
-    for (number, (polygons, planes)) in polygons.chunks(IN_ONE).zip(planes.chunks(IN_ONE)).enumerate() {
-        let suspects = &mut suspects[number];
-        for (bit, (polygon, plane)) in polygons.iter().zip(planes).enumerate() {
+    let planes = &planes[..polygons.len()];
+    for number in 0..polygons.len().div_ceil(IN_ONE).min(NUMBERS) {
+        let (suspects, first) = (&mut suspects[number], number * IN_ONE);
+        for place in first..polygons.len().min(first + IN_ONE) {
+            let (polygon, plane, bit) = (&polygons[place], &planes[place], 1 << (place - first));
             let mut heights = [0.0_f32; LANES];
             let DVec3 { x: px, y: py, z: pz } = plane.normal;
             for lane in 0..LANES {
@@ -334,7 +336,7 @@ fn first_hits<const FUSED: bool>(
                 let misses = is_steep & ((inside + error < 0.0) | (t_high < 0.0) | (t_low > high[lane]));
                 let is_sure = is_steep & (t_low > 0.0) & (smaller(inside, w.abs()) > error);
                 let is_closer = !misses & is_sure & (t_high < low[lane]);
-                suspects[lane] |= if misses | is_closer { 0 } else { 1 << bit };
+                suspects[lane] |= if misses | is_closer { 0 } else { bit };
                 // All bounds of a closer hit are less: a minimum is stored for every ray, where a choice would be for some.
                 low[lane] = smaller(if is_closer { t_low } else { f32::INFINITY }, low[lane]);
                 high[lane] = smaller(if is_closer { t_high } else { f32::INFINITY }, high[lane]);
@@ -423,16 +425,12 @@ fn filtered_rows<const FUSED: bool>(
     let numbers_used = polygons.len().div_ceil(IN_ONE).min(NUMBERS);
     for start in (0..t.len()).step_by(LANES) {
         let count = LANES.min(t.len() - start);
-        let mut block: Rays = [[[0.0; LANES]; 3], [[1.0; LANES]; 3]];
-        let (mut until, mut before) = ([0.0; LANES], [0.0_f64; LANES]);
-        for axis in 0..3 {
-            fill_lanes(&mut block[0][axis], &rays.origin[axis][start..start + count]);
-            fill_lanes(&mut block[1][axis], &rays.direction[axis][start..start + count]);
-        }
-        fill_lanes(&mut before, &t[start..start + count]);
-        for lane in 0..LANES {
-            until[lane] = before[lane] as f32;
-        }
+        let block: Rays = [
+            vectors_of(rows_of(rays.origin, start..start + count), 0.0),
+            vectors_of(rows_of(rays.direction, start..start + count), 1.0),
+        ];
+        let before: [f64; LANES] = lanes_of(&t[start..start + count], 0.0);
+        let until = lanes(|lane| before[lane] as f32);
         let candidates = first_hits::<FUSED>((polygons, planes), &block, &until);
         let in_doubt = candidates.in_doubt(numbers_used);
         for (row, lane) in (start as u32..).zip(0..count) {
@@ -462,15 +460,16 @@ fn filtered_rows<const FUSED: bool>(
             }
         }
     }
+    // What follows the last pair is left over from an earlier block.
+    let mut block = Pairs {
+        o: [[0.0; LANES]; 3],
+        d: [[1.0; LANES]; 3],
+        corners: [[[0.0; LANES]; 3]; 3],
+        size: [0.0; LANES],
+        t: [0.0; LANES],
+        certain: [0; LANES],
+    };
     for of_block in pairs.chunks(LANES) {
-        let mut block = Pairs {
-            o: [[0.0; LANES]; 3],
-            d: [[1.0; LANES]; 3],
-            corners: [[[0.0; LANES]; 3]; 3],
-            size: [0.0; LANES],
-            t: [0.0; LANES],
-            certain: [0; LANES],
-        };
         for (lane, (row, place)) in by_lane::<LANES, _>(of_block) {
             let (row, triangle) = (row as usize, &triangles[place as usize]);
             for axis in 0..3 {
