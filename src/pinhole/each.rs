@@ -75,7 +75,7 @@ pub(crate) fn vectors_of<T: Copy, U: Copy + From<T>, const N: usize>([x, y, z]: 
 
 /// Some rows of the components of three axes.
 #[inline(always)]
-pub(crate) fn rows_of<'a, T>([x, y, z]: [&'a [T]; 3], rows: Range<usize>) -> [&'a [T]; 3] {
+pub(crate) fn rows_of<T>([x, y, z]: [&[T]; 3], rows: Range<usize>) -> [&[T]; 3] {
     [&x[rows.clone()], &y[rows.clone()], &z[rows]]
 }
 
