@@ -402,8 +402,8 @@ impl Default for PhotonMapping {
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BidirectionalPathTracing {
-    /// Light paths per camera path, from 1/1024 to 1024. Half as many save more time than they cost in error where they easily
-    /// reach what the camera sees, as in a Cornell box, and less where they hardly do, as behind a keyhole.
+    /// Light paths per camera path, from 1/1024 to 1024. Fewer take less time and leave more error: half as many pay in a
+    /// Cornell box that a point lights, and do not in one under a sky, nor behind a keyhole.
     pub paths: f64,
 }
 
