@@ -8,7 +8,7 @@ use super::recursive_mis::{join_weight_stage, leave_with_ratios_stage};
 use super::scatter_block::{AT_ONCE, SampledBlock, SampledColumns, ScatteredBlock};
 use super::specular::{specular_from_lights_stage, specular_stage, split_stage};
 use super::{DeeperMedia, Media, Scattered, power_heuristic};
-use crate::each::{Each, by_lane, gathered, lanes, lanes_of, list_those, put_lanes};
+use crate::each::{Each, by_lane, gathered, lanes, lanes_of, list_those, put_lanes, rows_of, vectors_of};
 use crate::extract::{
     GlassTable, MaterialTable, SamplingTable, ShapeTable, area_light_evidence, bidirectional_evidence, bsdf_evidence,
     environment_light_evidence, glass_contact_evidence, joined_evidence, mis_evidence, needed_if, traced_evidence,
@@ -181,11 +181,12 @@ fn weight_in_blocks<B: Bsdf>(
 ) {
     let context = ShadingContext::opaque(0, Parameters::coloured([0.0; 3]));
     let (rows, _, direction, _, mut irradiance) = rays.slices_mut(by_light.len());
+    let direction = direction.each(|axis| &*axis);
     for start in (0..by_light.len()).step_by(AT_ONCE) {
         let end = by_light.len().min(start + AT_ONCE);
         let row: [u32; AT_ONCE] = lanes_of(&rows[start..end], 0_u32);
         let pdf: [f64; AT_ONCE] = lanes_of(&by_light[start..end], 0.0);
-        let to_light: [[f32; AT_ONCE]; 3] = [0, 1, 2].each(|axis: usize| lanes_of(&direction[axis][start..end], 0.0));
+        let to_light: [[f32; AT_ONCE]; 3] = vectors_of(rows_of(direction, start..end), 0.0);
         let (ray, normal) =
             (seen.ray.each(|axis| gathered(axis, &row)), seen.normals().each(|axis| gathered(axis, &row)));
         let mut counts = [0_u32; AT_ONCE];

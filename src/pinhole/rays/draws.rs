@@ -3,7 +3,7 @@
 use super::{Depth, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
 use crate::each::{Each, gathered, lanes_of, set_length};
 use crate::extract::SamplingTable;
-use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
+use crate::sample::{Draw, NO_PLACES, PixelKey, Purpose, SampleIndex, unit, with_sampler};
 use bevy_ecs::query::QueryData;
 use multiversion::multiversion;
 
@@ -134,14 +134,13 @@ fn pixels_of_rows(
         of = gathered(&samples.pixel, &of);
     }
     // No processor divides several integers at once. Of (row + ½) / width the part before the point is what f64 rounds it to
-    // less ½, since it is further from an integer than all rounding leads; a number so large that its last digit counts
-    // ones does the rounding.
-    const ONES: f64 = 1.5 * (1_u64 << 52) as f64;
+    // less ½, since it is further from an integer than all rounding leads; the number beside which there are no places
+    // does the rounding.
     let of_one = 1.0 / f64::from(tile.width);
     let before = 0.5 * of_one - 0.5;
     let mut pixels = [[0; AT_ONCE]; 2];
     for lane in 0..AT_ONCE {
-        let line = (f64::from(of[lane]) * of_one + before + ONES).to_bits() as u32;
+        let line = (f64::from(of[lane]) * of_one + before + NO_PLACES).to_bits() as u32;
         pixels[0][lane] = tile.x.wrapping_add(of[lane].wrapping_sub(line.wrapping_mul(tile.width)));
         pixels[1][lane] = tile.y.wrapping_add(line);
     }
@@ -210,8 +209,14 @@ mod tests {
                 PixelSamples { pixel: mixed.clone(), ..Default::default() },
                 Paths { first: mixed.clone(), ..Default::default() },
             );
-            let all: [(Option<&PixelSamples>, Option<&Paths>, u32); 4] =
-                [(None, None, last), (Some(&samples), None, 499), (None, Some(&paths), 499), (None, None, last)];
+            let first = (0..500).map(|row: u32| row * 7 % 500).collect();
+            let of_samples = Paths { first, ..Default::default() };
+            let all: [(Option<&PixelSamples>, Option<&Paths>, u32); 4] = [
+                (None, None, last),
+                (Some(&samples), None, 499),
+                (None, Some(&paths), 499),
+                (Some(&samples), Some(&of_samples), 499),
+            ];
             for (samples, paths, end) in all {
                 for first in firsts {
                     let rows: [u32; AT_ONCE] = std::array::from_fn(|lane| (first + lane as u32 * 3).min(end));
