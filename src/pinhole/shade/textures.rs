@@ -205,7 +205,7 @@ pub fn wave(x: f64) -> f64 {
 // ANCHOR: wave_mean
 /// The integral of `wave` from 0 to x: it rises to 1 over every even cell and falls back to 0 over every odd one.
 ///
-/// Within its pair of cells x is where `rem_euclid` says, which is a call where `floor` is an instruction.
+/// x − 2 ⌊x / 2⌋ is `x.rem_euclid(2.0)`, which is a call, where `floor` is an instruction.
 #[inline(always)]
 fn wave_area(x: f64) -> f64 {
     1.0 - (x - 2.0 * (0.5 * x).floor() - 1.0).abs()
