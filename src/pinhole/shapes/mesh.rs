@@ -3,17 +3,20 @@
 use super::arithmetic::{Arithmetic, Precise, dot_of, exact_cross, exact_difference};
 use super::bounds::{Bounds, l1_norm};
 use super::emitter::EmittingTriangle;
-use super::mesh_traversal::{MeshHierarchy, MeshPacket, MeshStacks, keep_closest_apart, may_be_coherent};
+use super::mesh_traversal::{
+    MeshHierarchy, MeshPacket, MeshStacks, MeshTraversal, TURNS, may_be_coherent, should_take_turns,
+};
 use super::ray_block::{ClosestHit, ClosestHits, HITS, HitBlock, Intersection, RayHit, RaySlices, SurfacePoint};
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::{norm, normal_world_from_object};
 use super::triangle::{EXACT_BELOW, ObjectMaps, TriangleHit, TriangleRow, interpolate_mesh};
 use super::uv::{UvSlope, planar_slope};
-use crate::bvh::{PACKET, Stack, TestCounts};
+use crate::bvh::{PACKET, ROW, ROWS, Stack, TestCounts};
 use crate::each::Each;
 use crate::scene::{MeshGeometry, MeshInstance, SceneError, number};
 use glam::{DMat3, DVec2, DVec3};
 use multiversion::multiversion;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A mesh at a place: rays are taken to its object space, and its triangles stay as they are for all of its instances.
@@ -331,21 +334,83 @@ impl PlacedMesh {
         hits: &mut ClosestHits<'_>,
         (packet, stacks): (&mut MeshPacket, &mut MeshStacks),
     ) {
-        let (hierarchy, own_ray) = (&*self.hierarchy, |row| self.own_ray(rays.ray(row)));
+        let hierarchy = &*self.hierarchy;
         let (mut waiting, mut in_packets) = (0, true);
-        for start in (0..hits.t.len() / PACKET).map(|packet| packet * PACKET) {
-            let [origin, direction] =
-                [rays.origin, rays.direction].each(|of| of.each(|part| &part[start..start + PACKET]));
-            let some = RaySlices { origin, direction };
-            let near_ray = |place| self.near_ray(some.ray(place));
-            if in_packets && may_be_coherent(some) && packet.set(hierarchy, near_ray) {
-                keep_closest_apart::<ANY>(hierarchy, number, waiting..start, own_ray, hits, stacks);
+        for packet_number in 0..hits.t.len() / PACKET {
+            let start = packet_number * PACKET;
+            let some = rays.part(start..start + PACKET);
+            if in_packets && may_be_coherent(some) && self.set_packet(packet, some) {
+                self.keep_closest_apart::<ANY>(number, waiting..start, rays, hits, stacks);
                 // What one packet is too wide for, its neighbours are too.
                 in_packets = packet.keep_closest::<ANY>(hierarchy, number, start, hits, &mut stacks[0]);
                 waiting = if in_packets { start + PACKET } else { start };
             }
         }
-        keep_closest_apart::<ANY>(hierarchy, number, waiting..hits.t.len(), own_ray, hits, stacks);
+        self.keep_closest_apart::<ANY>(number, waiting..hits.t.len(), rays, hits, stacks);
+    }
+
+    /// Takes the rays of a packet to object space; says whether they all start close to the mesh and are coherent.
+    #[inline(always)]
+    fn set_packet(&self, packet: &mut MeshPacket, rays: RaySlices<'_>) -> bool {
+        let mut all_near = true;
+        for row in 0..ROWS {
+            for i in 0..ROW {
+                let (ray, is_near) = self.near_ray(rays.ray(row * ROW + i));
+                all_near &= is_near;
+                packet.set_ray(row, i, ray);
+            }
+        }
+        all_near && packet.prepare(&self.hierarchy)
+    }
+
+    /// Intersects the rays of these rows, each on its own, and keeps the closest hits.
+    ///
+    /// Where the hierarchy is larger than the caches, several rays take turns: while one waits for a node or a leaf, the
+    /// processor goes on with another.
+    #[inline(always)]
+    fn keep_closest_apart<const ANY: bool>(
+        &self,
+        number: u32,
+        rows: Range<usize>,
+        rays: RaySlices<'_>,
+        hits: &mut ClosestHits<'_>,
+        stacks: &mut MeshStacks,
+    ) {
+        let hierarchy = &*self.hierarchy;
+        if !should_take_turns(hierarchy, rows.len()) {
+            for row in rows {
+                let closest = hits.get(row);
+                let closest =
+                    hierarchy.keep_closest_until::<ANY>(self.own_ray(rays.ray(row)), number, closest, &mut stacks[0]);
+                hits.set(row, closest);
+            }
+            return;
+        }
+        // A loop and no closure, which would be compiled for the oldest processors.
+        let mut next = rows.start;
+        let mut under_way: [Option<(usize, MeshTraversal<'_>)>; TURNS] = [const { None }; TURNS];
+        let mut are_under_way = true;
+        while are_under_way {
+            are_under_way = false;
+            for turn in 0..TURNS {
+                if let Some((row, traversal)) = &mut under_way[turn] {
+                    if traversal.step::<ANY>(&mut stacks[turn]) {
+                        are_under_way = true;
+                        continue;
+                    }
+                    let row = *row;
+                    hits.set(row, traversal.leaves.closest);
+                    under_way[turn] = None;
+                }
+                while next < rows.end && under_way[turn].is_none() {
+                    let ray = self.own_ray(rays.ray(next));
+                    under_way[turn] =
+                        MeshTraversal::new(hierarchy, ray, number, hits.get(next)).map(|traversal| (next, traversal));
+                    next += 1;
+                }
+                are_under_way |= under_way[turn].is_some();
+            }
+        }
     }
 }
 

@@ -13,7 +13,6 @@ use crate::each::Each;
 use glam::{DMat3, DVec3};
 use pinhole_models::TriangleMesh;
 use rayon::prelude::*;
-use std::ops::Range;
 use std::sync::OnceLock;
 
 /// The fewest triangles that are worth a task of their own.
@@ -114,7 +113,7 @@ fn edges_cancel(mesh: &TriangleMesh) -> bool {
 // Rays through the hierarchy of a mesh, one by one or several in turns.
 
 /// The rays that take turns.
-const TURNS: usize = 4;
+pub const TURNS: usize = 8;
 /// A hierarchy of more bytes than this, which is about what caches hold, keeps rays waiting for memory so often that
 /// turns pay.
 const BEYOND_CACHES: usize = 16 << 20;
@@ -126,11 +125,12 @@ pub type MeshStacks = [Stack; TURNS];
 pub type OwnRay = ([DVec3; 2], f64);
 
 /// A ray in the leaves of a mesh, and its closest hit so far.
-struct MeshLeaves<'a> {
+pub struct MeshLeaves<'a> {
     hierarchy: &'a MeshHierarchy,
     ray: MeshRay,
     number: u32,
-    closest: ClosestHit,
+    /// The closest hit so far.
+    pub closest: ClosestHit,
     /// What is added to a t to compare it with those of the ray in object space.
     slack: f64,
 }
@@ -144,15 +144,16 @@ impl LeafTest for MeshLeaves<'_> {
 }
 
 /// A ray on its path through the hierarchy of a mesh.
-struct MeshTraversal<'a> {
-    leaves: MeshLeaves<'a>,
+pub struct MeshTraversal<'a> {
+    /// The ray in the leaves, and what it has found there.
+    pub leaves: MeshLeaves<'a>,
     traversal: Traversal,
 }
 
 impl<'a> MeshTraversal<'a> {
     /// A ray at the root; none if it is not finite, since it hits nothing then, and none if a hit is enough and there.
     #[inline(always)]
-    fn new(hierarchy: &'a MeshHierarchy, (ray, start): OwnRay, number: u32, closest: ClosestHit) -> Option<Self> {
+    pub fn new(hierarchy: &'a MeshHierarchy, (ray, start): OwnRay, number: u32, closest: ClosestHit) -> Option<Self> {
         if closest.is_enough() {
             return None;
         }
@@ -166,7 +167,7 @@ impl<'a> MeshTraversal<'a> {
 
     /// Visits one node or one leaf, and says whether there is more to visit.
     #[inline(always)]
-    fn step<const ANY: bool>(&mut self, stack: &mut Stack) -> bool {
+    pub fn step<const ANY: bool>(&mut self, stack: &mut Stack) -> bool {
         self.traversal.step(ANY, &self.leaves.hierarchy.bvh, stack, &mut self.leaves)
     }
 }
@@ -202,7 +203,7 @@ impl MeshHierarchy {
     }
 
     #[inline(always)]
-    fn keep_closest_until<const ANY: bool>(
+    pub fn keep_closest_until<const ANY: bool>(
         &self,
         ray: OwnRay,
         number: u32,
@@ -215,46 +216,10 @@ impl MeshHierarchy {
     }
 }
 
-/// Intersects the rays of these rows, which `own_ray` takes to object space, each on its own, and keeps the closest
-/// hits.
-///
-/// Where the hierarchy is larger than the caches, several rays take turns: while one waits for a node or a leaf, the
-/// processor goes on with another.
+/// Whether several rays should take turns in a hierarchy, since it is larger than the caches.
 #[inline(always)]
-pub fn keep_closest_apart<const ANY: bool>(
-    hierarchy: &MeshHierarchy,
-    number: u32,
-    mut rows: Range<usize>,
-    own_ray: impl Fn(usize) -> OwnRay,
-    hits: &mut ClosestHits<'_>,
-    stacks: &mut MeshStacks,
-) {
-    if hierarchy.bytes() <= BEYOND_CACHES || rows.len() < TURNS {
-        for row in rows {
-            let closest = hits.get(row);
-            let closest = hierarchy.keep_closest_until::<ANY>(own_ray(row), number, closest, &mut stacks[0]);
-            hits.set(row, closest);
-        }
-        return;
-    }
-    let mut next = |hits: &ClosestHits<'_>| {
-        rows.find_map(|row| {
-            let traversal = MeshTraversal::new(hierarchy, own_ray(row), number, hits.get(row))?;
-            Some((row, traversal))
-        })
-    };
-    let mut under_way: [_; TURNS] = [(); TURNS].each(|()| next(hits));
-    let mut count = under_way.iter().flatten().count();
-    while count > 0 {
-        for (turn, stack) in under_way.iter_mut().zip(&mut *stacks) {
-            let Some((row, traversal)) = turn else { continue };
-            if !traversal.step::<ANY>(stack) {
-                hits.set(*row, traversal.leaves.closest);
-                *turn = next(hits);
-                count -= usize::from(turn.is_none());
-            }
-        }
-    }
+pub fn should_take_turns(hierarchy: &MeshHierarchy, rays: usize) -> bool {
+    hierarchy.bytes() > BEYOND_CACHES && rays >= TURNS
 }
 
 // Coherent rays through the hierarchy of a mesh in packets.
@@ -312,25 +277,22 @@ pub struct MeshPacket {
 }
 
 impl MeshPacket {
-    /// Sets its rays, which `near_ray` gives in object space, with whether each starts close to the mesh; says whether
-    /// they are coherent.
+    /// Sets one of its rays, in object space.
     #[inline(always)]
-    pub fn set(&mut self, hierarchy: &MeshHierarchy, near_ray: impl Fn(usize) -> ([DVec3; 2], bool)) -> bool {
-        let mut all_near = true;
-        for row in 0..ROWS {
-            for i in 0..ROW {
-                let ([origin, direction], is_near) = near_ray(row * ROW + i);
-                all_near &= is_near;
-                for axis in 0..3 {
-                    self.origin[axis][row][i] = origin[axis];
-                    self.direction[axis][row][i] = direction[axis];
-                }
-            }
+    pub fn set_ray(&mut self, row: usize, i: usize, [origin, direction]: [DVec3; 2]) {
+        for axis in 0..3 {
+            self.origin[axis][row][i] = origin[axis];
+            self.direction[axis][row][i] = direction[axis];
         }
+    }
+
+    /// Computes what is needed of the rays once they are all set; says whether they are coherent.
+    #[inline(always)]
+    pub fn prepare(&mut self, hierarchy: &MeshHierarchy) -> bool {
         let first = DVec3::from([0, 1, 2].each(|axis| self.direction[axis][0][0]));
         let z = longest_axis(first);
         self.axes = [(z + 1) % 3, (z + 2) % 3, z];
-        if !(all_near && self.signs_agree() && hierarchy.bvh.nodes.len() < MAX_NODES) {
+        if !(self.signs_agree() && hierarchy.bvh.nodes.len() < MAX_NODES) {
             return false;
         }
         self.set_shear(hierarchy.size);
