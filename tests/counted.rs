@@ -5,6 +5,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::bvh::TestCounts;
 use pinhole::intersect::{BoxTests, PrimitiveTests, TraversalDepths};
+use pinhole::models::TriangleMesh;
 use pinhole::plan::{Census, Column, plan};
 use pinhole::render::{inspect, render};
 use pinhole::scene::*;
@@ -152,7 +153,7 @@ fn columns(rays: usize, coherent: bool) -> [Vec<f32>; 6] {
 }
 
 /// A column goes through the kernel that is compiled for this machine's instructions, in packets, in packets that are
-/// given up since their triangles are too small, and in turns; a single ray asked from here goes through the same source
+/// given up since their triangles are too small, and in lockstep; a single ray asked from here goes through the same source
 /// compiled for the plainest machine of its kind.
 #[test]
 fn every_instruction_set_and_every_packet_gives_the_same_bits() {
@@ -193,4 +194,54 @@ fn every_instruction_set_and_every_packet_gives_the_same_bits() {
     }
     eprintln!("instruction sets: {tried} rays, {hits} hits, 0 differ");
     assert!(hits as usize > tried / 4);
+}
+
+/// Triangles of 121 sizes, each twice the next, in boxes that all rays enter and most hit nothing in: a ray puts off more
+/// than its stack in lockstep has room for, and goes on alone.
+#[test]
+fn a_ray_that_puts_off_more_than_lockstep_has_room_for_finds_the_same() {
+    let mut mesh = TriangleMesh::default();
+    for exponent in -60..=60 {
+        for part in 0..8 {
+            // The last ones cover the corner of their box through which the rays go, the others the one across.
+            let far = if exponent == 60 { 2.0 } else { 1.0 };
+            let height = 1.0 + 0.01 * part as f32;
+            let corners = [[far, far, height], [2.0, 1.0, height], [1.0, 2.0, height + 0.1]];
+            let first = mesh.positions.len() as u32;
+            let scale = libm::ldexpf(1.0, exponent);
+            mesh.positions.extend(corners.map(|corner| corner.map(|part| part * scale)));
+            mesh.triangles.push([first, first + 1, first + 2]);
+        }
+    }
+    let instance = MeshInstance { geometry: MeshGeometry::new(mesh) };
+    let mesh = Specimen::<PlacedMesh>::of(instance, Placement::default()).expect("a mesh").shape;
+    let mut draws = Draws::new(3104, 0);
+    let mut columns: [Vec<f32>; 6] = [const { Vec::new() }; 6];
+    for row in 0..256 {
+        let mut near = |at: f64| at + draws.between(-0.05, 0.05);
+        let towards = DVec3::new(near(1.75), near(1.75), near(1.08)).normalize();
+        // Every second one goes the other way, so that no packet is made of them.
+        let direction = if row % 2 == 0 { towards } else { -towards };
+        for axis in 0..3 {
+            columns[axis].push(0.0);
+            columns[axis + 3].push(direction[axis] as f32);
+        }
+    }
+    let [ox, oy, oz, dx, dy, dz] = columns.each_ref().map(Vec::as_slice);
+    let rays = RaySlices { origin: [ox, oy, oz], direction: [dx, dy, dz] };
+    let mut hits = 0;
+    for any in [false, true] {
+        let (mut t, mut shape, mut primitive) = (vec![f64::INFINITY; 256], vec![u32::MAX; 256], vec![u32::MAX; 256]);
+        let found = ClosestHits { t: &mut t, shape: &mut shape, primitive: Some(&mut primitive), any };
+        PlacedMesh::keep_closest((std::slice::from_ref(&mesh), &()), &[0], rays, found);
+        for row in 0..256 {
+            let [origin, direction] = rays.ray(row);
+            let all = mesh.closest_of_all(origin, direction);
+            let same = (all.t.to_bits(), all.primitive) == (t[row].to_bits(), primitive[row]);
+            assert!(same || any && all.t.is_finite() == t[row].is_finite(), "ray {row}, any hit: {any}");
+            hits += u32::from(all.t.is_finite());
+        }
+    }
+    eprintln!("lockstep and alone: 512 rays, {hits} hits, 0 differ");
+    assert_eq!(hits, 256);
 }

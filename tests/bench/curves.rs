@@ -7,7 +7,7 @@
 //! Each time is the least of five, of one thread, in processor time; where testing everything would take too long, fewer
 //! rays do it.
 //! The binary tree is the laboratory's plain one, of single boxes and single triangles in f64; rays alone are traced in
-//! columns too short for packets and for turns.
+//! columns too short for packets and for lockstep.
 //! For some kinds of shapes beside, it is timed from how many on a hierarchy pays.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
@@ -33,8 +33,8 @@ const BATCH: usize = 1024;
 /// The side of the picture whose rays are coherent; as many rays are random.
 const SIDE: usize = 256;
 const ROUNDS: usize = 5;
-/// A column of so few rays has no packet, and none of its rays takes turns.
-const ALONE: usize = 32;
+/// A column of so few rays has no packet, and its rays go alone.
+const ALONE: usize = 8;
 /// The most primitives that are all tested, and that are put in the binary tree.
 const MAX_ALL: usize = 120_000;
 const MAX_BINARY: usize = 1_200_000;
@@ -223,7 +223,7 @@ const TRIANGLES: [&str; 8] = [
     "all, random",
     "binary, random",
     "alone, random",
-    "turns, random",
+    "lockstep, random",
     "alone, coherent",
     "packets, coherent",
     "hierarchy KiB",
@@ -270,11 +270,11 @@ fn triangle_curve(max: usize) -> Curve {
         let wide = |rays: &Rays, batch: usize| {
             rays.time(whole, batch, |rays, hits| PlacedMesh::keep_closest((one, &()), &[0], rays, hits))
         };
-        let [alone, turns] = [ALONE, BATCH].map(|batch| wide(&random, batch));
+        let [alone, lockstep] = [ALONE, BATCH].map(|batch| wide(&random, batch));
         let [coherent_alone, packets] = [ALONE, BATCH].map(|batch| wide(&coherent, batch));
-        assert!(alone.1 == turns.1 && coherent_alone.1 == packets.1, "{count} triangles: other rays hit");
+        assert!(alone.1 == lockstep.1 && coherent_alone.1 == packets.1, "{count} triangles: other rays hit");
         assert!(binary.is_none_or(|(_, hits)| hits == alone.1), "{count} triangles: other rays hit the binary tree");
-        let row = [all, binary, Some(alone), Some(turns), Some(coherent_alone), Some(packets)];
+        let row = [all, binary, Some(alone), Some(lockstep), Some(coherent_alone), Some(packets)];
         let rest = [bytes as f64 / 1024.0, build].map(Some);
         curve.push(count, row.into_iter().map(|timed| timed.map(|(ns, _)| ns)).chain(rest).collect());
     }

@@ -80,7 +80,7 @@ pub fn draw_triangles(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         ("all, random", "all of them", Pen::new(GREY, 1.8)),
         ("binary, random", "binary, random", Pen::new(GREEN, 1.8)),
         ("alone, random", "wide, random", Pen::new(ORANGE, 1.8).dashed("5 4")),
-        ("turns, random", "wide, in turns", Pen::new(ORANGE, 2.2)),
+        ("lockstep, random", "in lockstep", Pen::new(ORANGE, 2.2)),
         ("alone, coherent", "wide, coherent", Pen::new(BLUE, 1.8).dashed("5 4")),
         ("packets, coherent", "in packets", Pen::new(BLUE, 2.2)),
     ];

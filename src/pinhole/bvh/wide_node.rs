@@ -39,20 +39,32 @@ impl Child {
 
     /// Its bits, which an entry of a stack holds.
     #[inline(always)]
-    pub(super) fn bits(self) -> u32 {
+    pub fn bits(self) -> u32 {
         self.0
     }
 
     /// The child of these bits.
     #[inline(always)]
-    pub(super) fn of_bits(bits: u32) -> Self {
+    pub fn of_bits(bits: u32) -> Self {
         Self(bits)
+    }
+
+    /// Whether it is a leaf.
+    #[inline(always)]
+    pub fn is_leaf(self) -> bool {
+        self.0 & LEAF != 0
+    }
+
+    /// The number of the node or of the leaf.
+    #[inline(always)]
+    pub fn number(self) -> usize {
+        (self.0 & !LEAF) as usize
     }
 
     /// What it is.
     #[inline(always)]
     pub fn kind(self) -> ChildKind {
-        if self.0 & LEAF == 0 { ChildKind::Node(self.0 as usize) } else { ChildKind::Leaf((self.0 & !LEAF) as usize) }
+        if self.is_leaf() { ChildKind::Leaf(self.number()) } else { ChildKind::Node(self.number()) }
     }
 }
 

@@ -3,9 +3,8 @@
 use super::arithmetic::{Arithmetic, Precise, dot_of, exact_cross, exact_difference};
 use super::bounds::{Bounds, l1_norm};
 use super::emitter::EmittingTriangle;
-use super::mesh_traversal::{
-    MeshHierarchy, MeshPacket, MeshStacks, MeshTraversal, TURNS, may_be_coherent, should_take_turns,
-};
+use super::mesh_lockstep::Lockstep;
+use super::mesh_traversal::{MeshHierarchy, MeshPacket, may_be_coherent};
 use super::ray_block::{ClosestHit, ClosestHits, HITS, HitBlock, Intersection, RayHit, RaySlices, SurfacePoint};
 use super::shape::{Placed, SceneShape, Shape};
 use super::space::{norm, normal_world_from_object};
@@ -16,7 +15,6 @@ use crate::each::Each;
 use crate::scene::{MeshGeometry, MeshInstance, SceneError, number};
 use glam::{DMat3, DVec2, DVec3};
 use multiversion::multiversion;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// A mesh at a place: rays are taken to its object space, and its triangles stay as they are for all of its instances.
@@ -303,27 +301,29 @@ impl PlacedMesh {
     }
 }
 
-/// Intersects rays with one mesh after another: coherent ones in packets, others one by one, or several in turns where
-/// the hierarchy is larger than a processor's caches.
+/// Intersects rays with one mesh after another: coherent ones in packets, others in lockstep, and a few one by one.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn mesh_rows(meshes: &[PlacedMesh], numbers: &[u32], rays: RaySlices<'_>, mut hits: ClosestHits<'_>) {
-    if hits.t.len() < PACKET {
-        let mut stack = Stack::default();
+    let mut stack = Stack::default();
+    if hits.t.len() < FEW_RAYS {
         return for (mesh, &number) in meshes.iter().zip(numbers) {
             for row in 0..hits.t.len() {
                 hits.set(row, mesh.keep_closest_of_ray(rays.ray(row), number, hits.get(row), &mut stack));
             }
         };
     }
-    let (mut packet, mut stacks) = (MeshPacket::default(), MeshStacks::default());
+    let (mut packet, mut lockstep) = (MeshPacket::default(), Lockstep::default());
     for (mesh, &number) in meshes.iter().zip(numbers) {
-        let room = (&mut packet, &mut stacks);
+        let room = (&mut packet, &mut lockstep, &mut stack);
         match hits.any {
             true => mesh.keep_closest_of_rows::<true>(number, rays, &mut hits, room),
             false => mesh.keep_closest_of_rows::<false>(number, rays, &mut hits, room),
         }
     }
 }
+
+/// Fewer rays than this are through before all are set up that go in lockstep.
+const FEW_RAYS: usize = 16;
 
 impl PlacedMesh {
     #[inline(always)]
@@ -332,21 +332,27 @@ impl PlacedMesh {
         number: u32,
         rays: RaySlices<'_>,
         hits: &mut ClosestHits<'_>,
-        (packet, stacks): (&mut MeshPacket, &mut MeshStacks),
+        (packet, lockstep, stack): (&mut MeshPacket, &mut Lockstep, &mut Stack),
     ) {
         let hierarchy = &*self.hierarchy;
         let (mut waiting, mut in_packets) = (0, true);
-        for packet_number in 0..hits.t.len() / PACKET {
-            let start = packet_number * PACKET;
-            let some = rays.part(start..start + PACKET);
-            if in_packets && may_be_coherent(some) && self.set_packet(packet, some) {
-                self.keep_closest_apart::<ANY>(number, waiting..start, rays, hits, stacks);
+        let packets = hits.t.len() / PACKET;
+        for packet_number in 0..=packets {
+            let (start, is_last) = (packet_number * PACKET, packet_number == packets);
+            let is_packet = in_packets && !is_last && {
+                let some = rays.part(start..start + PACKET);
+                may_be_coherent(some) && self.set_packet(packet, some)
+            };
+            if is_packet || is_last {
+                let end = if is_last { hits.t.len() } else { start };
+                lockstep.keep_closest::<ANY>((self, number), waiting..end, rays, hits, stack);
+            }
+            if is_packet {
                 // What one packet is too wide for, its neighbours are too.
-                in_packets = packet.keep_closest::<ANY>(hierarchy, number, start, hits, &mut stacks[0]);
+                in_packets = packet.keep_closest::<ANY>(hierarchy, number, start, hits, stack);
                 waiting = if in_packets { start + PACKET } else { start };
             }
         }
-        self.keep_closest_apart::<ANY>(number, waiting..hits.t.len(), rays, hits, stacks);
     }
 
     /// Takes the rays of a packet to object space; says whether they all start close to the mesh and are coherent.
@@ -361,56 +367,6 @@ impl PlacedMesh {
             }
         }
         all_near && packet.prepare(&self.hierarchy)
-    }
-
-    /// Intersects the rays of these rows, each on its own, and keeps the closest hits.
-    ///
-    /// Where the hierarchy is larger than the caches, several rays take turns: while one waits for a node or a leaf, the
-    /// processor goes on with another.
-    #[inline(always)]
-    fn keep_closest_apart<const ANY: bool>(
-        &self,
-        number: u32,
-        rows: Range<usize>,
-        rays: RaySlices<'_>,
-        hits: &mut ClosestHits<'_>,
-        stacks: &mut MeshStacks,
-    ) {
-        let hierarchy = &*self.hierarchy;
-        if !should_take_turns(hierarchy, rows.len()) {
-            for row in rows {
-                let closest = hits.get(row);
-                let closest =
-                    hierarchy.keep_closest_until::<ANY>(self.own_ray(rays.ray(row)), number, closest, &mut stacks[0]);
-                hits.set(row, closest);
-            }
-            return;
-        }
-        // A loop and no closure, which would be compiled for the oldest processors.
-        let mut next = rows.start;
-        let mut under_way: [Option<(usize, MeshTraversal<'_>)>; TURNS] = [const { None }; TURNS];
-        let mut are_under_way = true;
-        while are_under_way {
-            are_under_way = false;
-            for turn in 0..TURNS {
-                if let Some((row, traversal)) = &mut under_way[turn] {
-                    if traversal.step::<ANY>(&mut stacks[turn]) {
-                        are_under_way = true;
-                        continue;
-                    }
-                    let row = *row;
-                    hits.set(row, traversal.leaves.closest);
-                    under_way[turn] = None;
-                }
-                while next < rows.end && under_way[turn].is_none() {
-                    let ray = self.own_ray(rays.ray(next));
-                    under_way[turn] =
-                        MeshTraversal::new(hierarchy, ray, number, hits.get(next)).map(|traversal| (next, traversal));
-                    next += 1;
-                }
-                are_under_way |= under_way[turn].is_some();
-            }
-        }
     }
 }
 

@@ -1,9 +1,10 @@
-//! Rays through the hierarchy of a mesh, alone, several in turns, and in packets.
+//! Rays through the hierarchy of a mesh, alone and in packets.
 
 use super::ray_block::{ClosestHit, ClosestHits, RaySlices};
 use super::triangle::exact_triangle_t;
 use super::triangle_edges::{
-    BLOCK, MeshRay, ROUNDING, TriangleBlock, certain_t, edge_values, longest_axis, may_be_hit,
+    BLOCK, MeshRay, ROUNDING, ROUNDING_F32, TriangleBlock, certain_t, edge_values, in_f64, longest_axis, may_be_hit,
+    may_be_hit_in_f32,
 };
 use crate::bvh::{
     BoundingBox, BoxPacket, Bvh, ChildKind, LeafTest, PACKET, PerRay, ROW, ROWS, Stack, TestCounts, Traversal, WIDTH,
@@ -110,29 +111,26 @@ fn edges_cancel(mesh: &TriangleMesh) -> bool {
         .all(|edge| edge.iter().map(|(.., step)| step).sum::<i32>() == 0)
 }
 
-// Rays through the hierarchy of a mesh, one by one or several in turns.
-
-/// The rays that take turns.
-pub const TURNS: usize = 8;
-/// A hierarchy of more bytes than this, which is about what caches hold, keeps rays waiting for memory so often that
-/// turns pay.
-const BEYOND_CACHES: usize = 16 << 20;
-
-/// A stack for each of the rays that take turns.
-pub type MeshStacks = [Stack; TURNS];
+// Rays through the hierarchy of a mesh, one by one.
 
 /// A ray in object space, and the t at which it starts there.
 pub type OwnRay = ([DVec3; 2], f64);
 
 /// A ray in the leaves of a mesh, and its closest hit so far.
-pub struct MeshLeaves<'a> {
+struct MeshLeaves<'a> {
     hierarchy: &'a MeshHierarchy,
     ray: MeshRay,
     number: u32,
-    /// The closest hit so far.
-    pub closest: ClosestHit,
+    closest: ClosestHit,
     /// What is added to a t to compare it with those of the ray in object space.
     slack: f64,
+}
+
+/// What is added to a t to compare it with those of a ray that starts at t = `start`: more than the rounding of the sum
+/// start + τ, so that ties are found.
+#[inline(always)]
+pub fn slack_of(start: f64) -> f64 {
+    start * (1.0 / (1_u64 << 50) as f64) - start
 }
 
 impl LeafTest for MeshLeaves<'_> {
@@ -144,21 +142,19 @@ impl LeafTest for MeshLeaves<'_> {
 }
 
 /// A ray on its path through the hierarchy of a mesh.
-pub struct MeshTraversal<'a> {
-    /// The ray in the leaves, and what it has found there.
-    pub leaves: MeshLeaves<'a>,
+struct MeshTraversal<'a> {
+    leaves: MeshLeaves<'a>,
     traversal: Traversal,
 }
 
 impl<'a> MeshTraversal<'a> {
     /// A ray at the root; none if it is not finite, since it hits nothing then, and none if a hit is enough and there.
     #[inline(always)]
-    pub fn new(hierarchy: &'a MeshHierarchy, (ray, start): OwnRay, number: u32, closest: ClosestHit) -> Option<Self> {
+    fn new(hierarchy: &'a MeshHierarchy, (ray, start): OwnRay, number: u32, closest: ClosestHit) -> Option<Self> {
         if closest.is_enough() {
             return None;
         }
-        // More than the rounding of the sum start + τ, so that ties are found.
-        let slack = start * (1.0 / (1_u64 << 50) as f64) - start;
+        let slack = slack_of(start);
         let traversal = Traversal::new(&hierarchy.bvh, ray, closest.t + slack)?;
         let [origin, direction] = ray;
         let ray = MeshRay::new(origin, direction, start, hierarchy.size);
@@ -167,7 +163,7 @@ impl<'a> MeshTraversal<'a> {
 
     /// Visits one node or one leaf, and says whether there is more to visit.
     #[inline(always)]
-    pub fn step<const ANY: bool>(&mut self, stack: &mut Stack) -> bool {
+    fn step<const ANY: bool>(&mut self, stack: &mut Stack) -> bool {
         self.traversal.step(ANY, &self.leaves.hierarchy.bvh, stack, &mut self.leaves)
     }
 }
@@ -216,12 +212,6 @@ impl MeshHierarchy {
     }
 }
 
-/// Whether several rays should take turns in a hierarchy, since it is larger than the caches.
-#[inline(always)]
-pub fn should_take_turns(hierarchy: &MeshHierarchy, rays: usize) -> bool {
-    hierarchy.bytes() > BEYOND_CACHES && rays >= TURNS
-}
-
 // Coherent rays through the hierarchy of a mesh in packets.
 //
 // Each ray of a packet computes what it would compute alone, so its hit is the same to the last bit.
@@ -236,7 +226,7 @@ const MIN_COS2: f32 = 0.9;
 
 /// The leaves after which a packet is given up: where triangles are smaller than what lies between rays, each leaf is
 /// entered by a ray or two, which get on faster apart.
-const MAX_LEAVES: usize = 2 * PACKET;
+const MAX_LEAVES: usize = PACKET;
 
 /// The nodes of which a number of 32 bits can hold one and a child of it.
 const MAX_NODES: usize = 1 << 29;
@@ -268,6 +258,8 @@ pub struct MeshPacket {
     shear: [PerRay<f64>; 3],
     /// [`ROUNDING`] times a bound on every coordinate.
     rounding: PerRay<f64>,
+    /// Origin, shear and rounding again, in f32 and in the sheared space's axes.
+    in_f32: [PerRay<f32>; 6],
     boxes: BoxPacket,
     t: PerRay<f64>,
     shape: PerRay<u32>,
@@ -326,6 +318,17 @@ impl MeshPacket {
                 self.shear[2][row][i] = 1.0 / z[row][i];
                 let size = ox[row][i].abs() + oy[row][i].abs() + oz[row][i].abs() + mesh_size;
                 self.rounding[row][i] = ROUNDING * size;
+                self.in_f32[3][row][i] = self.shear[0][row][i] as f32;
+                self.in_f32[4][row][i] = self.shear[1][row][i] as f32;
+                self.in_f32[5][row][i] = (ROUNDING_F32 * size) as f32;
+            }
+        }
+        for axis in 0..3 {
+            let origin = &self.origin[self.axes[axis]];
+            for row in 0..ROWS {
+                for i in 0..ROW {
+                    self.in_f32[axis][row][i] = origin[row][i] as f32;
+                }
             }
         }
     }
@@ -457,7 +460,11 @@ impl MeshPacket {
         let (shear_x, shear_y, shear_z) = (self.shear[0][row], self.shear[1][row], self.shear[2][row]);
         let rounding = self.rounding[row];
         for (lane, triangle) in block.triangles() {
-            let corners = block.permuted(lane, self.axes);
+            let corners = block.corners_of(lane, self.axes);
+            if !self.any_may_hit(row, corners) {
+                continue;
+            }
+            let corners = in_f64(corners);
             let (mut areas, mut depths) = ([[0.0_f64; ROW]; 3], [[0.0_f64; ROW]; 3]);
             let (mut errors, mut may_hit) = ([0.0_f64; ROW], [0_u8; ROW]);
             for i in 0..ROW {
@@ -484,6 +491,19 @@ impl MeshPacket {
                 }
             }
         }
+    }
+
+    /// Whether f32 leaves it open that one of eight rays hits a triangle.
+    #[inline(always)]
+    fn any_may_hit(&self, row: usize, corners: [[f32; 3]; 3]) -> bool {
+        let [ox, oy, oz] = [0, 1, 2].each(|part| &self.in_f32[part][row]);
+        let [shear_x, shear_y, rounding] = [3, 4, 5].each(|part| &self.in_f32[part][row]);
+        let mut may_hit = [0; ROW];
+        for i in 0..ROW {
+            let ray = ([ox[i], oy[i], oz[i]], [shear_x[i], shear_y[i]], rounding[i]);
+            may_hit[i] = may_be_hit_in_f32(corners, ray);
+        }
+        u64::from_le_bytes(may_hit) != 0
     }
 
     #[cold]

@@ -71,6 +71,7 @@ mod hierarchy_rows;
 mod inside;
 mod kind;
 mod mesh;
+mod mesh_lockstep;
 mod mesh_traversal;
 mod planar;
 mod plane;

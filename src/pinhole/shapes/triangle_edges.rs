@@ -2,7 +2,7 @@
 
 use super::ray_block::{ClosestHit, Intersection, LANES, RayBlock, RaySlices, UNIT_ROUNDOFF, nearness, vector};
 use super::triangle::{TriangleRow, exact_triangle_t};
-use crate::bvh::by_axis;
+use crate::bvh::{by_axis, take_first};
 use crate::each::Each;
 use glam::DVec3;
 use pinhole_models::TriangleMesh;
@@ -251,28 +251,31 @@ fn keep_closest<const Z: usize>(
     }
 }
 
-// Four triangles of a mesh against one ray.
+// Eight triangles of a mesh against one ray.
 
 /// The triangles of a block.
-pub const BLOCK: usize = 4;
+pub const BLOCK: usize = 8;
 /// The relative error of an edge function, as [`edges`](super::triangle_edges::edges) derives it.
 pub(super) const ROUNDING: f64 = 1.0 / (1_u64 << 49) as f64;
 
-/// A leaf of a mesh's hierarchy: four triangles as a structure of arrays, so that one ray is tested against all of them
+/// A leaf of a mesh's hierarchy: eight triangles as a structure of arrays, so that one ray is tested against all of them
 /// at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub struct TriangleBlock {
-    /// Positions, by vertex, axis and triangle; NaN where there is no triangle.
+    /// Positions, by vertex, axis and triangle; 0 where there is no triangle.
     corners: [[[f32; BLOCK]; 3]; 3],
-    /// The triangles' numbers.
+    /// The triangles' numbers; [`NO_TRIANGLE`] where there is none.
     triangle: [u32; BLOCK],
 }
 
+/// The number of no triangle.
+const NO_TRIANGLE: u32 = u32::MAX;
+
 impl TriangleBlock {
-    /// The block of these triangles, at most four.
+    /// The block of these triangles, at most eight.
     pub fn of(mesh: &TriangleMesh, triangles: &[u32]) -> Self {
-        let mut block = Self { corners: [[[f32::NAN; BLOCK]; 3]; 3], triangle: [u32::MAX; BLOCK] };
+        let mut block = Self { corners: [[[0.0; BLOCK]; 3]; 3], triangle: [NO_TRIANGLE; BLOCK] };
         for (lane, &triangle) in triangles.iter().enumerate() {
             block.triangle[lane] = triangle;
             for (vertex, position) in mesh.corners(triangle as usize).into_iter().enumerate() {
@@ -286,17 +289,21 @@ impl TriangleBlock {
 }
 
 /// A ray as blocks of triangles see it: its shear, computed once for all of them.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct MeshRay {
-    origin: DVec3,
-    direction: DVec3,
+    /// Where it starts.
+    pub origin: DVec3,
+    /// Its direction.
+    pub direction: DVec3,
     /// The t at which it starts.
-    start: f64,
+    pub start: f64,
     /// The axes x, y and z of the sheared space; z is that of the direction's largest component.
     axes: [usize; 3],
     shear: [f64; 3],
     /// |O|₁ and the largest |vertex|₁ of the mesh.
     size: f64,
+    /// The same, rounded to f32.
+    in_f32: RayInF32,
 }
 
 impl MeshRay {
@@ -308,7 +315,9 @@ impl MeshRay {
         let axes = [(z + 1) % 3, (z + 2) % 3, z];
         let shear = [direction[axes[0]] / direction[z], direction[axes[1]] / direction[z], 1.0 / direction[z]];
         let size = origin.x.abs() + origin.y.abs() + origin.z.abs() + mesh_size;
-        Self { origin, direction, start, axes, shear, size }
+        let at = by_axis(|axis| origin[axes[axis]] as f32);
+        let in_f32 = (at, [shear[0] as f32, shear[1] as f32], (ROUNDING_F32 * size) as f32);
+        Self { origin, direction, start, axes, shear, size, in_f32 }
     }
 }
 
@@ -316,40 +325,39 @@ impl MeshRay {
 /// the areas' error.
 pub(super) type EdgeValues = ([f64; 3], [f64; 3], f64);
 
+/// [`ROUNDING`] for f32, where the origin and the shear are rounded as well: with u = 2⁻²⁴ a sheared coordinate is off by
+/// at most 8us in place of 5εs, and an area by 16us(m + 8us).
+///
+/// The m that f32 finds is off by six such coordinates itself; 32 in place of 16 covers that too.
+pub(super) const ROUNDING_F32: f64 = 1.0 / (1_u64 << 19) as f64;
+
 impl TriangleBlock {
-    /// Keeps the closest hit: the same arithmetic as [`intersection`](super::triangle_edges::intersection), four
-    /// triangles at a time, and exact arithmetic where that is uncertain.
+    /// The triangles that a ray may hit, as a byte each, 0 or 1: of most blocks that it looks into it hits none, and f32,
+    /// which says so of eight at a time, leaves only those to f64 of which it is not certain.
+    #[inline(always)]
+    pub fn may_hit(&self, ray: &MeshRay) -> u64 {
+        let corners = by_axis(|corner| by_axis(|axis| &self.corners[corner][ray.axes[axis] % 3]));
+        let mut may_hit = [0; BLOCK];
+        for lane in 0..BLOCK {
+            let triangle = by_axis(|corner| by_axis(|axis| corners[corner][axis][lane]));
+            may_hit[lane] = may_be_hit_in_f32(triangle, ray.in_f32) & u8::from(self.triangle[lane] != NO_TRIANGLE);
+        }
+        u64::from_le_bytes(may_hit)
+    }
+
+    /// Keeps the closest hit among the triangles of a mask such as [`Self::may_hit`] gives: the same arithmetic as
+    /// [`intersection`](super::triangle_edges::intersection), and exact arithmetic where that is uncertain.
     ///
     /// At equal distances the lower `number` wins, where all of a mesh have one, and then the lower triangle.
     #[inline(always)]
-    pub fn keep_closest(&self, ray: &MeshRay, number: u32, closest: &mut ClosestHit) {
-        let [x_axis, y_axis, z_axis] = ray.axes;
-        let [a, b, c] = &self.corners;
-        let origin = [ray.origin[x_axis], ray.origin[y_axis], ray.origin[z_axis]];
-        let a = [&a[x_axis], &a[y_axis], &a[z_axis]];
-        let b = [&b[x_axis], &b[y_axis], &b[z_axis]];
-        let c = [&c[x_axis], &c[y_axis], &c[z_axis]];
-        let (mut areas, mut depths) = ([[0.0_f64; BLOCK]; 3], [[0.0_f64; BLOCK]; 3]);
-        let (mut errors, mut may_hit) = ([0.0_f64; BLOCK], [0_u8; BLOCK]);
-        // All of it in one loop, which the compiler turns into operations on four triangles; of several loops it would
-        // unroll the first ones and shuffle what they leave behind.
-        for lane in 0..BLOCK {
-            let corners = [vertex_of(a, lane), vertex_of(b, lane), vertex_of(c, lane)];
-            let ([u, v, w], [az, bz, cz], error) = edge_values(corners, origin, ray.shear, ROUNDING * ray.size);
-            (areas[0][lane], areas[1][lane], areas[2][lane]) = (u, v, w);
-            (depths[0][lane], depths[1][lane], depths[2][lane]) = (az, bz, cz);
-            errors[lane] = error;
-            may_hit[lane] = may_be_hit([u, v, w], error);
-        }
-        let mut may_hit = u32::from_le_bytes(may_hit);
-        while may_hit != 0 {
-            let lane = (may_hit.trailing_zeros() / 8) as usize % BLOCK;
-            may_hit &= may_hit - 1;
-            let values = (
-                [areas[0][lane], areas[1][lane], areas[2][lane]],
-                [depths[0][lane], depths[1][lane], depths[2][lane]],
-                errors[lane],
-            );
+    pub fn keep_closest_among(&self, mut mask: u64, ray: &MeshRay, number: u32, closest: &mut ClosestHit) {
+        let origin = by_axis(|axis| ray.origin[ray.axes[axis]]);
+        while mask != 0 {
+            let lane = take_first(&mut mask);
+            let values = edge_values(in_f64(self.corners_of(lane, ray.axes)), origin, ray.shear, ROUNDING * ray.size);
+            if may_be_hit(values.0, values.2) == 0 {
+                continue;
+            }
             let t = certain_t(values, ray.shear[2]);
             let t = ray.start + t.unwrap_or_else(|| exact_triangle_t(ray.origin, ray.direction, &self.row(lane)));
             let triangle = self.triangle[lane];
@@ -360,16 +368,22 @@ impl TriangleBlock {
         }
     }
 
+    /// Keeps the closest hit among all of its triangles.
+    #[inline(always)]
+    pub fn keep_closest(&self, ray: &MeshRay, number: u32, closest: &mut ClosestHit) {
+        self.keep_closest_among(self.may_hit(ray), ray, number, closest);
+    }
+
     /// Its triangles, each with its place in the block.
     #[inline(always)]
     pub(super) fn triangles(&self) -> impl Iterator<Item = (usize, u32)> {
-        self.triangle.into_iter().enumerate().take_while(|&(_, triangle)| triangle != u32::MAX)
+        self.triangle.into_iter().enumerate().take_while(|&(_, triangle)| triangle != NO_TRIANGLE)
     }
 
     /// The vertices of a triangle, whose axes are permuted.
     #[inline(always)]
-    pub(super) fn permuted(&self, lane: usize, axes: [usize; 3]) -> [[f64; 3]; 3] {
-        by_axis(|corner| by_axis(|axis| f64::from(self.corners[corner][axes[axis]][lane])))
+    pub(super) fn corners_of(&self, lane: usize, axes: [usize; 3]) -> [[f32; 3]; 3] {
+        by_axis(|corner| by_axis(|axis| self.corners[corner][axes[axis] % 3][lane]))
     }
 
     /// One of its triangles, for exact arithmetic.
@@ -377,6 +391,12 @@ impl TriangleBlock {
         let corners = self.corners.each(|corner| DVec3::from(corner.each(|axis| f64::from(axis[lane]))));
         TriangleRow { corners, size: 0.0, centre: DVec3::ZERO, bounding_radius: 0.0 }
     }
+}
+
+/// The vertices of a triangle in f64.
+#[inline(always)]
+pub(super) fn in_f64(corners: [[f32; 3]; 3]) -> [[f64; 3]; 3] {
+    by_axis(|corner| by_axis(|axis| f64::from(corners[corner][axis])))
 }
 
 /// The edge functions of a triangle whose vertices' axes are permuted, in the sheared space of a ray; `rounding` is
@@ -416,9 +436,33 @@ fn sheared([x, y, z]: [f64; 3], origin: [f64; 3], shear: [f64; 3]) -> [f64; 3] {
     [(x - origin[0]) - shear[0] * z, (y - origin[1]) - shear[1] * z, z]
 }
 
+/// A ray in f32: its origin and its shear in the sheared space's axes, and [`ROUNDING_F32`] times the size.
+pub(super) type RayInF32 = ([f32; 3], [f32; 2], f32);
+
+/// 0 if two of a triangle's areas certainly have opposite signs, by f32 alone, and otherwise 1, for a mask of bytes.
+///
+/// A product too small for f32 is off by its least normal number at most; one too large makes infinity or NaN, of which
+/// no comparison is certain.
 #[inline(always)]
-fn vertex_of([x, y, z]: [&[f32; BLOCK]; 3], lane: usize) -> [f64; 3] {
-    [f64::from(x[lane]), f64::from(y[lane]), f64::from(z[lane])]
+pub(super) fn may_be_hit_in_f32(corners: [[f32; 3]; 3], (origin, shear, rounding): RayInF32) -> u8 {
+    let [[ax, ay], [bx, by], [cx, cy]] = [
+        sheared_in_f32(corners[0], origin, shear),
+        sheared_in_f32(corners[1], origin, shear),
+        sheared_in_f32(corners[2], origin, shear),
+    ];
+    let [u, v, w] = [bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx];
+    let lengths = ax.abs() + ay.abs() + bx.abs() + by.abs() + cx.abs() + cy.abs();
+    let error = rounding * (lengths + rounding) + f32::MIN_POSITIVE;
+    let some_below = (u < -error) | (v < -error) | (w < -error);
+    let some_above = (u > error) | (v > error) | (w > error);
+    u8::from(!(some_below & some_above))
+}
+
+/// The x and y of a vertex in the sheared space of a ray, in f32.
+#[inline(always)]
+fn sheared_in_f32([x, y, z]: [f32; 3], origin: [f32; 3], shear: [f32; 2]) -> [f32; 2] {
+    let z = z - origin[2];
+    [(x - origin[0]) - shear[0] * z, (y - origin[1]) - shear[1] * z]
 }
 
 /// 1 unless two of the areas certainly have opposite signs, or the error is not finite; 0 or 1, for a mask of bytes.
@@ -456,6 +500,7 @@ fn max(a: f64, b: f64, c: f64) -> f64 {
 #[cfg(test)]
 mod triangle_edges_tests {
     use super::*;
+    use crate::measure::draws::Draws;
 
     fn triangle(corners: [[f64; 3]; 3]) -> TriangleRow {
         TriangleRow::new(corners.each(DVec3::from))
@@ -508,6 +553,57 @@ mod triangle_edges_tests {
         for order in [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
             assert_eq!(triangle_t(origin, direction, &triangle(order.map(|corner| corners[corner]))), t);
         }
+    }
+
+    /// Rays through vertices, points of edges and points inside of triangles of all sizes that f32 holds, near the origin
+    /// and far from it, from near and from afar: f32 rules none of them out, but nearly all that pass clearly beside one.
+    #[test]
+    fn f32_rules_out_no_triangle_that_is_hit() {
+        let mut draws = Draws::new(4101, 0);
+        let (mut hits, mut beside, mut ruled_out) = (0, 0, 0);
+        for exponent in (-149..=126).step_by(5) {
+            let size = libm::ldexp(1.0, exponent);
+            for (away, from) in [(0.0, 1.0), (1.0, 1.0), (100.0, 1.0), (1e6, 1.0), (0.0, 1e-3), (1.0, 1e5)] {
+                for _ in 0..200 {
+                    let mut vector = |length: f64| DVec3::from([(); 3].map(|()| draws.between(-length, length)));
+                    let (centre, origin) = (vector(away * size), vector(from * size));
+                    let corners = [(); 3].map(|()| (centre + vector(size)).to_array().each(|part| part as f32));
+                    if corners.as_flattened().iter().any(|part| !part.is_finite()) {
+                        continue;
+                    }
+                    let weights = match (4.0 * draws.unit()) as u32 {
+                        0 => [1.0, 0.0, 0.0],
+                        1 => [0.5, 0.5, 0.0],
+                        2 => [0.3, 0.3, 0.4],
+                        _ => [2.0, -0.5, -0.5],
+                    };
+                    let exact = corners.each(|corner| DVec3::from(corner.each(f64::from)));
+                    let at = weights[0] * exact[0] + weights[1] * exact[1] + weights[2] * exact[2];
+                    let origin = origin + centre;
+                    let direction = (at - origin) * libm::ldexp(1.0, -exponent);
+                    let mesh = TriangleMesh {
+                        positions: corners.into(),
+                        triangles: vec![[0, 1, 2]],
+                        ..TriangleMesh::default()
+                    };
+                    let largest = exact.each(|corner| corner.abs().element_sum()).into_iter().fold(0.0, f64::max);
+                    let ray = MeshRay::new(origin, direction, 0.0, largest);
+                    let may_hit = TriangleBlock::of(&mesh, &[0]).may_hit(&ray);
+                    if exact_triangle_t(origin, direction, &triangle(exact.map(|corner| corner.to_array()))).is_finite()
+                    {
+                        assert_eq!(may_hit, 1, "{corners:?} by a ray from {origin} along {direction}");
+                        hits += 1;
+                    } else if weights[0] > 1.0 && exponent.abs() < 60 && away.max(from) <= 1.0 {
+                        beside += 1;
+                        ruled_out += u32::from(may_hit == 0);
+                    }
+                }
+            }
+        }
+        eprintln!(
+            "f32: {hits} triangles hit, 0 ruled out; {beside} rays beside one of no extreme size, {ruled_out} ruled out"
+        );
+        assert!(hits > 10_000 && beside > 1000 && 10 * ruled_out > 9 * beside);
     }
 
     #[test]
