@@ -305,7 +305,8 @@ impl PlacedMesh {
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn mesh_rows(meshes: &[PlacedMesh], numbers: &[u32], rays: RaySlices<'_>, mut hits: ClosestHits<'_>) {
     let mut stack = Stack::default();
-    if hits.t.len() < FEW_RAYS {
+    // In lockstep 16 rays take 1.4 times as long as alone, 32 hardly longer, and 64 nine tenths.
+    if hits.t.len() < PACKET {
         return for (mesh, &number) in meshes.iter().zip(numbers) {
             for row in 0..hits.t.len() {
                 hits.set(row, mesh.keep_closest_of_ray(rays.ray(row), number, hits.get(row), &mut stack));
@@ -321,9 +322,6 @@ fn mesh_rows(meshes: &[PlacedMesh], numbers: &[u32], rays: RaySlices<'_>, mut hi
         }
     }
 }
-
-/// Fewer rays than this are through before all are set up that go in lockstep.
-const FEW_RAYS: usize = 16;
 
 impl PlacedMesh {
     #[inline(always)]
