@@ -96,6 +96,43 @@ fn a_glowing_ball_is_as_bright_as_its_series() {
     }
 }
 
+/// Points of a sequence leave less error than independent ones where two paths are joined at a pixel, too, and the same
+/// mean: a pixel's light paths are points of one sequence, in another order than its paths from the camera.
+#[test]
+fn stratified_samples_leave_less_error_than_independent_ones() {
+    const SEEDS: u64 = 6;
+    let offer = offer();
+    let render_by = |sampler: Sampler, seed: u64| {
+        let mut world = room(&|world| {
+            world.spawn((PointLight { intensity: Rgb::grey(1.0), casts_shadows: true }, Placement::at(0.0, 1.5, 0.2)));
+        });
+        let camera = named(&mut world, "camera");
+        let sampling = Sampling { samples: 16, seed, sampler, ..Sampling::default() };
+        let of_method = (BidirectionalPathTracing::default(), Resolution { width: 64, height: 64 });
+        world.entity_mut(camera).insert((sampling, of_method));
+        numbers(&render(&world, &offer, &Execution::default(), &()).expect("renders").film)
+    };
+    let of = |sampler: Sampler, first: u64| -> Vec<_> {
+        (first..first + SEEDS).map(|seed| render_by(sampler, seed)).collect()
+    };
+    let independent = of(Sampler::Independent, 0);
+    let variance = |renders: &[Numbers]| {
+        let of_pixel = |pixel: usize| {
+            let values = || renders.iter().map(|image| image.pixels[pixel][1]);
+            let mean = values().sum::<f64>() / SEEDS as f64;
+            values().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (mean * mean + 0.01)
+        };
+        (0..renders[0].pixels.len()).map(of_pixel).sum::<f64>()
+    };
+    for (number, sampler) in (1..).zip([Sampler::Sobol, Sampler::Stratified]) {
+        let renders = of(sampler, number * SEEDS);
+        assert_agree(&format!("{sampler:?} and independent"), &independent, &renders, 8);
+        let ratio = variance(&renders) / variance(&independent);
+        eprintln!("joined paths: {sampler:?} leaves {ratio:.2} of the squared error of independent numbers");
+        assert!(ratio < 0.85, "{sampler:?}: {ratio}");
+    }
+}
+
 /// Every kind of light, and lights that light paths do not start on beside one that they do.
 #[test]
 fn every_light_brings_what_paths_from_the_camera_bring() {

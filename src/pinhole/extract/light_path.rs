@@ -7,14 +7,16 @@ use super::{
     AreaLightTable, EnvironmentLightTable, EnvironmentTable, MaterialTable, MeshLights, NO_ROW, ShapeTable,
     bidirectional_evidence, environment_light_evidence, luminance,
 };
-use crate::each::Each;
-use crate::lights::{AnyLight, Cones, MAX_TARGETS, MAX_TARGETS_SOLID_ANGLE, TOWARDS, Target, Targets};
-use crate::plan::{Census, Evidence, Table};
+use crate::each::{Each, lanes};
+use crate::lights::{
+    AT_ONCE, AnyLight, Cones, MAX_TARGETS, MAX_TARGETS_SOLID_ANGLE, TOWARDS, Target, Targets, cones_around,
+};
+use crate::plan::{Census, Evidence, Table, VectorRowsMut};
 use crate::scene::SceneError;
 use crate::shapes::{Bounds, Emitter};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// A light from which light paths start, in render space.
@@ -67,26 +69,29 @@ pub struct LightPathTable {
     pub targets: Targets,
     /// The area that the power of a light without a position is counted over, in square scene units.
     pub across: f64,
+    /// What the targets subtend from each light without an area that has a position, and none from others; empty where this is
+    /// not asked for.
+    cones: Vec<Option<Cones>>,
     /// Whether light paths are joined to those of the camera, and start in all directions on lights with a position, some of
     /// them towards mirrors and glass.
     pub is_for_all_light: bool,
 }
 
 /// Whether a path starts towards mirrors and glass from a point of a light, or elsewhere.
-pub struct Towards {
+pub struct Towards<'a> {
     /// What they subtend from there; none where all directions are sampled alike.
-    cones: Option<Cones>,
+    cones: Option<&'a Cones>,
     /// Selects one of them; none where the path starts elsewhere.
     choice: Option<f64>,
     /// 1 over the probability of that.
     weight: f64,
 }
 
-impl Towards {
+impl Towards<'_> {
     /// A direction towards mirrors and glass and 1 over its pdf, in sr; none where the path starts elsewhere.
     #[inline(always)]
     pub fn sample(&self, u: [f64; 2]) -> Option<(DVec3, f64)> {
-        let (direction, weight) = self.cones.as_ref()?.sample(self.choice?, u);
+        let (direction, weight) = self.cones?.sample(self.choice?, u);
         Some((direction, weight * self.weight))
     }
 
@@ -94,7 +99,7 @@ impl Towards {
     /// way towards mirrors and glass, where other paths do.
     #[inline(always)]
     pub fn weight_elsewhere(&self, direction: DVec3) -> f64 {
-        let is_towards = self.cones.as_ref().is_some_and(|cones| cones.around(direction, None) > 0);
+        let is_towards = self.cones.is_some_and(|cones| cones.around(direction, None) > 0);
         if is_towards { 0.0 } else { self.weight }
     }
 }
@@ -109,19 +114,20 @@ impl LightPathTable {
     /// What mirrors and glass subtend from a point of a light; none where that is nothing, or so much that sampling directions
     /// towards them gains nothing.
     #[inline(always)]
-    fn cones(&self, from: DVec3) -> Option<Cones> {
-        if self.targets.sphere.is_empty() {
-            return None;
-        }
-        let cones = Cones::new(&self.targets.sphere, from);
-        (cones.all > 0.0 && cones.all < MAX_TARGETS_SOLID_ANGLE).then_some(cones)
+    pub fn cones(&self, from: DVec3) -> Option<Cones> {
+        cones_from(&self.targets, from)
     }
 
-    /// Whether a path starts towards mirrors and glass from this point, by a number in [0, 1): all do where caustics are all
-    /// that is asked for, and some where all light is.
+    /// The same from a light without an area, for which it is computed once; none from one without a position.
     #[inline(always)]
-    pub fn towards(&self, from: DVec3, u: f64) -> Towards {
-        let cones = self.cones(from);
+    pub fn cones_of(&self, light: usize) -> Option<&Cones> {
+        self.cones.get(light)?.as_ref()
+    }
+
+    /// Whether a path starts towards mirrors and glass from a point, by what they subtend from there and a number in [0, 1):
+    /// all do where caustics are all that is asked for, and some where all light is.
+    #[inline(always)]
+    pub fn towards<'a>(&self, cones: Option<&'a Cones>, u: f64) -> Towards<'a> {
         if !self.is_for_all_light || cones.is_none() {
             return Towards { choice: cones.is_some().then_some(u), cones, weight: 1.0 };
         }
@@ -136,12 +142,27 @@ impl LightPathTable {
     /// Lights are taken to be as bright in all directions. Any function of the two will do, for all ways to find a path are
     /// weighted by the same one; the nearer it is to the truth, the better they are.
     #[inline(always)]
-    pub fn density(&self, from: DVec3, direction: DVec3) -> f64 {
-        let Some(cones) = self.cones(from) else { return 1.0 };
-        match cones.around(direction, None) {
-            0 => 1.0 - TOWARDS,
-            passed => TOWARDS * 4.0 * PI * passed as f64 / cones.all,
+    pub fn density(&self, cones: Option<&Cones>, direction: DVec3) -> f64 {
+        cones.map_or(1.0, |cones| density_of(cones.all, cones.around(direction, None) as f64))
+    }
+
+    /// The same of points and directions from them.
+    #[inline(always)]
+    pub fn densities(&self, of: impl Fn(usize) -> [DVec3; 2]) -> [f64; AT_ONCE] {
+        if self.targets.sphere.is_empty() {
+            return [1.0; AT_ONCE];
         }
+        let mut rays = [[[0.0; AT_ONCE]; 3]; 2];
+        for lane in 0..AT_ONCE {
+            let ray = of(lane);
+            rays[0].put(lane, ray[0]);
+            rays[1].put(lane, ray[1]);
+        }
+        let [wholes, passed] = cones_around(&self.targets.sphere, &rays[0], &rays[1]);
+        lanes(|lane| match TAU * wholes[lane] {
+            all if subtends_little(all) => density_of(all, passed[lane]),
+            _ => 1.0,
+        })
     }
 
     /// The number that a light has among those with an area, and the luminance of its radiance; none for one without.
@@ -165,8 +186,7 @@ impl LightPathTable {
                 self.distant_density(luminance(own.irradiance(point)), direction, point)
             }
             Some(LightSource::Delta(own)) => {
-                let from = own.position().unwrap_or(point);
-                luminance(own.irradiance(point)) / self.power * self.density(from, direction)
+                luminance(own.irradiance(point)) / self.power * self.density(self.cones_of(light), direction)
             }
             _ => 0.0,
         }
@@ -193,6 +213,27 @@ impl LightPathTable {
     pub fn mesh_of(&self, light: usize) -> &MeshLights {
         &self.mesh[self.mesh.partition_point(|mesh| mesh.first as usize <= light) - 1]
     }
+}
+
+/// Whether mirrors and glass subtend something, and not so much that sampling directions towards them gains nothing.
+#[inline(always)]
+fn subtends_little(all: f64) -> bool {
+    all > 0.0 && all < MAX_TARGETS_SOLID_ANGLE
+}
+
+/// What they subtend from a point, where paths start towards them.
+#[inline(always)]
+fn cones_from(targets: &Targets, from: DVec3) -> Option<Cones> {
+    if targets.sphere.is_empty() {
+        return None;
+    }
+    Some(Cones::new(&targets.sphere, from)).filter(|cones| subtends_little(cones.all))
+}
+
+/// How many times as many paths start in a direction that is in so many of the cones, which subtend so much together.
+#[inline(always)]
+fn density_of(all: f64, passed: f64) -> f64 {
+    if passed > 0.0 { TOWARDS * 4.0 * PI * passed / all } else { 1.0 - TOWARDS }
 }
 
 impl LightSource {
@@ -259,13 +300,20 @@ impl Table for LightPathTable {
         let powers: Vec<f64> = light.iter().map(|light| light.power(across)).chain(of_mesh).collect();
         let (until, probability) = light_distribution(&powers, if is_for_all_light { 0.0 } else { EVEN });
         let power = powers.iter().filter(|power| !power.is_nan()).sum();
-        Ok(Self { light, mesh, until, probability, power, targets, across, is_for_all_light })
+        let from = |light: &LightSource| match light {
+            LightSource::Delta(light) => light.position().and_then(|from| cones_from(&targets, from)),
+            _ => None,
+        };
+        let has_cones = is_for_all_light && !targets.sphere.is_empty();
+        let cones = light.iter().filter(|_| has_cones).map(from).collect();
+        Ok(Self { light, mesh, until, probability, power, targets, across, cones, is_for_all_light })
     }
 
     fn bytes(&self) -> usize {
         size_of_val(&self.light[..])
             + size_of_val(&self.mesh[..])
             + self.until.len() * 16
+            + size_of_val(&self.cones[..])
             + size_of_val(&self.targets.sphere[..])
             + size_of_val(&self.targets.infinite[..])
     }

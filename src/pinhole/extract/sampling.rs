@@ -20,7 +20,12 @@ pub struct SamplingTable {
     pub seed: u64,
     /// The sampler that makes them.
     pub sampler: Sampler,
+    /// Whether they are those of light paths that are joined to paths from the camera, which draw at bounces of their own.
+    pub are_joined: bool,
 }
+
+/// Where light paths that are joined to paths from the camera count bounces from, which none of those reach.
+const FIRST_BOUNCE_OF_LIGHT: u32 = 1 << 24;
 
 impl SamplingTable {
     /// The same with another seed, for samples that must be independent of these with any sampler.
@@ -37,10 +42,19 @@ impl SamplingTable {
 
     /// The random numbers of light paths, from another seed.
     ///
-    /// Stratification counts the samples of a pixel, which a light path does not have, so its numbers are independent.
-    pub fn for_light_paths(self) -> Self {
-        let sampler = if self.sampler == Sampler::Sobol { Sampler::Sobol } else { Sampler::Independent };
-        Self { seed: self.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x4C_4947_4854, sampler, ..self }
+    /// Stratification counts the samples of a pixel, which a light path does not have unless it is joined to that pixel's
+    /// path from the camera; its numbers are independent otherwise.
+    /// Points of joined paths are visited in orders of their own: in the same order, half of what the two can be together
+    /// would be missing at every pixel.
+    pub fn for_light_paths(self, are_joined: bool) -> Self {
+        let has_samples = are_joined || self.sampler == Sampler::Sobol;
+        let sampler = if has_samples { self.sampler } else { Sampler::Independent };
+        Self { seed: self.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x4C_4947_4854, sampler, are_joined, ..self }
+    }
+
+    /// The bounce at which numbers are drawn at a depth.
+    pub fn bounce(&self, depth: u32) -> u32 {
+        if self.are_joined { FIRST_BOUNCE_OF_LIGHT + depth } else { depth }
     }
 }
 
@@ -57,7 +71,7 @@ impl Table for SamplingTable {
             let accepted = format!("it must be a whole number from 1 to {MAX_SAMPLES}");
             return Err(SceneError::new(who, "samples", samples.to_string(), accepted));
         }
-        Ok(Self { samples, seed, sampler })
+        Ok(Self { samples, seed, sampler, are_joined: false })
     }
 
     fn bytes(&self) -> usize {

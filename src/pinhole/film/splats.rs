@@ -42,6 +42,9 @@ impl FilmSplats {
             self.rejected += 1;
             return;
         }
+        if let Filter::Box { radius: 0.5 } = filter.filter {
+            return self.add_to_one(filter.scale, [x, y], light);
+        }
         let [width, height] = self.size.each(i64::from);
         let (columns, lines) = (filter.covered(x, width), filter.covered(y, height));
         let mut across = std::mem::take(&mut filter.across);
@@ -58,6 +61,19 @@ impl FilmSplats {
         filter.across = across;
     }
     // ANCHOR_END: add_splat
+
+    /// The same for a box as wide as a pixel.
+    #[inline(always)]
+    fn add_to_one(&mut self, scale: f64, [x, y]: [f64; 2], light: [f64; 3]) {
+        let [width, height] = self.size.each(f64::from);
+        let (column, line) = (x.floor(), y.floor());
+        if column >= 0.0 && column < width && line >= 0.0 && line < height {
+            let pixel = line as usize * self.size[0] as usize + column as usize;
+            for (sums, value) in self.sums.iter_mut().zip(light) {
+                sums[pixel] += scale * scale * value;
+            }
+        }
+    }
 
     /// The estimate of a pixel from all light paths so far; 0 before the first.
     pub fn mean(&self, x: u32, y: u32) -> [f64; 3] {

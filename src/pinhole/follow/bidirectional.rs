@@ -11,23 +11,25 @@
 use super::bsdf::at_interfaces_where;
 use super::interface::{Interface, InterfaceView};
 use super::recursive_mis::{JoinRatios, RecursiveMis, bounded, squared};
+use super::segment::{AT_ONCE, JoinedSurface, Segment, SegmentBlock, segments};
 use super::{LightPower, bsdf::without_sides};
-use crate::each::{Each, all_are};
+use crate::each::{Each, all_are, by_lane};
 use crate::extract::{
     GlassTable, IntegratorTable, MaterialTable, bidirectional_evidence, bsdf_evidence, lit_from_behind_evidence,
 };
-use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine};
+use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::material::{Bsdf, MaterialKind, Parameters, ShadingContext, Transport};
 use crate::plan::{Census, Column, Shared, Stage, StageKind, Table, TileSystems, VectorRowsMut, column};
 use crate::rays::{Depth, Paths, PixelSamples, Tile, WorldRays, pixel_of_row};
 use crate::scene::SceneError;
-use crate::shade::{ParameterColumns, ShadowRays, TransmissiveRows, join_cosine, shadow_t_max};
+use crate::shade::{ParameterColumns, ShadowRays, TransmissiveRows, shadow_t_max};
 use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::{DVec3, Vec3};
 use rayon::ThreadPool;
 use rayon::prelude::*;
+use std::ops::Range;
 
 column! {
     /// The vertices of a batch of light paths on surfaces that are not specular, in the order of bounces and paths.
@@ -125,7 +127,7 @@ pub struct LightVertex {
 }
 
 /// Bytes of a light vertex: in its batch's columns, in the list of all, and in the map.
-pub const LIGHT_VERTEX_BYTES: u64 = (3 * size_of::<LightVertex>() + size_of::<u32>()) as u64;
+pub const LIGHT_VERTEX_BYTES: u64 = (3 * size_of::<LightVertex>() + 3 * size_of::<u32>()) as u64;
 
 /// Surfaces that light paths hit, and the vertices that become of them.
 #[derive(QueryData)]
@@ -214,6 +216,8 @@ pub fn store_vertices_stage() -> Stage {
 pub struct LightVertexMap {
     /// The vertices of each path, one path after another.
     vertices: Vec<LightVertex>,
+    /// The material and the segments of each once more: all that is asked of those that are not joined.
+    brief: Vec<[u32; 2]>,
     /// Where those of each path begin, and the end.
     first: Vec<u32>,
     /// The width of the image, between whose pixels the paths are divided.
@@ -231,7 +235,7 @@ impl Table for LightVertexMap {
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(&self.vertices[..]) + size_of_val(&self.first[..])
+        size_of_val(&self.vertices[..]) + size_of_val(&self.brief[..]) + size_of_val(&self.first[..])
     }
 }
 
@@ -255,17 +259,20 @@ impl LightVertexMap {
             });
         }
         let mut vertices = vec![LightVertex::default(); first[first.len() - 1] as usize];
-        let (mut rest, mut parts) = (&mut vertices[..], Vec::with_capacity(batches.len()));
+        let mut brief = vec![[0; 2]; vertices.len()];
+        let (mut rest, mut parts) = ((&mut vertices[..], &mut brief[..]), Vec::with_capacity(batches.len()));
         for (batch, &own) in batches.iter().enumerate() {
-            let (part, after) = rest.split_at_mut(own.rows());
-            parts.push((own, &first[batch * each..(batch + 1) * each], part));
-            rest = after;
+            let (part, after) = rest.0.split_at_mut(own.rows());
+            let (brief, brief_after) = rest.1.split_at_mut(own.rows());
+            parts.push((own, &first[batch * each..(batch + 1) * each], part, brief));
+            rest = (after, brief_after);
         }
-        let sort = |(own, first, part): (&LightVertices, &[u32], &mut [LightVertex])| {
+        let sort = |(own, first, part, brief): (&LightVertices, &[u32], &mut [LightVertex], &mut [[u32; 2]])| {
             let mut next: Vec<u32> = first.iter().map(|own| own - first[0]).collect();
             for (row, &path) in own.path.iter().enumerate() {
                 let place = &mut next[path as usize];
                 part[*place as usize] = own.get(row);
+                brief[*place as usize] = [own.material[row], own.segments[row]];
                 *place += 1;
             }
         };
@@ -275,7 +282,7 @@ impl LightVertexMap {
         }
         let paths = batches.len() * each;
         let pixels = f64::from(width) * f64::from(height);
-        Self { vertices, first, width, paths_a_pixel: paths as f64 / pixels }
+        Self { vertices, brief, first, width, paths_a_pixel: paths as f64 / pixels }
     }
 
     // ANCHOR: path_of_pixel
@@ -284,11 +291,13 @@ impl LightVertexMap {
     /// There are as many light paths as pixels or another number of them; each pixel has one, and neighbours different ones
     /// where there are enough.
     #[inline(always)]
-    pub fn of_pixel(&self, [x, y]: [u32; 2]) -> &[LightVertex] {
-        let Some(last) = self.first.len().checked_sub(2) else { return &[] };
+    pub fn of_pixel(&self, [x, y]: [u32; 2]) -> Range<usize> {
+        let Some(last) = self.first.len().checked_sub(2) else { return 0..0 };
         let pixel = u64::from(y) * u64::from(self.width) + u64::from(x);
-        let path = ((pixel as f64 * self.paths_a_pixel) as usize).min(last);
-        &self.vertices[self.first[path] as usize..self.first[path + 1] as usize]
+        let path =
+            if self.paths_a_pixel == 1.0 { pixel as usize } else { (pixel as f64 * self.paths_a_pixel) as usize };
+        let path = path.min(last);
+        self.first[path] as usize..self.first[path + 1] as usize
     }
     // ANCHOR_END: path_of_pixel
 }
@@ -309,62 +318,38 @@ pub struct JoinView {
     ratios: &'static mut JoinRatios,
 }
 
-/// A shadow ray to a light vertex.
+/// What a shadow ray to a light vertex carries, and what is known of other ways to find its path.
 struct Join {
-    direction: Vec3,
-    distance: f64,
     irradiance: [f64; 3],
     onward: f64,
     reverse: f64,
 }
 
 // ANCHOR: join_vertex
-/// The ray from a surface of some kind to a light vertex with this BSDF, and the irradiance that it carries: what the
-/// vertex sends here is its power, times its BSDF and the cosines of both ends over the square of the distance.
+/// What a light vertex with this BSDF sends to a surface of some kind: its power, times its BSDF and the cosines of both ends
+/// over the square of the distance.
 #[inline(always)]
 fn join_vertex<B: Bsdf>(
     bsdf: &B,
-    vertex: &LightVertex,
-    bsdf_row: usize,
-    (kind, [origin, normal, shaded]): (MaterialKind, [DVec3; 3]),
-) -> Option<Join> {
-    let own = vertex.normal.as_dvec3();
-    let seen = (origin - vertex.position.as_dvec3()).dot(own);
-    if seen == 0.0 || (seen < 0.0 && !B::TRANSMITS) {
-        return None;
-    }
-    let side = if seen < 0.0 { -vertex.normal } else { vertex.normal };
-    let to_light = offset_origin(vertex.position, side, vertex.bound).as_dvec3() - origin;
-    let square = to_light.length_squared();
-    let direction = to_light * (1.0 / square.sqrt());
-    let (leaving, arriving) = (own.dot(direction).abs(), falling_cosine(normal, shaded, direction));
-    if !(square >= f64::MIN_POSITIVE && arriving > 0.0 && side.as_dvec3().dot(direction) < 0.0) {
-        return None;
-    }
-
-    // A shading normal counts arriving light by its own cosine (Veach 1997, 5.3).
-    let (source, shading) = (vertex.to_light.as_dvec3(), vertex.shading.as_dvec3());
-    let sent = join_cosine(leaving, own.dot(source), falling_cosine(own, shading, source));
-    let local_from_world = B::frame(shading).transpose();
-    let (onward, to_source) = (local_from_world * -direction, local_from_world * source);
+    (vertex, bsdf_row): (&LightVertex, usize),
+    (kind, normal): (MaterialKind, DVec3),
+    segment: &Segment,
+    [onward, to_source]: [DVec3; 2],
+) -> Join {
+    let Segment { direction, square, geometry, .. } = *segment;
     let opaque = ShadingContext::opaque(bsdf_row, vertex.parameters);
     let context = ShadingContext { eta: vertex.eta, transport: Transport::Importance, ..opaque };
     let (scattered, [forth, back]) = bsdf.eval_and_pdfs(&context, onward, to_source);
-    if all_are(scattered, 0.0) {
-        return None;
-    }
-    let geometry = sent * arriving / square;
 
     // As many paths from either end come along the ray as its BSDF samples this direction.
     let from_light = forth * kind.cosine(normal, direction) / square;
+    let from_eye = B::KIND.cosine(vertex.normal.as_dvec3(), direction) / square;
     let known = bounded(vertex.arrival + vertex.earlier * squared(back));
-    Some(Join {
-        direction: direction.as_vec3(),
-        distance: square.sqrt(),
+    Join {
         irradiance: [0, 1, 2].each(|part| vertex.power[part] * scattered[part] * geometry),
-        onward: bounded(squared(B::KIND.cosine(own, direction) / square) * known),
+        onward: bounded(squared(from_eye) * known),
         reverse: squared(from_light),
-    })
+    }
 }
 // ANCHOR_END: join_vertex
 
@@ -375,42 +360,35 @@ fn join_vertex<B: Bsdf>(
 pub fn join_vertices<B: Bsdf>(
     (materials, bsdf): (Res<Shared<MaterialTable>>, Res<Shared<B>>),
     (map, integrator): (Res<Shared<LightVertexMap>>, Res<Shared<IntegratorTable>>),
+    (mut joined, mut pairs): (Local<Vec<JoinedSurface>>, Local<Vec<[u32; 2]>>),
     mut tiles: Query<JoinView>,
 ) {
+    let mut block = SegmentBlock::NONE;
     for view in &mut tiles {
-        let JoinViewItem { tile, depth, samples, paths, surfaces, shading, list, far, mut rays, mut ratios } = view;
-        let behind: &[u32] = far.map_or(&[], |far| &far.row);
-        let vertices_of = |row: u32| map.of_pixel(pixel_of_row(tile, samples, Some(paths), row as usize));
-        let all = list.row.iter().chain(behind).map(|&row| vertices_of(row).len()).sum::<usize>();
+        list_pairs((B::KIND, &materials), (&map, integrator.max_depth), &view, (&mut joined, &mut pairs));
+        let JoinViewItem { mut rays, mut ratios, .. } = view;
         let mut at = rays.rows();
-        let (path, mut origins, mut directions, t_max, mut irradiance) = rays.slices_mut(at + all);
-        let (row_of_ratios, onward, reverse) = ratios.slices_mut(at + all);
-        for (rows, side) in [(&list.row[..], 1.0), (behind, -1.0)] {
-            for &of in rows {
-                let row = of as usize;
-                let surface = surfaces.get(row);
-                let normal = surface.normal * side as f32;
-                let shaded = shading.map_or(surface.normal.as_dvec3(), |shading| shading.get(row)) * side;
-                let origin = offset_origin(surface.position, normal, surface.bound);
-                let kind = materials.kind[surface.material as usize];
-                let ends = (kind, [origin.as_dvec3(), normal.as_dvec3(), shaded]);
-                for vertex in vertices_of(of) {
-                    let material = vertex.material as usize;
-                    let segments = depth.0.saturating_add(2).saturating_add(vertex.segments);
-                    if materials.kind[material] != B::KIND || segments > integrator.max_depth {
-                        continue;
-                    }
-                    let Some(join) = join_vertex(&**bsdf, vertex, materials.row[material] as usize, ends) else {
-                        continue;
-                    };
-                    (path[at], row_of_ratios[at]) = (of, of);
-                    origins.put(at, origin);
-                    directions.put(at, join.direction);
-                    t_max[at] = shadow_t_max(join.distance);
-                    irradiance.put(at, join.irradiance.each(|part| part.min(f64::from(f32::MAX)) as f32));
-                    (onward[at], reverse[at]) = (join.onward, join.reverse);
-                    at += 1;
-                }
+        let (path, mut origins, mut directions, t_max, mut irradiance) = rays.slices_mut(at + pairs.len());
+        let (row_of_ratios, onward, reverse) = ratios.slices_mut(at + pairs.len());
+        for pairs in pairs.chunks(AT_ONCE) {
+            block.gather(&joined, &map.vertices, pairs);
+            segments(&mut block, B::TRANSMITS, B::NARROW);
+            let (lanes, count) = block.those(pairs.len());
+            for (_, lane) in by_lane::<AT_ONCE, _>(&lanes[..count.min(AT_ONCE)]) {
+                let lane = lane as usize;
+                let [surface, vertex] = pairs[lane];
+                let (surface, vertex) = (&joined[surface as usize], &map.vertices[vertex as usize]);
+                let bsdf_row = materials.row[vertex.material as usize] as usize;
+                let (segment, local) = block.get(lane);
+                let of_surface = (surface.kind, surface.normal.as_dvec3());
+                let join = join_vertex(&**bsdf, (vertex, bsdf_row), of_surface, &segment, local);
+                (path[at], row_of_ratios[at]) = (surface.row, surface.row);
+                origins.put(at, surface.origin);
+                directions.put(at, segment.direction.as_vec3());
+                t_max[at] = shadow_t_max(segment.square.sqrt());
+                irradiance.put(at, join.irradiance.each(|part| part.min(f64::from(f32::MAX)) as f32));
+                (onward[at], reverse[at]) = (join.onward, join.reverse);
+                at += usize::from(!all_are(join.irradiance, 0.0));
             }
         }
         rays.slices_mut(at);
@@ -418,6 +396,45 @@ pub fn join_vertices<B: Bsdf>(
     }
 }
 // ANCHOR_END: join_vertices
+
+/// Lists the surfaces from which rays to light vertices start, and with each the vertices of a kind of its pixel's light path.
+fn list_pairs(
+    (kind, materials): (MaterialKind, &MaterialTable),
+    (map, max_depth): (&LightVertexMap, u32),
+    view: &JoinViewItem<'_, '_>,
+    (joined, pairs): (&mut Vec<JoinedSurface>, &mut Vec<[u32; 2]>),
+) {
+    let JoinViewItem { tile, depth, samples, paths, surfaces, shading, list, far, .. } = view;
+    joined.clear();
+    let mut length = 0;
+    for (rows, side) in [(&list.row[..], 1.0), (far.map_or(&[][..], |far| &far.row), -1.0)] {
+        for &of in rows {
+            let row = of as usize;
+            let path = map.of_pixel(pixel_of_row(tile, *samples, Some(paths), row));
+            if path.is_empty() {
+                continue;
+            }
+            let (surface, number) = (surfaces.get(row), joined.len() as u32);
+            let normal = surface.normal * side as f32;
+            joined.push(JoinedSurface {
+                row: of,
+                kind: materials.kind[surface.material as usize],
+                origin: offset_origin(surface.position, normal, surface.bound),
+                normal,
+                shaded: shading.map_or(surface.normal.as_dvec3(), |shading| shading.get(row)) * side,
+            });
+            if pairs.len() < length + path.len() {
+                pairs.resize_with(2 * (length + path.len()), || [0; 2]);
+            }
+            for (vertex, &[material, segments]) in path.clone().zip(&map.brief[path]) {
+                let is_short = depth.0.saturating_add(2).saturating_add(segments) <= max_depth;
+                pairs[length] = [number, vertex as u32];
+                length += usize::from((materials.kind[material as usize] == kind) & is_short);
+            }
+        }
+    }
+    pairs.truncate(length);
+}
 
 /// The stage that joins surfaces to light vertices with a BSDF.
 pub fn join_stage<B: Bsdf>() -> Stage {

@@ -9,11 +9,11 @@ use crate::extract::{
     normal_map_evidence, specular_start_evidence, traced_evidence,
 };
 use crate::intersect::{Hits, MaterialRows, NO_SHAPE, ShadingNormals, Surfaces, vertex_normal_evidence};
-use crate::lights::{AnyLight, LightStart, NO_TARGETS, StartDraws};
+use crate::lights::{AnyLight, Cones, LightStart, NO_TARGETS, StartDraws};
 use crate::material::{cosine_direction, frame_of};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
-use crate::rays::{Depth, Paths, SampleNumber, Tile, WorldRays, join_camera};
-use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
+use crate::rays::{Depth, Draws, Paths, SampleNumber, Tile, WorldRays, draws_of_two, fractions_of_one, join_camera};
+use crate::sample::Purpose;
 use crate::shade::{JoinPoints, Radiance, ShadowRays, environment_direction, environment_radiance};
 use crate::shapes::{leaving_point, offset_bound, offset_origin};
 use bevy_ecs::prelude::*;
@@ -69,7 +69,7 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
     let of_mesh;
     let (emitter, radiance, one_sided) = match table.light.get(light) {
         Some(LightSource::Area { emitter, radiance, one_sided }) => (emitter, *radiance, *one_sided),
-        Some(LightSource::Delta(light)) => return times(delta_start(table, light, draws), chosen),
+        Some(LightSource::Delta(own)) => return times(delta_start(table, (own, table.cones_of(light)), draws), chosen),
         Some(LightSource::Environment(environment, light)) => {
             let (to_light, pdf) = environment_direction(light, environment.turn, draws.direction);
             let radiance = environment_radiance(environment, to_light);
@@ -83,7 +83,8 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
         }
     };
     let point = leaving_point(emitter, one_sided, draws.point, draws.side);
-    let towards = table.towards(point.position, draws.target);
+    let cones = table.cones(point.position);
+    let towards = table.towards(cones.as_ref(), draws.target);
     let (direction, weight) = match towards.sample(draws.direction) {
         Some((direction, weight)) => (direction, direction.dot(point.normal).max(0.0) * weight),
         None => {
@@ -102,11 +103,11 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
 
 /// A ray that leaves a light without an area.
 #[inline(always)]
-fn delta_start(table: &LightPathTable, light: &AnyLight, draws: &StartDraws) -> LightStart {
+fn delta_start(table: &LightPathTable, (light, cones): (&AnyLight, Option<&Cones>), draws: &StartDraws) -> LightStart {
     let Some(position) = light.position().filter(|_| table.is_for_all_light) else {
         return light.start([&table.targets; 2], draws);
     };
-    let towards = table.towards(position, draws.target);
+    let towards = table.towards(cones, draws.target);
     match towards.sample(draws.direction) {
         // At a distance of 1 the irradiance is the radiant intensity.
         Some((direction, weight)) => times(
@@ -144,19 +145,52 @@ pub struct LightStartView {
 pub fn start_on_lights(
     table: Res<Shared<LightPathTable>>,
     sampling: Res<Shared<SamplingTable>>,
+    mut drawn: Local<StartNumbers>,
     mut tiles: Query<LightStartView>,
 ) {
     for LightStartViewItem { tile, number, mut depth, mut rays, mut paths, mut power, mut started, mut radiance } in
         &mut tiles
     {
         *depth = Depth(0);
-        let purposes = [Purpose::LightChoice, Purpose::LightPoint, Purpose::Pixel, Purpose::Lens];
-        let of = (&**table, tile, sampling.seed);
+        drawn.draw(&Draws {
+            sampling: &sampling,
+            tile,
+            number: Some(number),
+            samples: None,
+            paths: None,
+            depth: *depth,
+        });
         let to = (&mut *rays, &mut *paths, &mut *power, started.as_deref_mut());
-        let sample = SampleIndex { number: number.0, samples: sampling.samples, depth: 0 };
-        with_sampler!(sampling.sampler, D => start_rows(of, purposes.each(|own| D::of(sample, own)), to));
+        start_rows(&table, &drawn, to);
         let rows = crate::plan::Column::rows(&*rays);
         radiance.slices_mut(rows).set_all([0.0; 3]);
+    }
+}
+
+/// The random numbers of a batch of light paths, row by row.
+#[derive(Default)]
+pub struct StartNumbers {
+    row: Vec<u32>,
+    light: Vec<u32>,
+    point: Vec<[f64; 2]>,
+    direction: Vec<[f64; 2]>,
+    target: Vec<[f64; 2]>,
+}
+
+impl StartNumbers {
+    fn draw(&mut self, of: &Draws<'_>) {
+        self.row.clear();
+        self.row.extend(0..of.tile.rows() as u32);
+        fractions_of_one(of, Purpose::LightChoice, &self.row, &mut self.light);
+        draws_of_two(of, Purpose::LightPoint, &self.row, &mut self.point);
+        draws_of_two(of, Purpose::Pixel, &self.row, &mut self.direction);
+        draws_of_two(of, Purpose::Lens, &self.row, &mut self.target);
+    }
+
+    #[inline(always)]
+    fn get(&self, row: usize) -> StartDraws {
+        let [target, side] = self.target[row];
+        StartDraws { light: self.light[row], point: self.point[row], direction: self.direction[row], target, side }
     }
 }
 
@@ -164,13 +198,8 @@ pub fn start_on_lights(
 type StartColumns<'a> = (&'a mut WorldRays, &'a mut Paths, &'a mut LightPower, Option<&'a mut StartedOn>);
 
 /// Every row is written, and the next one overwrites it unless it has power, so that no branch depends on the light.
-#[inline(always)]
-fn start_rows<D: Draw>(
-    (table, tile, seed): (&LightPathTable, &Tile, u64),
-    [choice, place, pixel, lens]: [D; 4],
-    (rays, paths, power, started): StartColumns<'_>,
-) {
-    let rows = tile.rows();
+fn start_rows(table: &LightPathTable, drawn: &StartNumbers, (rays, paths, power, started): StartColumns<'_>) {
+    let rows = drawn.row.len();
     let (mut origin, mut direction) = rays.slices_mut(rows);
     let (first, mut throughput, pdf) = paths.slices_mut(rows);
     let mut powers = power.slices_mut(rows);
@@ -179,10 +208,7 @@ fn start_rows<D: Draw>(
     let mut lights = started.map(|started| started.slices_mut(rows));
     let mut at = 0;
     for row in 0..rows {
-        let key = PixelKey::new(seed, tile.pixel_of(row));
-        let [target, side] = lens.two(key).each(unit);
-        let draws = [place.two(key), pixel.two(key)].each(|draws| draws.each(unit));
-        let draws = StartDraws { light: choice.one(key), point: draws[0], direction: draws[1], target, side };
+        let draws = drawn.get(row);
         let start = light_start(table, &draws);
         if let Some(lights) = &mut lights {
             lights[row] = table.chosen(draws.light) as u32;
@@ -349,7 +375,8 @@ pub struct SplatView {
 /// Lists what every surface sends to the camera at this bounce: where it lands on the film, and how much.
 pub fn splat_light(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<SplatView>) {
     for SplatViewItem { paths, rays, points, radiance, power, mut splats } in &mut tiles {
-        let splats = &mut *splats;
+        let mut at = splats.rows();
+        let (mut raster, mut rgb) = splats.slices_mut(at + rays.rows());
         for ray in 0..rays.rows() {
             let row = rays.row[ray] as usize;
             let sent = radiance.rgb(row);
@@ -360,11 +387,11 @@ pub fn splat_light(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<SplatVie
             let lens = points.map_or(DVec2::ZERO, |points| points.point(row));
             let Some(joined) = join_camera(&join, lens, origin) else { continue };
             let (power, throughput) = (power.rgb(paths.first[row] as usize), paths.throughput(row));
-            let at = splats.rows();
-            let (mut raster, mut rgb) = splats.slices_mut(at + 1);
             raster.put(at, joined.raster);
             rgb.put(at, [0, 1, 2].each(|part| power[part] * throughput[part] * f64::from(sent[part])));
+            at += 1;
         }
+        splats.slices_mut(at);
     }
 }
 // ANCHOR_END: splat_light

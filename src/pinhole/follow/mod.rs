@@ -33,6 +33,7 @@ mod photons;
 mod previous_surfaces;
 mod recursive_mis;
 mod scatter_block;
+mod segment;
 mod specular;
 mod starts_on_glass;
 mod tracking;

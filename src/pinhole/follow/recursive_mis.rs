@@ -19,19 +19,19 @@ use super::bsdf::{at_interfaces, shading_context, transport};
 use super::emission::at_emitters;
 use super::interface::{Interface, InterfaceView};
 use super::light_paths::StartedOn;
-use crate::each::{Each, set_all};
+use crate::each::{Each, list_those, set_all};
 use crate::extract::{
     AreaLightTable, CameraJoinTable, EmissiveTable, GlassTable, LightPathTable, LightTracingTable, MaterialTable,
     bidirectional_evidence, bsdf_evidence, emissive_evidence, lens_evidence, luminance,
 };
 use crate::follow::PreviousSurfaces;
 use crate::intersect::{EmissiveRows, HitPrimitives, Hits, NO_SHAPE, ShadingNormals, Surface, SurfaceSides, Surfaces};
-use crate::lights::Receiver;
+use crate::lights::{AT_ONCE, Receiver};
 use crate::material::{Bsdf, MaterialKind, Transport, reverse_pdf};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
 use crate::rays::{Depth, LensPoints, Paths, WorldRays, join_camera};
 use crate::shade::{
-    EmissionFactors, LightPdfs, ParameterColumns, Radiance, ShadowRays, area_light_pdf, light_distance,
+    EmissionFactors, LightPdfs, ParameterColumns, Radiance, ShadowHits, ShadowRays, area_light_pdf, light_distance,
 };
 use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
@@ -165,7 +165,7 @@ fn first_from_light(
     // From where a light sample would start, which is off the surface.
     let from = offset_origin(surface.position, surface.normal, surface.bound);
     let receiver = Receiver { position: from.as_dvec3(), normal: surface.normal.as_dvec3(), depth: 0 };
-    let paths = radiance * cosine / starts.power * starts.density(origin, direction);
+    let paths = radiance * cosine / starts.power * starts.density(starts.cones(origin).as_ref(), direction);
     [area_light_pdf(areas, own, &receiver, origin) / paths, 1.0 / paths]
 }
 // ANCHOR_END: arrive_from_light
@@ -241,24 +241,29 @@ pub fn begin_join_ratios(
     for LightSampleViewItem { surfaces, shading, pdfs, rays, mut ratios } in &mut tiles {
         let (rows, onward, reverse) = ratios.slices_mut(rays.rows());
         rows.copy_from_slice(&rays.row);
-        for ray in 0..rays.rows() {
-            let (row, direction) = (rays.row[ray] as usize, rays.direction_of(ray));
-            let by_light = pdfs.pdf[ray];
-            onward[ray] = if by_light > 0.0 { squared(1.0 / by_light) } else { 0.0 };
-            let irradiance = luminance(rays.irradiance(ray).each(f64::from));
-            let arriving = match rays.t_max[ray] {
-                t_max if !(t_max > 0.0) => 0.0,
-                f32::INFINITY if starts.is_whole() && by_light == 0.0 => {
-                    starts.distant_density(irradiance, -direction, rays.origin_of(ray))
-                }
-                f32::INFINITY => 0.0,
-                t_max => {
-                    let light = rays.origin_of(ray) + direction * light_distance(t_max);
-                    irradiance / starts.power * starts.density(light, -direction)
-                }
-            };
-            let more = by_area((&materials, surfaces, shading), row, [direction; 2]);
-            reverse[ray] = squared(arriving * more);
+        for start in (0..rays.rows()).step_by(AT_ONCE) {
+            let end = rays.rows().min(start + AT_ONCE);
+            let densities = starts.densities(|lane| {
+                let ray = (start + lane).min(end - 1);
+                let direction = rays.direction_of(ray);
+                [rays.origin_of(ray) + direction * light_distance(rays.t_max[ray]), -direction]
+            });
+            for (lane, ray) in (start..end).enumerate() {
+                let (row, direction) = (rays.row[ray] as usize, rays.direction_of(ray));
+                let by_light = pdfs.pdf[ray];
+                onward[ray] = if by_light > 0.0 { squared(1.0 / by_light) } else { 0.0 };
+                let irradiance = luminance(rays.irradiance(ray).each(f64::from));
+                let arriving = match rays.t_max[ray] {
+                    t_max if !(t_max > 0.0) => 0.0,
+                    f32::INFINITY if starts.is_whole() && by_light == 0.0 => {
+                        starts.distant_density(irradiance, -direction, rays.origin_of(ray))
+                    }
+                    f32::INFINITY => 0.0,
+                    _ => irradiance / starts.power * densities[lane],
+                };
+                let more = by_area((&materials, surfaces, shading), row, [direction; 2]);
+                reverse[ray] = squared(arriving * more);
+            }
         }
     }
 }
@@ -321,24 +326,45 @@ pub struct JoinWeightView {
     shading: Option<&'static ShadingNormals>,
     mis: &'static RecursiveMis,
     ratios: &'static JoinRatios,
+    shadow: Option<&'static ShadowHits>,
     rays: &'static mut ShadowRays,
 }
 
+/// Lists those of the rays from rows with a material of this kind that nothing blocks.
+#[inline(always)]
+fn list_unblocked(
+    (kind, materials): (MaterialKind, &MaterialTable),
+    (material, rows): (&[u32], &[u32]),
+    hits: Option<&ShadowHits>,
+    list: &mut Vec<u32>,
+) {
+    let kinds = &materials.kind[..];
+    let is_own = move |row: u32| kinds[material[row as usize] as usize] == kind;
+    let rays = rows.iter().enumerate();
+    match hits.map(|hits| &hits.shape[..rows.len()]) {
+        None => list_those(rays.map(move |(ray, &row)| (ray as u32, is_own(row))), list),
+        Some(shape) => {
+            let is_lit = move |((ray, &row), &by): ((usize, &u32), &u32)| (ray as u32, is_own(row) & (by == NO_SHAPE));
+            list_those(rays.zip(shape).map(is_lit), list);
+        }
+    }
+}
+
 // ANCHOR: weight_joins
-/// Weights every shadow ray from a surface with this BSDF against all other ways to find its path.
+/// Weights every shadow ray from a surface with this BSDF that nothing blocks against all other ways to find its path.
 pub fn weight_joins<B: Bsdf>(
     (materials, bsdf, glass): (Res<Shared<MaterialTable>>, Res<Shared<B>>, Option<Res<Shared<GlassTable>>>),
+    mut list: Local<Vec<u32>>,
     mut tiles: Query<(JoinWeightView, ParameterColumns, InterfaceView)>,
 ) {
-    for (JoinWeightViewItem { eye, paths, surfaces, shading, mis, ratios, mut rays }, columns, interface) in &mut tiles
-    {
+    for (view, columns, interface) in &mut tiles {
+        let JoinWeightViewItem { eye, paths, surfaces, shading, mis, ratios, shadow, mut rays } = view;
         let interface = Interface::new(interface, glass.as_deref());
-        for ray in 0..ratios.rows().min(rays.rows()) {
+        list_unblocked((B::KIND, &materials), (&surfaces.material, &rays.row), shadow, &mut list);
+        for &ray in &list[..] {
+            let ray = ray as usize;
             let row = rays.row[ray] as usize;
             let material = surfaces.material[row] as usize;
-            if materials.kind[material] != B::KIND {
-                continue;
-            }
             let normal = shading.map_or_else(|| surfaces.normal(row).as_dvec3(), |shading| shading.get(row));
             let local_from_world = B::frame(normal).transpose();
             let to_light = local_from_world * rays.direction_of(ray);
@@ -380,18 +406,18 @@ pub struct LeavingView {
 /// direction in place of a connection, and all earlier ones that of the reversed path.
 pub fn leave_with_ratios<B: Bsdf, const FROM_LIGHT: bool>(
     (materials, bsdf, glass): (Res<Shared<MaterialTable>>, Res<Shared<B>>, Option<Res<Shared<GlassTable>>>),
+    mut list: Local<Vec<u32>>,
     mut tiles: Query<(LeavingView, ParameterColumns, InterfaceView)>,
 ) {
     for (LeavingViewItem { rays, paths, surfaces, shading, scattered, mut mis }, columns, interface) in &mut tiles {
         let interface = Interface::new(interface, glass.as_deref());
         let length = mis.rows();
         let (arrival, earlier) = mis.slices_mut(length);
-        for ray in 0..scattered.rows() {
+        list_unblocked((B::KIND, &materials), (&surfaces.material, &scattered.row), None, &mut list);
+        for &ray in &list[..] {
+            let ray = ray as usize;
             let row = scattered.row[ray] as usize;
             let material = surfaces.material[row] as usize;
-            if materials.kind[material] != B::KIND {
-                continue;
-            }
             let path = paths.first[row] as usize;
             let onward = scattered.direction_of(ray);
             let own = surfaces.normal(row).as_dvec3();
@@ -483,7 +509,7 @@ pub fn add_found_emission(
                     let by_light = area_light_pdf(&lights, light, &receiver, point);
                     let cosine = surfaces.normal(row).as_dvec3().dot(direction);
                     let share = luminance(emitted.each(f64::from)) * cosine / starts.power;
-                    let share = share * starts.density(point, -direction);
+                    let share = share * starts.density(starts.cones(point).as_ref(), -direction);
                     let from_light = squared(share) * mis.earlier[paths.first[row] as usize];
                     1.0 / (1.0 + squared(by_light / paths.pdf[row]) + from_light)
                 }

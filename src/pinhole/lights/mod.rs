@@ -47,5 +47,6 @@ pub use light_hierarchy::LightHierarchy;
 pub use point::PlacedPointLight;
 pub use spot::{PlacedSpotLight, spot_falloff, versine, versine_of_half};
 pub use targets::{
-    Cones, MAX_TARGETS, MAX_TARGETS_SOLID_ANGLE, NO_TARGETS, TOWARDS, Target, Targets, direction_to_targets,
+    AT_ONCE, Cones, MAX_TARGETS, MAX_TARGETS_SOLID_ANGLE, NO_TARGETS, TOWARDS, Target, Targets, cones_around,
+    direction_to_targets,
 };

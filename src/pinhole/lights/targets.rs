@@ -2,10 +2,12 @@
 
 use super::light::{LightStart, StartDraws};
 use crate::each::Each;
+use crate::plan::VectorRows;
 use crate::sample::disk_point;
 use crate::shapes::emitter::{cone_direction, cone_versine};
 use crate::shapes::{AnyShape, Bounds, l1_norm};
 use glam::DVec3;
+use multiversion::multiversion;
 use std::f64::consts::{PI, TAU};
 
 /// With more specular shapes than this, one sphere bounds them all.
@@ -189,7 +191,33 @@ fn cone_to(target: &Target, from: DVec3) -> (DVec3, f64) {
     if distance <= radius { (DVec3::Z, 2.0) } else { (to / distance, cone_versine(radius * radius / dd)) }
 }
 
+/// How many directions are asked for at once.
+pub const AT_ONCE: usize = 32;
+
+/// Of points and a direction from each: 1 over 2π of the solid angles that targets subtend from the point, overlapping ones
+/// once each, and how many of them the direction is in.
+///
+/// [`Cones`] say the same of one point.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn cones_around(
+    targets: &[Target],
+    from: &[[f64; AT_ONCE]; 3],
+    direction: &[[f64; AT_ONCE]; 3],
+) -> [[f64; AT_ONCE]; 2] {
+    let mut all = [[0.0; AT_ONCE]; 2];
+    for target in targets {
+        for lane in 0..AT_ONCE {
+            let (axis, whole) = cone_to(target, from.at(lane).into());
+            let off = DVec3::from(direction.at(lane)) - axis;
+            all[0][lane] += whole;
+            all[1][lane] += if 0.5 * off.length_squared() <= whole { 1.0 } else { 0.0 };
+        }
+    }
+    all
+}
+
 /// The cones that targets subtend from a point.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Cones {
     cone: [(DVec3, f64); MAX_TARGETS],
     count: usize,
@@ -245,6 +273,9 @@ pub fn direction_to_targets(
     choice: f64,
     u: [f64; 2],
 ) -> Option<(DVec3, f64)> {
+    if targets.is_empty() {
+        return None;
+    }
     let cones = Cones::new(targets, from);
     (cones.all > 0.0 && cones.all < limit).then(|| cones.sample(choice, u))
 }
@@ -256,6 +287,7 @@ pub const MAX_TARGETS_SOLID_ANGLE: f64 = PI;
 mod tests {
     use super::*;
     use crate::measure::draws::Draws;
+    use crate::plan::VectorRowsMut;
     use crate::shapes::emitter::sphere_direction;
 
     /// Rays of parallel light towards balls of glass and towards everything have the pdf that is said of them, wherever they
@@ -301,6 +333,32 @@ mod tests {
         let all = 12 * 3 * TRIED as usize;
         assert!(all - asked < all / 10_000, "{} of {all} apart", all - asked);
         eprintln!("parallel rays: {asked} of {all} have their pdf, 12 integrals are 1");
+    }
+
+    /// Rows at once have the bits of one after another, from outside of targets and inside.
+    #[test]
+    fn cones_at_once_are_those_of_each_point() {
+        const BLOCKS: u64 = 200;
+        let mut within = 0;
+        for index in 0..BLOCKS {
+            let mut draws = Draws::new(2713, index);
+            let of = |draws: &mut Draws| Target { centre: draws.unit_vector() * 3.0, radius: draws.between(0.1, 2.0) };
+            let targets: Vec<Target> = (0..=index as usize % MAX_TARGETS).map(|_| of(&mut draws)).collect();
+            let mut rays = [[[0.0; AT_ONCE]; 3]; 2];
+            for lane in 0..AT_ONCE {
+                rays[0].put(lane, draws.unit_vector() * draws.between(0.0, 4.0));
+                rays[1].put(lane, draws.unit_vector().normalize());
+            }
+            let [wholes, passed] = cones_around(&targets, &rays[0], &rays[1]);
+            for lane in 0..AT_ONCE {
+                let cones = Cones::new(&targets, rays[0].at(lane).into());
+                let around = cones.around(rays[1].at(lane).into(), None);
+                assert_eq!((TAU * wholes[lane], passed[lane] as usize), (cones.all, around), "{index}, lane {lane}");
+                within += usize::from(around > 0);
+            }
+        }
+        eprintln!("cones: {} points, {within} directions to targets", BLOCKS as usize * AT_ONCE);
+        assert!(within > 1000, "{within}");
     }
 
     /// Directions to targets, each weighted by 1 over its pdf, cover the union of the cones as uniform directions do.

@@ -71,6 +71,12 @@ impl ShadingContext {
     }
 }
 
+/// The frame about a normal, whose length is mended where lobes are so narrow that its rounding shows.
+#[inline(always)]
+pub(crate) fn frame_about(normal: DVec3, narrow: bool) -> DMat3 {
+    frame_of(if narrow { normal.normalize() } else { normal })
+}
+
 // ANCHOR: reverse_pdf
 /// The pdf with which a path would go from a surface to the eye if it came from the light.
 ///
@@ -196,7 +202,7 @@ pub trait Bsdf: Table + Named {
     /// The frame in which it is evaluated, about the normal of a surface.
     #[inline(always)]
     fn frame(normal: DVec3) -> DMat3 {
-        frame_of(if Self::NARROW { normal.normalize() } else { normal })
+        frame_about(normal, Self::NARROW)
     }
 
     /// The kind that a component becomes, which may be another one where its parameters are extreme.

@@ -58,7 +58,7 @@ pub use bsdf::{
     REGISTERED, Registration, ShadingContext, Spawn, SpecularSample, StageNames, Transport, add_material,
     declared_materials, entities_of_kind, is_material, material_entities, material_kind, registered_materials,
 };
-pub(crate) use bsdf::{NUMBERS, check_kinds, components_in_words, interior_of, one_material, reverse_pdf};
+pub(crate) use bsdf::{NUMBERS, check_kinds, components_in_words, frame_about, interior_of, one_material, reverse_pdf};
 pub(crate) use for_each_bsdf;
 pub use highlight::{Highlight, HighlightTable, Lobe, highlight};
 pub use principled::PrincipledTable;

@@ -54,7 +54,7 @@ impl Draws<'_> {
     /// The sample of each pixel that the numbers are for.
     pub fn sample(&self) -> SampleIndex {
         let number = self.number.map_or(0, |number| number.0);
-        SampleIndex { number, samples: self.sampling.samples, depth: self.depth.0 }
+        SampleIndex { number, samples: self.sampling.samples, depth: self.sampling.bounce(self.depth.0) }
     }
 }
 

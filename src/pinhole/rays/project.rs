@@ -43,9 +43,6 @@ pub fn raster_from_camera(camera: DVec2, half_height: f64, size: DVec2) -> DVec2
 pub fn join_camera(join: &CameraJoinTable, lens: DVec2, point: DVec3) -> Option<CameraJoin> {
     let camera = join.camera_from_world * point;
     let depth = -camera.z;
-    if depth <= 0.0 {
-        return None;
-    }
     let (projected, to_camera, importance) = if join.is_perspective {
         let to_lens = join.camera_from_world.transpose() * lens.extend(0.0) - point;
         let falloff = to_lens.length() / (depth * depth * depth);
@@ -56,8 +53,8 @@ pub fn join_camera(join: &CameraJoinTable, lens: DVec2, point: DVec3) -> Option<
     };
     let raster = raster_from_camera(projected, join.half_height, join.size);
     let (min, max) = (DVec2::splat(-join.margin), join.size + join.margin);
-    let seen = raster.cmpge(min).all() && raster.cmple(max).all();
-    seen.then_some(CameraJoin { to_camera, raster, importance })
+    let inside = (raster.x >= min.x) & (raster.y >= min.y) & (raster.x <= max.x) & (raster.y <= max.y);
+    (inside & (depth > 0.0)).then_some(CameraJoin { to_camera, raster, importance })
 }
 // ANCHOR_END: join_camera
 

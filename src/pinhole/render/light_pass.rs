@@ -71,6 +71,8 @@ pub(super) struct LightPass<C> {
     paths: f64,
     /// The pixels of the image, and the batches for a sample of each, where each sample has its own.
     each_sample: Option<[u64; 2]>,
+    /// The batches of each sample, where pixels are joined to its paths.
+    joined: Option<u64>,
     filter: SplatFilter,
     sampling: SamplingTable,
 }
@@ -121,7 +123,8 @@ impl<C: Left> LightPass<C> {
             paths: tracing.paths,
             each_sample: is_for_samples.then_some([pixels, batches]),
             filter: SplatFilter::new(scene.table::<FilterTable>()?.filter),
-            sampling: scene.table::<SamplingTable>()?.for_light_paths(),
+            joined: plan.keeps::<LightVertices>().then_some(batches),
+            sampling: scene.table::<SamplingTable>()?.for_light_paths(plan.keeps::<LightVertices>()),
         }))
     }
 
@@ -160,7 +163,7 @@ impl<C: Left> LightPass<C> {
                     return;
                 }
                 let mut list = self.lists[number as usize].lock().unwrap_or_else(PoisonError::into_inner);
-                if watch.stopped() || !run_batch(world, first + number, &mut *list) {
+                if watch.stopped() || !run_batch(world, (first + number, self.joined), &mut *list) {
                     given_up.store(true, Ordering::Relaxed);
                     return;
                 }
@@ -229,7 +232,7 @@ impl LightPass<Splats> {
     pub fn first_splats(&self, means: &Means<'_>, watch: &dyn Watch) -> Vec<u64> {
         let (mut world, mut list) = (self.world(means), Splats::default());
         world.stop_at(Stop::at_flag(watch.stop_flag()));
-        run_batch(&mut world, 0, &mut list);
+        run_batch(&mut world, (0, self.joined), &mut list);
         (0..list.rows()).flat_map(|at| list.raster.at(at).into_iter().chain(list.rgb(at))).map(f64::to_bits).collect()
     }
 }
@@ -434,32 +437,36 @@ pub fn probe_light_paths(
     if !has_light_pass(plan) {
         return Ok(false);
     }
-    let sampling = scene.table::<SamplingTable>()?.for_light_paths();
+    let sampling = scene.table::<SamplingTable>()?.for_light_paths(plan.keeps::<LightVertices>());
     let mut made = RenderWorld::of_pass(RowKind::LightPath, plan, tables, 1, hooks);
     made.world.insert_resource(Shared::new(sampling));
     let before = thread_time();
     made.stop_at(Stop::at_deadline(Instant::now() + patience));
     if plan.keeps::<Photons>() {
-        run_batch(&mut made, 0, &mut Photons::default());
+        run_batch(&mut made, (0, None), &mut Photons::default());
     } else if plan.keeps::<LightVertices>() {
-        run_batch(&mut made, 0, &mut VerticesAndSplats::default());
+        run_batch(&mut made, (0, None), &mut VerticesAndSplats::default());
     } else {
-        run_batch(&mut made, 0, &mut Splats::default());
+        run_batch(&mut made, (0, None), &mut Splats::default());
     }
     look(&mut made.world, before.and_then(|before| Some(thread_time()?.saturating_sub(before))));
     Ok(true)
 }
 
 /// Runs a batch of light paths and moves what they leave to `list`, which is empty; returns whether the run was completed.
-fn run_batch<C: Left>(world: &mut RenderWorld, batch: u64, list: &mut C) -> bool {
+///
+/// Paths that pixels are joined to are numbered by sample, as those of the pixels are: the same pixel's paths, one sample
+/// after another, are points of one sequence. Otherwise all batches are, one after another.
+fn run_batch<C: Left>(world: &mut RenderWorld, (batch, joined): (u64, Option<u64>), list: &mut C) -> bool {
+    let (sample, place_in_sample) = joined.map_or((batch, batch >> 32), |each| (batch / each, batch % each));
     let tile = world.tiles[0];
     let mut entity = world.world.entity_mut(tile);
     if let Some(mut place) = entity.get_mut::<Tile>() {
         // The random numbers of a light path are a function of its row and its batch alone.
-        *place = Tile { x: 0, y: (batch >> 32) as u32, width: LIGHT_PATHS, height: 1 };
+        *place = Tile { x: 0, y: place_in_sample as u32, width: LIGHT_PATHS, height: 1 };
     }
     if let Some(mut number) = entity.get_mut::<SampleNumber>() {
-        *number = SampleNumber(batch as u32);
+        *number = SampleNumber(sample as u32);
     }
     let whole = world.run();
     list.swap(&mut world.world.entity_mut(tile));

@@ -257,7 +257,7 @@ struct InWay<E, const WAY: usize> {
 
 impl<E: Emitting, const WAY: usize> MakesRays for InWay<E, WAY> {
     #[inline(always)]
-    fn ray_from(&self, surface: &Surface, normal: DVec3, u: [f64; 2]) -> LightRay {
+    fn ray_from(&self, surface: &Surface, normal: DVec3, u: [f64; 2], _: DVec3) -> LightRay {
         sample_light::<E, WAY>(&self.emitter, self.light, surface, normal, u)
     }
 }

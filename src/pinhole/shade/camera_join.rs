@@ -1,15 +1,16 @@
 use super::light::{ShadowRay, shadow_t_max};
-use super::receivers::{LightRay, LightRows, append_sampled};
+use super::receivers::{LightRay, LightRows, MakesRays, append_rays};
 use super::{ShadowRays, TransmissiveRows};
 use crate::extract::{CameraJoinTable, LensTable, SamplingTable, joined_evidence, lens_evidence};
-use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine};
+use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, falling_cosine};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, VectorRowsMut, column};
 use crate::rays::{Depth, Draws, Paths, SampleNumber, Tile, WorldRays, draws_of_two, join_camera, lens_point};
 use crate::sample::Purpose;
 use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
+use multiversion::multiversion;
 
 column! {
     /// The point on the lens to which each surface on a light path is connected.
@@ -91,27 +92,45 @@ pub struct ConnectionView {
 ///
 /// The camera takes the place of a light: the incident power is known, and the light sent to the camera is wanted; the
 /// BSDF is the same in both directions.
-pub fn connect_to_camera(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<ConnectionView>) {
+pub fn connect_to_camera(
+    join: Res<Shared<CameraJoinTable>>,
+    mut lens: Local<[Vec<[f64; 2]>; 2]>,
+    mut tiles: Query<ConnectionView>,
+) {
     for ConnectionViewItem { arriving, surfaces, shading, list, far, points, mut rays } in &mut tiles {
-        let receivers = LightRows::new(surfaces, shading, list, far);
-        append_sampled(&receivers, (&mut rays, None), |row, surface, normal| {
-            let origin = offset_origin(surface.position, surface.normal, surface.bound);
-            let lens = points.map_or(DVec2::ZERO, |points| points.point(row));
-            let joined = join_camera(&join, lens, origin.as_dvec3()).unwrap_or_default();
-            let distance = joined.to_camera.length();
-            let direction = (joined.to_camera * (1.0 / distance)).as_vec3();
-            let (own, from) = (surface.normal.as_dvec3(), -arriving.direction_of(row));
-            let seen = if distance > 0.0 { own.dot(direction.as_dvec3()) } else { 0.0 };
-            // Light that arrives on one side may leave on the other.
-            let side = own.dot(from).signum();
-            let cosine = join_cosine(seen, side * own.dot(from), falling_cosine(side * own, side * normal, from));
-            let ray = ShadowRay { origin, direction, distance, cosine };
-            let irradiance = [joined.importance * cosine; 3];
-            LightRay { ray, t_max: shadow_t_max(distance), irradiance, pdf: 0.0 }
-        });
+        let receivers = LightRows::new(surfaces, shading, list, far).with_arriving(arriving);
+        for (lens, rows) in lens.iter_mut().zip(receivers.rows()) {
+            lens.clear();
+            lens.extend(rows.iter().filter_map(|&row| Some(points?.point(row as usize).to_array())));
+        }
+        connect_rows(&join, &receivers, &lens, &mut rays);
+    }
+}
+
+impl MakesRays for CameraJoinTable {
+    /// The ray to a point of the lens, and the importance of the pixel that it reaches.
+    #[inline(always)]
+    fn ray_from(&self, surface: &Surface, normal: DVec3, lens: [f64; 2], arriving: DVec3) -> LightRay {
+        let origin = offset_origin(surface.position, surface.normal, surface.bound);
+        let joined = join_camera(self, lens.into(), origin.as_dvec3()).unwrap_or_default();
+        let distance = joined.to_camera.length();
+        let direction = (joined.to_camera * (1.0 / distance)).as_vec3();
+        let (own, from) = (surface.normal.as_dvec3(), -arriving);
+        let seen = if distance > 0.0 { own.dot(direction.as_dvec3()) } else { 0.0 };
+        // Light that arrives on one side may leave on the other.
+        let side = own.dot(from).signum();
+        let cosine = join_cosine(seen, side * own.dot(from), falling_cosine(side * own, side * normal, from));
+        let ray = ShadowRay { origin, direction, distance, cosine };
+        LightRay { ray, t_max: shadow_t_max(distance), irradiance: [joined.importance * cosine; 3], pdf: 0.0 }
     }
 }
 // ANCHOR_END: connect_to_camera
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn connect_rows(join: &CameraJoinTable, receivers: &LightRows<'_>, lens: &[Vec<[f64; 2]>; 2], rays: &mut ShadowRays) {
+    let join = join.clone();
+    append_rays(receivers, (rays, None), true, &join, [&lens[0], &lens[1]]);
+}
 
 /// The stage that runs [`connect_to_camera`].
 pub fn camera_join_stage() -> Stage {

@@ -26,7 +26,7 @@ use std::any::TypeId;
 impl<L: Light> MakesRays for L {
     /// The shadow ray to a light, and the irradiance that it brings if it is not blocked.
     #[inline(always)]
-    fn ray_from(&self, surface: &Surface, normal: DVec3, _: [f64; 2]) -> LightRay {
+    fn ray_from(&self, surface: &Surface, normal: DVec3, _: [f64; 2], _: DVec3) -> LightRay {
         let origin = offset_origin(surface.position, surface.normal, surface.bound);
         let sample = self.sample(origin.as_dvec3());
         let cosine = cosine_of(surface, normal, sample.direction);
@@ -80,7 +80,7 @@ fn chosen_ray<L: ListedLight>(
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let receiver = Receiver { position: origin.as_dvec3(), normal: surface.normal.as_dvec3(), depth: 0 };
     let (light, probability) = choice.choose(&receiver, fraction);
-    let mut light_ray = lights.row[light].ray_from(surface, normal, [0.0; 2]);
+    let mut light_ray = lights.row[light].ray_from(surface, normal, [0.0; 2], DVec3::ZERO);
     light_ray.irradiance = light_ray.irradiance.each(|part| part / probability);
     if !lights.casts_shadows[light] {
         light_ray.t_max = 0.0;

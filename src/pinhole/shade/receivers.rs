@@ -5,6 +5,7 @@ use super::{LightPdfs, ShadowRays, TransmissiveRows};
 use crate::each::{Each, by_lane, gathered, lanes_of};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, SurfaceSlices, Surfaces};
 use crate::plan::{Column, VectorRows, VectorRowsMut};
+use crate::rays::WorldRays;
 use crate::shapes::offset_origin;
 use glam::{DVec3, Vec3};
 use multiversion::multiversion;
@@ -26,6 +27,8 @@ pub(super) struct LightRows<'a> {
     rows: &'a [u32],
     /// Those that are lit from behind as well.
     far: &'a [u32],
+    /// The rays that arrive at them, where what is made of them depends on these.
+    arriving: Option<&'a WorldRays>,
 }
 
 impl<'a> LightRows<'a> {
@@ -36,7 +39,13 @@ impl<'a> LightRows<'a> {
         list: &'a MaterialRows,
         far: Option<&'a TransmissiveRows>,
     ) -> Self {
-        Self { surfaces, shading, rows: &list.row, far: far.map_or(&[], |far| &far.row) }
+        Self { surfaces, shading, rows: &list.row, far: far.map_or(&[], |far| &far.row), arriving: None }
+    }
+
+    /// The same, where what is made of them depends on the rays that arrive.
+    #[inline(always)]
+    pub fn with_arriving(self, arriving: &'a WorldRays) -> Self {
+        Self { arriving: Some(arriving), ..self }
     }
 
     /// Some of them: these rows, and those of them that are lit from behind as well.
@@ -81,8 +90,10 @@ pub(super) type RayLists<'a> = (&'a mut ShadowRays, Option<&'a mut LightPdfs>);
 /// processors.
 pub(super) trait MakesRays {
     /// The shadow ray from a surface; `normal` is the shading normal, or the geometric one where there is no other, and
-    /// `u` a point of the unit square for a light that has an area.
-    fn ray_from(&self, surface: &Surface, normal: DVec3, u: [f64; 2]) -> LightRay;
+    /// `u` a point of the unit square for a light that has an area, or of a lens.
+    ///
+    /// `arriving` is the direction of the ray that arrives, where it is asked for: [`LightRows::with_arriving`].
+    fn ray_from(&self, surface: &Surface, normal: DVec3, u: [f64; 2], arriving: DVec3) -> LightRay;
 }
 
 /// A point of the unit square for each row, and for each that is lit from behind; none for a light without an area.
@@ -123,6 +134,7 @@ struct SurfaceBlock {
     bound: [f32; AT_ONCE],
     material: [u32; AT_ONCE],
     normal: [[f64; AT_ONCE]; 3],
+    arriving: [[f32; AT_ONCE]; 3],
     u: [[f64; AT_ONCE]; 2],
 }
 
@@ -143,6 +155,7 @@ impl SurfaceBlock {
         bound: [0.0; AT_ONCE],
         material: [0; AT_ONCE],
         normal: [[0.0; AT_ONCE]; 3],
+        arriving: [[0.0; AT_ONCE]; 3],
         u: [[0.0; AT_ONCE]; 2],
     };
 
@@ -173,11 +186,14 @@ fn starts_of(surfaces: &SurfaceSlices<'_>, rows: &[u32], side: f32) -> Starts {
 fn gather_surfaces(
     block: &mut SurfaceBlock,
     surfaces: &SurfaceSlices<'_>,
-    shading: Option<&ShadingNormals>,
+    (shading, arriving): (Option<&ShadingNormals>, Option<&WorldRays>),
     rows: &[u32],
     side: f32,
 ) {
     let rows = lanes_of(rows, 0_u32);
+    if let Some(arriving) = arriving {
+        block.arriving = [0, 1, 2].each(|axis: usize| gathered(&arriving.direction[axis], &rows));
+    }
     for axis in 0..3 {
         block.position[axis] = gathered(surfaces.position[axis], &rows);
         let geometric: [f32; AT_ONCE] = gathered(surfaces.normal[axis], &rows);
@@ -227,7 +243,8 @@ impl LightRayBlock {
 fn make(light: &impl MakesRays, block: &SurfaceBlock, made: &mut LightRayBlock) {
     for lane in 0..AT_ONCE {
         let (surface, normal) = block.get(lane);
-        made.set(lane, &light.ray_from(&surface, normal, [block.u[0][lane], block.u[1][lane]]));
+        let (arriving, u) = (Vec3::from(block.arriving.at(lane)).as_dvec3(), [block.u[0][lane], block.u[1][lane]]);
+        made.set(lane, &light.ray_from(&surface, normal, u, arriving));
     }
 }
 
@@ -244,7 +261,7 @@ fn append(
     let (mut path, surfaces) = ([0; AT_ONCE], receivers.surfaces.to_read());
     let mut draws = draws.chunks(AT_ONCE);
     for rows in rows.chunks(AT_ONCE) {
-        gather_surfaces(&mut block, &surfaces, receivers.shading, rows, side);
+        gather_surfaces(&mut block, &surfaces, (receivers.shading, receivers.arriving), rows, side);
         for (lane, [u, v]) in by_lane::<AT_ONCE, _>(draws.next().unwrap_or_default()) {
             (block.u[0][lane], block.u[1][lane]) = (u, v);
         }
