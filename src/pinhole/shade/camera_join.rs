@@ -128,7 +128,7 @@ impl MakesRays for CameraJoinTable {
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn connect_rows(join: &CameraJoinTable, receivers: &LightRows<'_>, lens: &[Vec<[f64; 2]>; 2], rays: &mut ShadowRays) {
-    let join = join.clone();
+    let join = *join;
     append_rays(receivers, (rays, None), true, &join, [&lens[0], &lens[1]]);
 }
 
