@@ -336,7 +336,7 @@ fn join_vertex<B: Bsdf>(
     segment: &Segment,
     [onward, to_source]: [DVec3; 2],
 ) -> Join {
-    let Segment { direction, square, geometry, .. } = *segment;
+    let Segment { direction, square, geometry } = *segment;
     let opaque = ShadingContext::opaque(bsdf_row, vertex.parameters);
     let context = ShadingContext { eta: vertex.eta, transport: Transport::Importance, ..opaque };
     let (scattered, [forth, back]) = bsdf.eval_and_pdfs(&context, onward, to_source);

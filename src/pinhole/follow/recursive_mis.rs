@@ -339,12 +339,13 @@ fn list_unblocked(
     list: &mut Vec<u32>,
 ) {
     let kinds = &materials.kind[..];
-    let is_own = move |row: u32| kinds[material[row as usize] as usize] == kind;
+    let is_of_kind = move |row: u32| kinds[material[row as usize] as usize] == kind;
     let rays = rows.iter().enumerate();
     match hits.map(|hits| &hits.shape[..rows.len()]) {
-        None => list_those(rays.map(move |(ray, &row)| (ray as u32, is_own(row))), list),
+        None => list_those(rays.map(move |(ray, &row)| (ray as u32, is_of_kind(row))), list),
         Some(shape) => {
-            let is_lit = move |((ray, &row), &by): ((usize, &u32), &u32)| (ray as u32, is_own(row) & (by == NO_SHAPE));
+            let is_lit =
+                move |((ray, &row), &by): ((usize, &u32), &u32)| (ray as u32, is_of_kind(row) & (by == NO_SHAPE));
             list_those(rays.zip(shape).map(is_lit), list);
         }
     }

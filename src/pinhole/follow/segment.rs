@@ -30,36 +30,34 @@ pub(super) struct Segment {
     pub square: f64,
     /// The cosines of both ends over that.
     pub geometry: f64,
-    /// Whether both ends face each other.
-    counts: bool,
 }
 
 // ANCHOR: join_segment
 /// The ray from a surface to a light vertex, given by its position, normal, shading normal and the direction that its light
-/// comes from.
+/// comes from; and whether both ends face each other.
 ///
 /// There is no branch, so that rows are computed side by side.
 #[inline(always)]
 fn segment(
     [origin, normal, shaded]: [DVec3; 3],
-    [position, of_vertex, shading, source]: [Vec3; 4],
+    [position, vertex_normal, shading, source]: [Vec3; 4],
     bound: f32,
     transmits: bool,
-) -> Segment {
-    let own = of_vertex.as_dvec3();
-    let seen = (origin - position.as_dvec3()).dot(own);
-    let side = if seen < 0.0 { -of_vertex } else { of_vertex };
+) -> (Segment, bool) {
+    let outward = vertex_normal.as_dvec3();
+    let seen = (origin - position.as_dvec3()).dot(outward);
+    let side = if seen < 0.0 { -vertex_normal } else { vertex_normal };
     let to_light = offset_origin(position, side, bound).as_dvec3() - origin;
     let square = to_light.length_squared();
     let direction = to_light * (1.0 / square.sqrt());
-    let (leaving, arriving) = (own.dot(direction).abs(), falling_cosine(normal, shaded, direction));
+    let (leaving, arriving) = (outward.dot(direction).abs(), falling_cosine(normal, shaded, direction));
 
     // A shading normal counts arriving light by its own cosine (Veach 1997, 5.3).
     let (source, shading) = (source.as_dvec3(), shading.as_dvec3());
-    let sent = join_cosine(leaving, own.dot(source), falling_cosine(own, shading, source));
+    let sent = join_cosine(leaving, outward.dot(source), falling_cosine(outward, shading, source));
     let sends = ((seen > 0.0) | (transmits & (seen < 0.0))) & (side.as_dvec3().dot(direction) < 0.0);
     let counts = sends & (square >= f64::MIN_POSITIVE) & (arriving > 0.0);
-    Segment { direction, square, geometry: sent * arriving / square, counts }
+    (Segment { direction, square, geometry: sent * arriving / square }, counts)
 }
 // ANCHOR_END: join_segment
 
@@ -115,7 +113,7 @@ impl SegmentBlock {
     #[inline(always)]
     pub fn get(&self, lane: usize) -> (Segment, [DVec3; 2]) {
         let (square, geometry) = (self.square[lane], self.geometry[lane]);
-        let segment = Segment { direction: self.direction.at(lane).into(), square, geometry, counts: true };
+        let segment = Segment { direction: self.direction.at(lane).into(), square, geometry };
         (segment, [0, 1].each(|vector: usize| self.local[vector].at(lane).into()))
     }
 
@@ -138,7 +136,7 @@ pub(super) fn segments(block: &mut SegmentBlock, transmits: bool, narrow: bool) 
         let [origin, normal] = [&block.origin, &block.normal].each(|vectors| Vec3::from(vectors.at(lane)).as_dvec3());
         let vertex = [0, 1, 2, 3].each(|vector| Vec3::from(block.vertex[vector].at(lane)));
         let ends = [origin, normal, block.shaded.at(lane).into()];
-        let Segment { direction, square, geometry, counts } = segment(ends, vertex, block.bound[lane], transmits);
+        let (Segment { direction, square, geometry }, counts) = segment(ends, vertex, block.bound[lane], transmits);
         let local_from_world = frame_about(vertex[2].as_dvec3(), narrow).transpose();
         block.direction.put(lane, direction);
         block.local[0].put(lane, local_from_world * -direction);
