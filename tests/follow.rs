@@ -67,7 +67,7 @@ use pinhole_lab::measure::image_error::Numbers;
 use pinhole_lab::report::agreement::{Agreement, agreement};
 use pinhole_lab::report::run::numbers;
 use scenes::public::public;
-use scenes::{named, offer};
+use scenes::{named, offer, unhurried};
 
 #[test]
 fn closed_forms_hold() {

@@ -13,7 +13,7 @@ use pinhole::render::{RenderInProgress, check_film_fits, prepare};
 use pinhole::scene::in_words_of_files;
 use serde_json::json;
 use std::io::Write;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// What would be said before a render, a line each; without a subject, of small scenes with something wrong.
 ///
@@ -68,7 +68,13 @@ fn said(scene: &World, stages: &[Stage], began: Instant) -> pinhole::Result<Vec<
     let census = &Census::of(scene);
     let (plan, tables) = prepare(census, stages)?;
     check_film_fits(census, &plan)?;
-    preflight(census, (&plan, &tables), Preflight::default().since(began))
+    preflight(census, (&plan, &tables), Preflight { patience: patience(), ..Preflight::default() }.since(began))
+}
+
+/// A build for tests, which is slower and may have others beside it, gets ten times as long, so that its warnings are the
+/// same.
+fn patience() -> Option<Duration> {
+    cfg!(debug_assertions).then_some(Duration::from_secs(10))
 }
 
 fn print_lines(told: &[String], indent: &str, out: &mut dyn Write) -> Result {
@@ -95,7 +101,7 @@ pub fn before_rendering(
     }
     // How long a part takes, test rays all over the image do not say.
     let (threads, ends_in_time) = (options.threads.map(usize::from), options.time.is_some() || options.crop.is_some());
-    let asked = Preflight { threads, ends_in_time, ..Preflight::default() }.since(began);
+    let asked = Preflight { threads, ends_in_time, patience: patience() }.since(began);
     let mut said = foretell(scene, (&render.plan, render.tables()), asked)?;
     said.warnings = said.warnings.into_iter().map(|sentence| subject.in_its_words(sentence)).collect();
     if !json {

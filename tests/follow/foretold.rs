@@ -3,7 +3,7 @@
 use super::*;
 use glam::DVec3;
 use pinhole::film::rgba_bytes;
-use pinhole::look::{Preflight, foretell, preflight};
+use pinhole::look::{foretell, preflight};
 use pinhole::render::prepare;
 use pinhole::scene::*;
 
@@ -148,7 +148,7 @@ fn what_is_said_before_a_render_is_so() {
                     }
                     let census = &Census::of(&world);
                     let Ok((plan, tables)) = prepare(census, &offer()) else { continue };
-                    let told = preflight(census, (&plan, &tables), Preflight::default()).expect("said");
+                    let told = preflight(census, (&plan, &tables), unhurried()).expect("said");
                     let found = falsehoods(&world, [light, material, integrator], is_closed, &told);
                     claims += told.iter().filter(|sentence| sentence.contains("black")).count();
                     for words in found {
@@ -204,7 +204,7 @@ fn a_pixel_is_not_said_to_take_minutes() {
 pub fn said(world: &World) -> Vec<String> {
     let census = &Census::of(world);
     let (plan, tables) = prepare(census, &offer()).expect("prepared");
-    preflight(census, (&plan, &tables), Preflight::default()).expect("said")
+    preflight(census, (&plan, &tables), unhurried()).expect("said")
 }
 
 #[test]
@@ -322,7 +322,7 @@ fn the_pixel_to_trace_is_lit() {
         let scene = chapter.world(&asked);
         let census = &Census::of(&scene);
         let (plan, tables) = prepare(census, &chapter.stages()).expect("prepared");
-        let foretold = foretell(census, (&plan, &tables), Preflight::default()).expect("said");
+        let foretold = foretell(census, (&plan, &tables), unhurried()).expect("said");
         let Some([x, y]) = foretold.lit_pixel else {
             none.push(chapter.name);
             continue;

@@ -53,7 +53,7 @@ fn a_point_behind_glass_lights_nothing_and_that_is_said() {
         let world = seen(&scene, integrator);
         let census = &Census::of(&world);
         let (plan, tables) = prepare(census, &offer()).expect("prepared");
-        let asked = Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() };
+        let asked = Preflight { threads: Some(1), ends_in_time: true, ..unhurried() };
         let said = preflight(census, (&plan, &tables), asked).expect("said");
         let told = |sentence: &String| sentence.contains("\"shell\"") && sentence.contains("\"bulb\"");
         assert!(said.iter().any(told), "{integrator:?}: {said:#?}");

@@ -14,7 +14,7 @@ use pinhole::{Chapter, Overrides, stages};
 fn said(scene: &World) -> Result<Vec<String>, Error> {
     let census = &Census::of(scene);
     let (plan, tables) = prepare(census, &offer())?;
-    preflight(census, (&plan, &tables), Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() })
+    preflight(census, (&plan, &tables), Preflight { threads: Some(1), ends_in_time: true, ..unhurried() })
 }
 
 #[test]
@@ -188,7 +188,7 @@ fn nothing_is_said_of_the_chapters_scenes() {
         let scene = chapter.world(&asked);
         let census = &Census::of(&scene);
         let (plan, tables) = prepare(census, &chapter.stages()).expect("prepared");
-        let asked = Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() };
+        let asked = Preflight { threads: Some(1), ends_in_time: true, ..unhurried() };
         let mut told = preflight(census, (&plan, &tables), asked).expect("said");
         let before = told.len();
         told.retain(|sentence| !sentence.contains("mirrors or glass"));

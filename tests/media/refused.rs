@@ -1,6 +1,7 @@
 //! What a medium may not be, in one sentence; and what it may, however odd.
 
 use super::*;
+use crate::scenes::unhurried;
 use pinhole::look::{Preflight, preflight};
 use pinhole::plan::Census;
 use pinhole::render::prepare;
@@ -158,7 +159,7 @@ fn odd_media_are_said() {
     let said = |world: &World| {
         let census = &Census::of(world);
         let (plan, tables) = prepare(census, &offer()).expect("prepared");
-        let asked = Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() };
+        let asked = Preflight { threads: Some(1), ends_in_time: true, ..unhurried() };
         preflight(census, (&plan, &tables), asked).expect("said")
     };
     assert_eq!(said(&ball_of(Medium::default())), Vec::<String>::new());

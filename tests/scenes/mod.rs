@@ -12,7 +12,7 @@ mod toggled;
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::look::view_stage;
+use pinhole::look::{Preflight, view_stage};
 use pinhole::plan::{Census, Stage};
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
@@ -21,6 +21,7 @@ use pinhole::{shade, stages};
 pub use pinhole_lab::measure::film_bits::FilmBits;
 #[allow(unused_imports, reason = "each test takes what it needs")]
 pub use soft::soft;
+use std::time::Duration;
 #[allow(unused_imports, reason = "each test takes what it needs")]
 pub use textured::{TextureToggle, textured, textured_by};
 #[allow(unused_imports, reason = "each test takes what it needs")]
@@ -87,6 +88,11 @@ pub fn offer() -> Vec<Stage> {
     let mut offer = stages::all();
     offer.push(view_stage(&offer));
     offer
+}
+
+/// Conditions in which no test ray is cut off because another test keeps the processor busy.
+pub fn unhurried() -> Preflight {
+    Preflight { patience: Some(Duration::from_secs(10)), ..Preflight::default() }
 }
 
 /// Every stage of direct light, after which no path goes on.

@@ -87,7 +87,8 @@ pub fn looks_like<I: 'static, A: Shown + 'static>(
     };
     let asked: Vec<Vec<f64>> = inputs.iter().map(|probe| numbers_of(&probe.input)).collect();
     let named = NamedNumbers::new(&words, asked[first].len());
-    let is_asked = |made: &I| named.is_like(&numbers_of(made), &asked);
+    let ranges = named.ranges(&asked);
+    let is_asked = |made: &I| named.is_like(&numbers_of(made), &ranges);
     let misread_all: Vec<Vec<Misread<I>>> = inputs.iter().map(|probe| misread(&probe.input)).collect();
     for (kind, Misread { numbers, told, .. }) in misread_all[first].iter().enumerate() {
         // Of the first wrong answer that it may explain: one input rules out most of them.

@@ -187,6 +187,24 @@ pub fn part_of(at: usize, count: usize) -> String {
     if count <= 3 { ["x", "y", "z"][at].into() } else { format!("part {}", at + 1) }
 }
 
+/// The numbers that inputs have in one place; NaN is in no range.
+#[derive(Clone, Copy)]
+struct Range {
+    low: f64,
+    high: f64,
+    is_nan: bool,
+}
+
+/// What inputs have in each place, and whether each of the named vectors is 0 in any.
+pub struct Ranges {
+    of: Vec<Range>,
+    is_zero: Vec<bool>,
+}
+
+fn is_zero([from, size]: [usize; 2], of: &[f64]) -> bool {
+    of[from..from + size].iter().all(|part| *part == 0.0)
+}
+
 /// The arguments' names, and which of all numbers are each one's: the first, and how many.
 pub struct NamedNumbers(Vec<(String, [usize; 2])>);
 
@@ -210,21 +228,34 @@ impl NamedNumbers {
         Self(if next == count { all } else { Vec::new() })
     }
 
+    /// What the inputs that are asked have in each place.
+    pub fn ranges(&self, asked: &[Vec<f64>]) -> Ranges {
+        let places = asked.iter().map(Vec::len).max().unwrap_or(0);
+        let mut of = vec![Range { low: f64::INFINITY, high: f64::NEG_INFINITY, is_nan: true }; places];
+        for numbers in asked {
+            for (range, &number) in of.iter_mut().zip(numbers) {
+                *range = Range {
+                    low: range.low.min(number),
+                    high: range.high.max(number),
+                    is_nan: range.is_nan && number.is_nan(),
+                };
+            }
+        }
+        Ranges { of, is_zero: self.0.iter().map(|named| asked.iter().any(|asked| is_zero(named.1, asked))).collect() }
+    }
+
     /// Whether numbers are such as the inputs have, so that no function is asked what it is not made for: none is
     /// much smaller or larger than all that are asked in its place or of another sign, and no vector is 0 that never is.
-    pub fn is_like(&self, numbers: &[f64], asked: &[Vec<f64>]) -> bool {
-        let within = |(at, number): (usize, &f64)| {
-            let of = || asked.iter().filter_map(|asked| asked.get(at).copied());
-            let (low, high) = (of().fold(f64::INFINITY, f64::min), of().fold(f64::NEG_INFINITY, f64::max));
+    pub fn is_like(&self, numbers: &[f64], ranges: &Ranges) -> bool {
+        let within = |(&number, &Range { low, high, is_nan }): (&f64, &Range)| {
             let more = if high - low < f64::INFINITY { (high - low) / 10.0 } else { 0.0 };
-            number.is_nan() == of().all(f64::is_nan)
-                && !(*number < low - more || *number > high + more)
-                && !(low > 0.0 && *number <= 0.0 || low >= 0.0 && *number < 0.0)
+            number.is_nan() == is_nan
+                && !(number < low - more || number > high + more)
+                && !(low > 0.0 && number <= 0.0 || low >= 0.0 && number < 0.0)
         };
-        let is_zero = |[from, size]: [usize; 2], of: &[f64]| of[from..from + size].iter().all(|part| *part == 0.0);
-        let is_vector_like =
-            |(_, at): &(String, [usize; 2])| !is_zero(*at, numbers) || asked.iter().any(|asked| is_zero(*at, asked));
-        numbers.iter().enumerate().all(within) && self.0.iter().all(is_vector_like)
+        numbers.len() <= ranges.of.len()
+            && numbers.iter().zip(&ranges.of).all(within)
+            && self.0.iter().zip(&ranges.is_zero).all(|(named, &may_be)| may_be || !is_zero(named.1, numbers))
     }
 
     /// The first number of each argument, and how many it has.

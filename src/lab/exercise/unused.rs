@@ -25,13 +25,14 @@ pub fn unused<I: Clone, A: Shown>(
     };
     let asked: Vec<Vec<f64>> = inputs.iter().map(|input| numbers_of(input)).collect();
     let named = NamedNumbers::new(&(question.tell)(inputs.first()?), asked[0].len());
+    let ranges = named.ranges(&asked);
     // Which way to misread, of which input, and what is asked then.
     let mut changed: Vec<(usize, usize, I)> = Vec::new();
     for (at, input) in inputs.iter().enumerate() {
         let right = (question.right)(input);
         for (kind, misread) in misread(input).into_iter().enumerate() {
             if misread.numbers.len() == 1
-                && named.is_like(&numbers_of(&misread.made), &asked)
+                && named.is_like(&numbers_of(&misread.made), &ranges)
                 && !question.same(&(question.right)(&misread.made), &right)
             {
                 changed.push((kind, at, misread.made));

@@ -3,20 +3,21 @@
 use super::slab_test::BoxRay;
 use super::wide_node::{ChildKind, WIDTH, WideNode};
 use super::{BoundingBox, Bvh};
+use multiversion::multiversion;
 
 /// The most rays of a stream.
 pub const STREAM: usize = 1024;
 
 /// What is done in a leaf with the rays that enter its box, which are numbered within their stream.
 ///
-/// It is a trait and no closure, because only a method can be marked to be inlined, and so be compiled for the same
-/// instructions as the traversal around it.
+/// It is asked once for all rays of a leaf, so that the traversal is compiled once and not for each kind of shape.
 pub trait StreamLeaves {
-    /// Looks into a leaf with these rays.
-    fn test(&mut self, leaf: usize, rays: &[u16]);
+    /// Writes the smallest t of every ray of the stream; negative if there is nothing to find.
+    fn begin(&self, t: &mut [f64]);
 
-    /// The smallest t of a ray so far; negative if there is nothing more to find.
-    fn t(&self, ray: usize) -> f64;
+    /// Looks into a leaf with these rays, and writes the smallest t of each so far; negative if there is nothing more to
+    /// find.
+    fn test(&mut self, leaf: usize, rays: &[u16], t: &mut [f64; STREAM]);
 }
 
 /// A node that is being visited, and the rays that entered it.
@@ -121,7 +122,9 @@ impl Level {
 pub struct RayStream {
     /// Room for [`STREAM`] rays, once there is any.
     rays: Vec<BoxRay>,
-    /// The smallest t of each ray so far as the boxes see it; negative if there is nothing more to find.
+    /// The smallest t of each ray so far; negative if there is nothing more to find.
+    t: Vec<f64>,
+    /// The same as the boxes see it.
     limit: Vec<f32>,
     count: usize,
     levels: Vec<Box<Level>>,
@@ -133,6 +136,7 @@ impl RayStream {
     pub fn clear(&mut self) {
         self.count = 0;
         self.rays.resize(STREAM, BoxRay::default());
+        self.t.resize(STREAM, 0.0);
         self.limit.resize(STREAM, 0.0);
     }
 
@@ -145,48 +149,59 @@ impl RayStream {
     }
 
     /// Visits the leaves whose boxes its rays enter, until none can hold anything closer for any of them.
-    #[inline(always)]
-    pub fn traverse(&mut self, bvh: &Bvh, leaves: &mut impl StreamLeaves) {
-        let Self { rays, limit, count, levels } = self;
-        let (Some(rays), Some(limit)) = (rays.first_chunk::<STREAM>(), limit.first_chunk_mut::<STREAM>()) else {
-            return;
+    pub fn traverse(&mut self, bvh: &Bvh, leaves: &mut dyn StreamLeaves) {
+        let Self { rays, t, limit, count, levels } = self;
+        if let (Some(rays), Some(t), Some(limit)) =
+            (rays.first_chunk::<STREAM>(), t.first_chunk_mut::<STREAM>(), limit.first_chunk_mut::<STREAM>())
+            && !bvh.nodes.is_empty()
+        {
+            leaves.begin(&mut t[..*count]);
+            traverse_levels(bvh, (rays, t, limit), *count, levels, leaves);
+        }
+    }
+}
+
+/// [`RayStream::traverse`]; the smallest t of each ray is there as it is and as the boxes see it.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn traverse_levels(
+    bvh: &Bvh,
+    (rays, t, limit): (&[BoxRay; STREAM], &mut [f64; STREAM], &mut [f32; STREAM]),
+    count: usize,
+    levels: &mut Vec<Box<Level>>,
+    leaves: &mut dyn StreamLeaves,
+) {
+    let root = level_at(levels, 0);
+    (root.node, root.count) = (0, count);
+    for ray in 0..count {
+        root.rays[ray] = ray as u16;
+        limit[ray] = rays[ray].limit_so_far(t[ray]);
+    }
+    root.open(&bvh.nodes, rays, limit);
+    let mut depth = 0;
+    loop {
+        level_at(levels, depth + 1);
+        let [at, below] = &mut levels[depth..depth + 2] else { return };
+        let Some(child) = at.next_child() else {
+            if depth == 0 {
+                return;
+            }
+            depth -= 1;
+            continue;
         };
-        if bvh.nodes.is_empty() {
-            return;
-        }
-        let root = level_at(levels, 0);
-        (root.node, root.count) = (0, *count);
-        for ray in 0..*count {
-            root.rays[ray] = ray as u16;
-            limit[ray] = rays[ray].limit_so_far(leaves.t(ray));
-        }
-        root.open(&bvh.nodes, rays, limit);
-        let mut depth = 0;
-        loop {
-            level_at(levels, depth + 1);
-            let [at, below] = &mut levels[depth..depth + 2] else { return };
-            let Some(child) = at.next_child() else {
-                if depth == 0 {
-                    return;
+        at.hand_on(child, limit, below);
+        let entering = &below.rays[..below.count];
+        match bvh.nodes[at.node].child[child].kind() {
+            _ if entering.is_empty() => {}
+            ChildKind::Leaf(leaf) => {
+                leaves.test(leaf, entering, t);
+                for ray in entering.iter().map(|&ray| usize::from(ray)) {
+                    limit[ray] = rays[ray].limit_so_far(t[ray]);
                 }
-                depth -= 1;
-                continue;
-            };
-            at.hand_on(child, limit, below);
-            let entering = &below.rays[..below.count];
-            match bvh.nodes[at.node].child[child].kind() {
-                _ if entering.is_empty() => {}
-                ChildKind::Leaf(leaf) => {
-                    leaves.test(leaf, entering);
-                    for ray in entering.iter().map(|&ray| usize::from(ray)) {
-                        limit[ray] = rays[ray].limit_so_far(leaves.t(ray));
-                    }
-                }
-                ChildKind::Node(number) => {
-                    below.node = number;
-                    below.open(&bvh.nodes, rays, limit);
-                    depth += 1;
-                }
+            }
+            ChildKind::Node(number) => {
+                below.node = number;
+                below.open(&bvh.nodes, rays, limit);
+                depth += 1;
             }
         }
     }
@@ -227,12 +242,15 @@ mod tests {
     }
 
     impl StreamLeaves for Visits {
-        fn test(&mut self, leaf: usize, rays: &[u16]) {
-            rays.iter().for_each(|&ray| self.of[usize::from(ray)].push(leaf));
+        fn begin(&self, t: &mut [f64]) {
+            t.iter_mut().enumerate().for_each(|(ray, t)| *t = self.t_of(ray));
         }
 
-        fn t(&self, ray: usize) -> f64 {
-            self.t_of(ray)
+        fn test(&mut self, leaf: usize, rays: &[u16], t: &mut [f64; STREAM]) {
+            for ray in rays.iter().map(|&ray| usize::from(ray)) {
+                self.of[ray].push(leaf);
+                t[ray] = self.t_of(ray);
+            }
         }
     }
 

@@ -51,7 +51,7 @@ fn moving_rows(
         for (lane, row) in (start..end).enumerate() {
             times[lane] = times_of_paths[path.map_or(row, |path| path[row] as usize)];
         }
-        let (t, shape) = (&mut t[start..end], &mut shape[start..end]);
+        let (t, shape, inverse) = (&mut t[start..end], &mut shape[start..end], block.inverses());
         for ((body, velocity), &number) in moving.body.iter().zip(&moving.velocity).zip(&moving.shape) {
             let mut own = RayBlock { o: block.o, d: block.d };
             for (lane, &time) in times.iter().enumerate() {
@@ -59,7 +59,7 @@ fn moving_rows(
                 (own.o[0][lane], own.o[1][lane], own.o[2][lane]) = origin.into();
             }
             let primitive = primitive.as_deref_mut().map(|primitive| &mut primitive[start..end]);
-            body.keep_closest(&own, number, ClosestHits { t: &mut *t, shape: &mut *shape, primitive, any });
+            body.keep_closest((&own, &inverse), number, ClosestHits { t: &mut *t, shape: &mut *shape, primitive, any });
         }
         start = end;
     }

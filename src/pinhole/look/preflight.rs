@@ -39,15 +39,15 @@ pub struct Preflight {
     pub patience: Option<Duration>,
 }
 
-/// How long test rays are traced; a build without optimisation, about ten times as slow, gets ten times as long, so
-/// that its warnings are the same.
-const PATIENCE: Duration = Duration::from_secs(if cfg!(debug_assertions) { 10 } else { 1 });
+/// How long test rays are traced.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 impl Preflight {
     /// The same for a user who has been waiting since `began`: the time spent on reading the scene is subtracted from
     /// the time for test rays, of which at least a fifth always remains.
     pub fn since(self, began: Instant) -> Self {
-        Self { patience: Some(PATIENCE.saturating_sub(began.elapsed()).max(PATIENCE / 5)), ..self }
+        let patience = self.patience.unwrap_or(PATIENCE);
+        Self { patience: Some(patience.saturating_sub(began.elapsed()).max(patience / 5)), ..self }
     }
 }
 

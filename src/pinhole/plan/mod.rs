@@ -52,7 +52,7 @@ pub use evidence::{ComponentKind, counted};
 pub use row_lists::RowLists;
 pub use stage::Stage;
 #[doc(hidden)]
-pub use stage::{Slot, StageKind};
+pub use stage::{StageKind, in_order};
 pub use systems::TileSystems;
 #[doc(hidden)]
 pub use systems::{Bounce, RowKind, Sample};

@@ -4,7 +4,7 @@ use super::{Census, Column, ColumnKind, Evidence, Lifetime, RowKind, Shared, Tab
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::{ComponentAccessKind, FilteredAccess};
-use bevy_ecs::schedule::{Schedule, ScheduleConfigs};
+use bevy_ecs::schedule::{Chain, Schedule, ScheduleConfigs};
 use bevy_ecs::system::{ScheduleSystem, SystemAccess};
 use std::any::TypeId;
 use std::collections::BTreeMap;
@@ -24,9 +24,13 @@ pub enum StageKind {
 /// What makes the configuration of a stage's system.
 pub type Configs = dyn Fn() -> ScheduleConfigs<ScheduleSystem> + Send + Sync;
 
-/// The position of a stage in the plan's list; systems are ordered by it where a hook follows each stage.
-#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Slot(pub usize);
+/// Systems as one chain: each runs after the one before it in the list.
+///
+/// The schedule's graph has then a node for each. With a set around every system it would have twice as many, and four
+/// times as many pairs of which it is found out whether one leads to the other.
+pub fn in_order(systems: Vec<ScheduleConfigs<ScheduleSystem>>) -> ScheduleConfigs<ScheduleSystem> {
+    ScheduleConfigs::Configs { configs: systems, collective_conditions: Vec::new(), metadata: Chain::default() }.chain()
+}
 
 /// A stage on offer: its name, the columns that it reads and writes, when a scene needs it, and the system that runs.
 ///

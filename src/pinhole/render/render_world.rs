@@ -5,7 +5,7 @@ use crate::extract::validate;
 use crate::film::FilmTile;
 use crate::follow::{Stop, check_materials_are_followed, is_whole};
 use crate::plan::{
-    Bounce, Census, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Slot, Stage, TileSystems, check_added, plan,
+    Bounce, Census, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Stage, TileSystems, check_added, in_order, plan,
 };
 use crate::rays::{ActivePixels, Depth, PixelSamples, SampleNumber, Tile};
 use crate::shade::check_shapes_are_intersected;
@@ -17,10 +17,6 @@ use std::sync::Arc;
 
 /// Makes a system that runs right after each stage, for timing and recording; it must not change the picture.
 pub type Hook = Arc<dyn Fn(usize, &Stage, &Plan) -> ScheduleConfigs<ScheduleSystem> + Send + Sync>;
-
-/// The order of a stage's hooks; the clock comes first, so that it does not time the others.
-#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct HookTurn(usize, usize);
 
 /// Checks a scene, plans it, and extracts its tables.
 ///
@@ -61,6 +57,7 @@ impl RenderWorld {
         let mut hooks = hooks.to_vec();
         if plan.statistics {
             world.insert_resource(StageClock::new(plan));
+            // The clock comes first, so that it does not time the others.
             hooks.insert(0, clock_hook());
         }
         let follows = plan.stages.iter().any(|stage| stage.set == TileSystems::RemainingBounces);
@@ -154,18 +151,11 @@ fn spawn_tile(world: &mut World, plan: &Plan, row: RowKind) -> Entity {
 fn schedule_of(label: impl ScheduleLabel, plan: &Plan, hooks: &[Hook], holds: impl Fn(&Stage) -> bool) -> Schedule {
     let mut schedule = Schedule::new(label);
     schedule.set_executor(SingleThreadedExecutor::new());
-    let held: Vec<(usize, &Stage)> = plan.stages.iter().enumerate().filter(|(_, stage)| holds(stage)).collect();
-    for (at, &(slot, stage)) in held.iter().enumerate() {
-        schedule.add_systems((stage.system)().in_set(stage.set).in_set(Slot(slot)));
-        let next = held.get(at + 1);
-        for (turn, hook) in hooks.iter().enumerate() {
-            let hook = hook(slot, stage, plan).in_set(stage.set).in_set(HookTurn(slot, turn));
-            let before = next.map_or(slot + 1, |(next, _)| *next);
-            schedule.add_systems(hook.after(Slot(slot)).before(Slot(before)).before(HookTurn(slot, turn + 1)));
-        }
-        if let Some(&(next, _)) = next {
-            schedule.configure_sets(Slot(slot).before(Slot(next)));
-        }
+    let mut systems = Vec::new();
+    for (slot, stage) in plan.stages.iter().enumerate().filter(|(_, stage)| holds(stage)) {
+        systems.push((stage.system)().in_set(stage.set));
+        systems.extend(hooks.iter().map(|hook| hook(slot, stage, plan).in_set(stage.set)));
     }
+    schedule.add_systems(in_order(systems));
     schedule
 }

@@ -1,6 +1,4 @@
-use super::ray_block::{
-    BlockHits, ClosestHit, ClosestHits, LANES, RayBlock, RaySlices, is_near_any, keep_closest_block, nearness,
-};
+use super::ray_block::{BlockHits, ClosestHit, ClosestHits, LANES, RayBlock, RaySlices, keep_closest_near, nearness};
 use super::shape::Shape;
 use crate::bvh::{BoundingBox, Bvh, RayStream, STREAM, Stack, StreamLeaves, TestCounts, Traversal, traverse_counted};
 use glam::DVec3;
@@ -30,21 +28,8 @@ struct ShapeLeaves<'a, 'b, S> {
     inner: &'a mut Stack,
 }
 
-impl<S: Shape> StreamLeaves for ShapeLeaves<'_, '_, S> {
-    #[inline(always)]
-    fn test(&mut self, leaf: usize, rays: &[u16]) {
-        for some in rays.chunks(LANES) {
-            if S::IN_BLOCKS && some.len() >= FEW {
-                self.test_together(leaf, some);
-            } else {
-                // No closure: it would be compiled for the oldest processors.
-                for &ray in some {
-                    self.test_alone(leaf, usize::from(ray));
-                }
-            }
-        }
-    }
-
+impl<S: Shape> ShapeLeaves<'_, '_, S> {
+    /// The smallest t of a ray so far; negative if there is nothing more to find.
     #[inline(always)]
     fn t(&self, ray: usize) -> f64 {
         let row = self.start + ray;
@@ -52,42 +37,77 @@ impl<S: Shape> StreamLeaves for ShapeLeaves<'_, '_, S> {
     }
 }
 
-impl<S: Shape> ShapeLeaves<'_, '_, S> {
-    /// Up to sixteen rays, for which one shape after another is tested.
-    #[inline(always)]
-    fn test_together(&mut self, leaf: usize, rays: &[u16]) {
-        let mut rows = [0; LANES];
-        let rows = &mut rows[..rays.len()];
-        for (row, &ray) in rows.iter_mut().zip(rays) {
-            *row = (self.start + usize::from(ray)) as u32;
+impl<S: Shape> StreamLeaves for ShapeLeaves<'_, '_, S> {
+    fn begin(&self, t: &mut [f64]) {
+        for (ray, t) in t.iter_mut().enumerate() {
+            *t = self.t(ray);
         }
+    }
+
+    fn test(&mut self, leaf: usize, rays: &[u16], t: &mut [f64; STREAM]) {
+        for some in rays.chunks(LANES) {
+            let mut rows = [0; LANES];
+            let rows = &mut rows[..some.len()];
+            for (row, &ray) in rows.iter_mut().zip(some) {
+                *row = (self.start + usize::from(ray)) as u32;
+            }
+            if S::IN_BLOCKS && some.len() >= FEW {
+                self.test_together(leaf, rows);
+            } else {
+                test_alone(
+                    (self.shapes, self.numbers),
+                    self.bvh.primitives(leaf),
+                    self.rays,
+                    rows,
+                    self.hits,
+                    self.inner,
+                );
+            }
+        }
+        for ray in rays.iter().map(|&ray| usize::from(ray)) {
+            t[ray] = self.t(ray);
+        }
+    }
+}
+
+impl<S: Shape> ShapeLeaves<'_, '_, S> {
+    /// The rays of up to sixteen rows, for which one shape after another is tested.
+    fn test_together(&mut self, leaf: usize, rows: &[u32]) {
         let block = RayBlock::of_rows(self.rays, rows);
         let inverse = block.inverses();
         let mut closest = BlockHits::of_rows(self.hits.t, self.hits.shape, rows);
         for &place in self.bvh.primitives(leaf) {
             let (shape, number) = (&self.shapes[place as usize], self.numbers[place as usize]);
-            if is_near_any(&block, &inverse, shape) {
-                keep_closest_block(&block, shape, number, &mut closest);
-            }
+            keep_closest_near(&block, &inverse, shape, number, &mut closest);
         }
         closest.write_rows(self.hits.t, self.hits.shape, rows);
     }
+}
 
-    #[inline(always)]
-    fn test_alone(&mut self, leaf: usize, ray: usize) {
-        let (ray, row) = (self.rays.ray(self.start + ray), self.start + ray);
-        let (mut closest, inverse) = (self.hits.get(row), 1.0 / ray[1].dot(ray[1]));
-        for &place in self.bvh.primitives(leaf) {
-            let (shape, number) = (&self.shapes[place as usize], self.numbers[place as usize]);
+/// The rays of some rows, each alone, and the shapes at some places.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn test_alone<S: Shape>(
+    (shapes, numbers): (&[S], &[u32]),
+    places: &[u32],
+    rays: RaySlices<'_>,
+    rows: &[u32],
+    hits: &mut ClosestHits<'_>,
+    inner: &mut Stack,
+) {
+    for row in rows.iter().map(|&row| row as usize) {
+        let ray = rays.ray(row);
+        let (mut closest, inverse) = (hits.get(row), 1.0 / ray[1].dot(ray[1]));
+        for &place in places {
+            let (shape, number) = (&shapes[place as usize], numbers[place as usize]);
             if shape
                 .culling_sphere()
                 .is_some_and(|(centre, radius)| nearness(centre - ray[0], ray[1], inverse, radius) < 0.0)
             {
                 continue;
             }
-            closest = shape.keep_closest_of_ray(ray, number, closest, self.inner);
+            closest = shape.keep_closest_of_ray(ray, number, closest, inner);
         }
-        self.hits.set(row, closest);
+        hits.set(row, closest);
     }
 }
 
@@ -102,7 +122,6 @@ pub struct HierarchyRoom {
 /// Intersects a column of rays with the shapes whose boxes they enter, and keeps the closest hits.
 ///
 /// The result is to the last bit that of testing all shapes: a hierarchy only says which may be left out.
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 pub fn keep_closest_of<S: Shape>(
     (shapes, numbers, bvh): (&[S], &[u32], &Bvh),
     rays: RaySlices<'_>,
@@ -113,13 +132,21 @@ pub fn keep_closest_of<S: Shape>(
     for start in (0..rows.div_ceil(STREAM)).map(|part| part * STREAM) {
         stream.clear();
         let end = rows.min(start + STREAM);
-        for first in (start..end).step_by(LANES) {
-            let last = end.min(first + LANES);
-            let RayBlock { o, d } = RayBlock::of(rays, first, last);
-            stream.add([&o, &d], last - first, &bvh.around);
-        }
+        add_rays(stream, rays, [start, end], &bvh.around);
         let mut leaves = ShapeLeaves { shapes, numbers, bvh, rays, start, hits: &mut hits, inner };
         stream.traverse(bvh, &mut leaves);
+    }
+}
+
+/// Adds the rays of some rows to a stream, for a hierarchy with this box.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn add_rays(stream: &mut RayStream, rays: RaySlices<'_>, [start, end]: [usize; 2], around: &BoundingBox) {
+    let mut first = start;
+    while first < end {
+        let last = end.min(first + LANES);
+        let RayBlock { o, d } = RayBlock::of(rays, first, last);
+        stream.add([&o, &d], last - first, around);
+        first = last;
     }
 }
 

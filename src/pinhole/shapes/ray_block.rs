@@ -221,7 +221,7 @@ impl BlockHits {
 ///
 /// At equal distances the lower shape number wins.
 #[inline(always)]
-pub(crate) fn keep_closest_block(rays: &RayBlock, one: &impl Shape, number: u32, closest: &mut BlockHits) {
+fn keep_closest_block(rays: &RayBlock, one: &impl Shape, number: u32, closest: &mut BlockHits) {
     let (mut found, mut uncertain) = ([f64::INFINITY; LANES], [false; LANES]);
     one.intersections([&rays.o, &rays.d], &mut found, &mut uncertain);
     if uncertain.iter().fold(false, |any, is| any | is) {
@@ -242,7 +242,7 @@ pub(crate) fn keep_closest_block(rays: &RayBlock, one: &impl Shape, number: u32,
 
 /// Whether a shape's culling sphere, if it has one, is intersected by the line of any ray of a block.
 #[inline(always)]
-pub(super) fn is_near_any(rays: &RayBlock, inverse: &[f64; LANES], one: &impl Shape) -> bool {
+fn is_near_any(rays: &RayBlock, inverse: &[f64; LANES], one: &impl Shape) -> bool {
     let Some((centre, radius)) = one.culling_sphere() else { return true };
     let mut is_near = false;
     for lane in 0..LANES {
@@ -250,6 +250,21 @@ pub(super) fn is_near_any(rays: &RayBlock, inverse: &[f64; LANES], one: &impl Sh
         is_near |= nearness(f, vector(&rays.d, lane), inverse[lane], radius) >= 0.0;
     }
     is_near
+}
+
+/// The same if any ray is near: a function of its own, for those who go from one kind of shape to another or through a
+/// hierarchy. The arithmetic of every kind would be compiled into each of them once more.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+pub(crate) fn keep_closest_near<S: Shape>(
+    rays: &RayBlock,
+    inverse: &[f64; LANES],
+    one: &S,
+    number: u32,
+    closest: &mut BlockHits,
+) {
+    if is_near_any(rays, inverse, one) {
+        keep_closest_block(rays, one, number, closest);
+    }
 }
 
 /// Tests one shape at a time against all rays, so that the arithmetic is vectorised over rays; if none of sixteen

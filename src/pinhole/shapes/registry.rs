@@ -4,13 +4,14 @@ use super::bounds::Bounds;
 use super::emitter::{Emitting, LightPoint};
 use super::kind::ShapeKind;
 use super::ray_block::{
-    BlockHits, ClosestHit, ClosestHits, RayBlock, RayHit, SurfacePoint, keep_closest_block, vector,
+    BlockHits, ClosestHit, ClosestHits, LANES, RayBlock, RayHit, SurfacePoint, keep_closest_near, vector,
 };
 use super::shape::{Shape, ShapeNames};
 use super::uv::{UvSlope, face_axes, most_of, round_step};
 use crate::bvh::{Stack, TestCounts};
 use crate::each::Each;
 use glam::DVec3;
+use multiversion::multiversion;
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -122,9 +123,13 @@ macro_rules! registry {
                 }
             }
 
-            /// Intersects a block of rays with it and keeps the closest hits.
-            #[inline(always)]
-            pub(crate) fn keep_closest(&self, rays: &RayBlock, number: u32, hits: ClosestHits<'_>) {
+            /// Intersects a block of rays, with 1 / R·R of each, with it and keeps the closest hits.
+            pub(crate) fn keep_closest(
+                &self,
+                rays: (&RayBlock, &[f64; LANES]),
+                number: u32,
+                hits: ClosestHits<'_>,
+            ) {
                 match self {
                     $(Self::$kind(one, _) => keep_closest_of_one(rays, one, number, hits),)+
                     Self::Custom(body) => body.0.keep_closest(rays, number, hits),
@@ -304,7 +309,7 @@ impl AnyShape {
 trait ErasedShape: Debug + Send + Sync {
     fn t(&self, origin: DVec3, direction: DVec3) -> f64;
     fn primitive_at(&self, origin: DVec3, direction: DVec3, t: f64) -> u32;
-    fn keep_closest(&self, rays: &RayBlock, number: u32, hits: ClosestHits<'_>);
+    fn keep_closest(&self, rays: (&RayBlock, &[f64; LANES]), number: u32, hits: ClosestHits<'_>);
     fn keep_closest_counted(
         &self,
         ray: [DVec3; 2],
@@ -326,7 +331,7 @@ impl<S: Shape> ErasedShape for (S, S::SurfaceData) {
     fn primitive_at(&self, origin: DVec3, direction: DVec3, t: f64) -> u32 {
         self.0.primitive_at(origin, direction, t)
     }
-    fn keep_closest(&self, rays: &RayBlock, number: u32, hits: ClosestHits<'_>) {
+    fn keep_closest(&self, rays: (&RayBlock, &[f64; LANES]), number: u32, hits: ClosestHits<'_>) {
         keep_closest_of_one(rays, &self.0, number, hits);
     }
     fn keep_closest_counted(
@@ -355,13 +360,23 @@ impl<S: Shape> ErasedShape for (S, S::SurfaceData) {
     }
 }
 
-#[inline(always)]
-fn keep_closest_of_one<S: Shape>(rays: &RayBlock, one: &S, number: u32, mut hits: ClosestHits<'_>) {
+fn keep_closest_of_one<S: Shape>(
+    (rays, inverse): (&RayBlock, &[f64; LANES]),
+    one: &S,
+    number: u32,
+    mut hits: ClosestHits<'_>,
+) {
     if !S::HAS_PRIMITIVES {
         let mut closest = BlockHits::of(hits.t, hits.shape);
-        keep_closest_block(rays, one, number, &mut closest);
+        keep_closest_near(rays, inverse, one, number, &mut closest);
         return closest.write(hits.t, hits.shape);
     }
+    keep_closest_alone(rays, one, number, &mut hits);
+}
+
+/// The rays of a block, each alone.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn keep_closest_alone<S: Shape>(rays: &RayBlock, one: &S, number: u32, hits: &mut ClosestHits<'_>) {
     let mut stack = Stack::default();
     for lane in 0..hits.t.len() {
         let ray = [vector(&rays.o, lane), vector(&rays.d, lane)];

@@ -6,7 +6,7 @@ use crate::measure::ray_aim::AimedRay;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::SingleThreadedExecutor;
 use pinhole::extract::{PlaneTable, SphereTable};
-use pinhole::plan::{Column, Sample, Shared, Slot, Stage, Table, VectorRowsMut};
+use pinhole::plan::{Column, Sample, Shared, Stage, Table, VectorRowsMut, in_order};
 use pinhole::rays::{Tile, WorldRays};
 use pinhole::shapes::{PlacedPlane, PlacedSphere};
 
@@ -26,13 +26,10 @@ impl Bench {
         let mut tile = world.spawn(Tile { width: 1, height: 1, ..Tile::default() });
         let mut schedule = Schedule::new(Sample);
         schedule.set_executor(SingleThreadedExecutor::new());
-        for (slot, stage) in stages.iter().enumerate() {
-            for column in stage.reads.iter().chain(&stage.writes) {
-                (column.insert)(&mut tile);
-            }
-            schedule.add_systems((stage.system)().in_set(Slot(slot)));
-            schedule.configure_sets(Slot(slot).before(Slot(slot + 1)));
+        for column in stages.iter().flat_map(|stage| stage.reads.iter().chain(&stage.writes)) {
+            (column.insert)(&mut tile);
         }
+        schedule.add_systems(in_order(stages.iter().map(|stage| (stage.system)()).collect()));
         let tile = tile.id();
         Self { world, schedule, tile }
     }
