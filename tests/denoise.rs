@@ -235,10 +235,12 @@ fn a_finished_picture_is_smoothed_only_as_far_as_its_noise() {
 }
 
 /// Against pictures of many samples: a box with a lamp in its ceiling, and mirrors, whose reflections no layer tells.
+///
+/// Of one picture the bright pixels say too much, so four are taken.
 #[test]
 fn a_finished_picture_is_nearer_to_the_right_one() {
     let mut told = Vec::new();
-    for (chapter, asked) in [("25", [(4, 0.5), (16, 0.6)]), ("29", [(4, 1.0), (16, 1.0)])] {
+    for (chapter, asked) in [("25", [(4, 0.35), (16, 0.5)]), ("29", [(4, 1.0), (16, 1.0)])] {
         let chapter = chapters::all().into_iter().find(|own| own.name.starts_with(chapter)).expect("a chapter");
         let film = |samples: u32, seed: u64, layers: &[LayerKind]| {
             let mut asked = Overrides { size: Some(Size::Width(64)), ..Overrides::default() };
@@ -257,9 +259,12 @@ fn a_finished_picture_is_nearer_to_the_right_one() {
             squares.sum::<f64>() / right.iter().map(Vec::len).sum::<usize>() as f64
         };
         for (samples, most) in asked {
-            let noisy = film(samples, 1, &PICTURE_GUIDES);
-            let [before, after] =
-                [means(&noisy), denoise_picture(&noisy).expect("guides")].map(|image| relative(&image));
+            let [mut before, mut after] = [0.0; 2];
+            for seed in 1..=4 {
+                let noisy = film(samples, seed, &PICTURE_GUIDES);
+                before += 0.25 * relative(&means(&noisy));
+                after += 0.25 * relative(&denoise_picture(&noisy).expect("guides"));
+            }
             assert!(after < most * before, "{} of {samples} samples: {after} after {before}", chapter.name);
             told.push(format!("{} at {samples}: {before:.4} to {after:.4}", chapter.name));
         }
