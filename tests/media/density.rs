@@ -205,6 +205,11 @@ fn nothing_is_seen_in_equilibrium() {
                 }
                 let mut world = World::new();
                 let camera = one_ray(&mut world, DVec3::new(0.2, 0.1, 5.0), -DVec3::Z, 32, 4096);
+                if number == 3 {
+                    // A colour that is only absorbed, and the others decide where paths end: one in some thousands reaches
+                    // the sky and counts threefold. Of a few such the spread does not tell the error.
+                    world.entity_mut(camera).insert(Resolution { width: 4 * SIDE, height: 4 * SIDE });
+                }
                 sky(&mut world, 1.0);
                 let grid = noise([9, 17, 33], number, peak);
                 let turned = Placement {
