@@ -67,15 +67,18 @@ const ORDER: &[(&str, &[&str])] = &[
 ];
 
 /// What every folder may name at the crate's root.
-const ROOT: [&str; 2] = ["Error", "Result"];
+const ROOT: [&str; 3] = ["Error", "Result", "named"];
 
 /// What stands at the root and belongs to a folder further down.
-const REEXPORTED: [(&str, &str); 11] = [
+const REEXPORTED: [(&str, &str); 14] = [
     ("Chapter", "chapter"),
     ("Overrides", "chapter"),
     ("SamplingOverrides", "chapter"),
     ("Size", "chapter"),
     ("column", "plan"),
+    ("light_names", "lights"),
+    ("named_bsdf", "material"),
+    ("shape_names", "shapes"),
     ("column_component", "plan"),
     ("part_names", "plan"),
     ("with_filter", "filters"),
@@ -252,7 +255,8 @@ fn each_library_lists_its_modules_in_that_order() {
             .text
             .lines()
             .filter_map(|line| {
-                let module = line.strip_prefix("pub mod ").or_else(|| line.strip_prefix("pub use pinhole_scene as "));
+                let module =
+                    line.strip_prefix("pub mod ").or_else(|| line.strip_prefix("pub extern crate pinhole_scene as "));
                 module.and_then(|rest| rest.strip_suffix(';'))
             })
             .collect();

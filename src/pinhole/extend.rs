@@ -51,18 +51,18 @@
 //! ```
 
 pub use crate::chapter::every_stage_and;
-pub use crate::extract::{Pattern, TexturePoint, add_light, add_shape, add_texture};
+pub use crate::extract::{Pattern, TexturePoint, add_light, add_shape, add_texture, eye};
 pub use crate::lights::{
     Light, LightBounds, LightSample, LightStart, PlacedLight, SceneLight, StartDraws, Targets, custom_light,
     direction_to_targets, luminance,
 };
 pub use crate::material::{
-    Bsdf, BsdfClass, BsdfSample, Example, Interior, Parameters, ShadingContext, SpecularSample, Transport,
-    add_material, custom_bsdf, entities_of_kind,
+    Bsdf, BsdfClass, BsdfSample, Example, Interior, MaterialKind, Named, Parameters, ShadingContext, SpecularSample,
+    Transport, add_material, custom_bsdf, entities_of_kind,
 };
 pub use crate::plan::{VectorRows, VectorRowsMut, column};
 pub use crate::render::{Inspection, RenderInProgress, Watch, inspect, render};
-pub use crate::scene::{Feeds, Texture};
+pub use crate::scene::{Feeds, Texture, TextureBy};
 pub use crate::shade::{Radiance, SurfaceColours};
 pub use crate::shapes::emitter::{NeverSampled, sphere_direction};
 pub use crate::shapes::{

@@ -44,7 +44,7 @@
 //! systems that fill the columns of small tiles, one space after another, until light lands on the film.
 //! Another crate can add a shape, a material, a texture, a light or a stage: [`extend`] begins with one, whole.
 //! The modules are listed in that order, and each uses only those above it.
-//! What they make public without documenting it here serves the laboratory and may change at any time:
+//! What is public with the feature `unstable` alone serves the laboratory, and nothing in it is stable:
 //!
 //! 1. [`scene`]: the components that describe a scene.
 //! 2. [`plan`]: which stages the scene needs, and why.
@@ -68,49 +68,83 @@
 //! 20. [`prelude`]: what a scene or a stage of one's own begins with.
 //! 21. [`extend`]: a shape, a material, a texture, a light or a stage of one's own, from another crate.
 
-#[doc(hidden)]
-pub use pinhole_models as models;
+#![cfg_attr(
+    not(feature = "unstable"),
+    allow(dead_code, unused_imports, reason = "the laboratory and the program use the rest"),
+    allow(rustdoc::private_intra_doc_links, reason = "what is documented says what it is made of")
+)]
 
-#[doc(no_inline)]
-pub use pinhole_scene as scene;
+#[cfg(feature = "unstable")]
+pub use pinhole_models as models;
+#[cfg(not(feature = "unstable"))]
+use pinhole_models as models;
+
+#[cfg(feature = "unstable")]
+#[macro_use(unstable)]
+pub extern crate pinhole_scene as scene;
+#[cfg(not(feature = "unstable"))]
+#[macro_use(unstable)]
+extern crate pinhole_scene as scene;
 
 pub mod plan;
 
-#[doc(hidden)]
+#[cfg(not(feature = "unstable"))]
+mod filters;
+#[cfg(feature = "unstable")]
 pub mod filters;
 
-#[doc(hidden)]
+#[cfg(not(feature = "unstable"))]
+mod sample;
+#[cfg(feature = "unstable")]
 pub mod sample;
 
-#[doc(hidden)]
+#[cfg(not(feature = "unstable"))]
+mod material;
+#[cfg(feature = "unstable")]
 pub mod material;
 
-#[doc(hidden)]
+#[cfg(not(feature = "unstable"))]
+mod cameras;
+#[cfg(feature = "unstable")]
 pub mod cameras;
 
-#[doc(hidden)]
+#[cfg(not(feature = "unstable"))]
+mod bvh;
+#[cfg(feature = "unstable")]
 pub mod bvh;
 
-#[doc(hidden)]
+#[cfg(not(feature = "unstable"))]
+mod shapes;
+#[cfg(feature = "unstable")]
 pub mod shapes;
 
-#[doc(hidden)]
+#[cfg(not(feature = "unstable"))]
+mod lights;
+#[cfg(feature = "unstable")]
 pub mod lights;
 
-#[doc(hidden)]
+#[cfg(not(feature = "unstable"))]
+mod extract;
+#[cfg(feature = "unstable")]
 pub mod extract;
 
 pub mod rays;
 
 pub mod intersect;
 
-#[doc(hidden)]
+#[cfg(not(feature = "unstable"))]
+mod rasterise;
+#[cfg(feature = "unstable")]
 pub mod rasterise;
 
-#[doc(hidden)]
+#[cfg(not(feature = "unstable"))]
+mod shade;
+#[cfg(feature = "unstable")]
 pub mod shade;
 
-#[doc(hidden)]
+#[cfg(not(feature = "unstable"))]
+mod follow;
+#[cfg(feature = "unstable")]
 pub mod follow;
 
 pub mod film;
@@ -131,12 +165,17 @@ mod each;
 mod error;
 mod example;
 
-pub use chapter::{Chapter, Overrides, render_scene};
-#[doc(hidden)]
-pub use chapter::{SamplingOverrides, Size};
+pub use chapter::{Chapter, Overrides, SamplingOverrides, Size, render_scene};
 pub use error::{Error, Result};
+
+/// What the macros for another crate's shapes, materials and lights name.
 #[doc(hidden)]
-pub use example::run;
+pub mod named {
+    pub use crate::lights::{AnyLight, LightNames, ListedLight};
+    pub use crate::material::{Bsdf, MaterialKind, Named, StageNames};
+    pub use crate::shapes::{AnyShape, Emitter, Listed, Shape, ShapeKind, ShapeNames};
+}
+unstable! { use example::run; }
 
 // The unit tests include files of the laboratory, which name this crate from outside.
 /// What stands on the package's page.

@@ -11,8 +11,7 @@
 
 pub use crate::plan::{Census, Column, Evidence, Lifetime, Plan, Shared, Stage, StageKind, Table, TileSystems};
 pub use crate::render::{Execution, Rendered};
-#[doc(no_inline)]
-pub use crate::scene::*;
+pub use crate::scene::prelude::*;
 pub use crate::{Chapter, Overrides, render_scene};
 #[doc(no_inline)]
 pub use bevy_ecs::prelude::*;

@@ -244,7 +244,6 @@ pub fn all() -> Vec<Stage> {
 }
 
 /// Sorts stages into the order of the list; those that are not in it follow in their given order.
-#[doc(hidden)]
 pub fn sort(offer: &mut [Stage]) {
     static PLACES: OnceLock<BTreeMap<TypeId, usize>> = OnceLock::new();
     let places = PLACES.get_or_init(|| all().iter().map(|stage| (stage.id, stage.place)).collect());
@@ -286,7 +285,6 @@ pub fn intersection() -> Vec<Stage> {
 }
 
 /// Triangles, meshes and the boxes of other shapes projected onto the image, so that no camera ray has to look for them.
-#[doc(hidden)]
 pub fn rasterisation() -> Vec<Stage> {
     of(Rasterisation)
 }

@@ -90,7 +90,6 @@ impl Integrator {
     }
 
     /// What it does: the one place that says so for each integrator.
-    #[doc(hidden)]
     pub const fn transport(self) -> LightTransport {
         let first_hit = LightTransport {
             name: "ray casting",

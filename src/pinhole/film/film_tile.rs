@@ -309,7 +309,6 @@ impl Film {
     }
 
     /// The same of all pixels, line by line.
-    #[doc(hidden)]
     pub fn means(&self) -> Vec<[f32; 3]> {
         let mut means = vec![[0.0; 3]; self.width as usize * self.height as usize];
         let (bands, pixels) = self.bands();

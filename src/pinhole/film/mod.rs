@@ -36,52 +36,36 @@ mod splats;
 mod tone;
 mod whole_file;
 
-#[doc(hidden)]
-pub use crate::extract::linear_from_srgb;
-#[doc(hidden)]
-pub use accumulate::{
-    FilmMoments, PixelErrors, add_to_film, add_to_moments, film_stage, moments_stage, variance_evidence,
-};
-#[doc(hidden)]
-pub use blocks::{BLOCK, EarlierBlocks};
-#[doc(hidden)]
-pub use checkpoint::{
-    CheckpointAt, SamplesKept, checkpoint_at, checkpoint_place, is_done, keep_checkpoint, read_checkpoint,
-    write_checkpoint, write_done,
-};
-#[doc(hidden)]
-pub use cryptomatte::{RANKS, float_hash, hex_of, left_out};
-#[doc(hidden)]
-pub use denoise::{GUIDES, Guides, denoise, denoise_radiance, film_of_radiance};
-#[doc(hidden)]
-pub use denoise_picture::{PICTURE_GUIDES, denoise_picture};
 pub use develop::Curve;
-#[doc(hidden)]
-pub use develop::{byte_from_linear, srgb_from_linear};
-#[doc(hidden)]
-pub use exr_channels::{LayerNames, NO_DEPTH};
 pub use exr_files::write_exr;
-#[doc(hidden)]
-pub use exr_files::{ENTITY_NAMES, exr_bytes, write_exr_with};
-#[doc(hidden)]
-pub use file_attributes::{CameraMatrices, FileAttributes, ShapeName};
+pub use file_attributes::FileAttributes;
 pub use film_tile::Film;
-#[doc(hidden)]
-pub use film_tile::{FIRST_SAMPLE_STEPS, FilmTile, Rejected};
-#[doc(hidden)]
-pub use layers::{FilmLayers, MATTE_BYTES, add_to_layers, column_of_layer, layers_stage};
-#[doc(hidden)]
-pub use parts::{Check, LightUnit, Merged, Part, PartEntry, PartFilm, Split, Unit, UnitFilm, merge_parts};
-pub use png_files::write_png;
-#[doc(hidden)]
-pub use png_files::{PngKind, png_bytes, png_bytes_as, png_bytes_by, rgba_bytes, rgba_of, write_png_as};
-#[doc(hidden)]
-pub use replaces::{MARK, Replaces, Target, marked};
-#[doc(hidden)]
-pub use reproject::History;
-#[doc(hidden)]
-pub use splats::{FilmSplats, SplatFilter};
-#[doc(hidden)]
-pub use tone::{stops_of, tone_mapped};
-#[doc(hidden)]
-pub use whole_file::{check_place, may_be_written, remove_own, set_aside, write_whole, writes_in_progress};
+pub use png_files::{png_bytes, rgba_bytes, write_png};
+
+unstable! {
+    use crate::extract::linear_from_srgb;
+    use accumulate::{
+        FilmMoments, PixelErrors, add_to_film, add_to_moments, film_stage, moments_stage, variance_evidence,
+    };
+    use blocks::{BLOCK, EarlierBlocks};
+    use checkpoint::{
+        CheckpointAt, SamplesKept, checkpoint_at, checkpoint_place, is_done, keep_checkpoint, read_checkpoint,
+        write_checkpoint, write_done,
+    };
+    use cryptomatte::{RANKS, float_hash, hex_of, left_out};
+    use denoise::{GUIDES, Guides, denoise, denoise_radiance, film_of_radiance};
+    use denoise_picture::{PICTURE_GUIDES, denoise_picture};
+    use develop::{byte_from_linear, srgb_from_linear};
+    use exr_channels::{LayerNames, NO_DEPTH};
+    use exr_files::{ENTITY_NAMES, exr_bytes, write_exr_with};
+    use file_attributes::{CameraMatrices, ShapeName};
+    use film_tile::{FIRST_SAMPLE_STEPS, FilmTile, Rejected};
+    use layers::{FilmLayers, MATTE_BYTES, add_to_layers, column_of_layer, layers_stage};
+    use parts::{Check, LightUnit, Merged, Part, PartEntry, PartFilm, Split, Unit, UnitFilm, merge_parts};
+    use png_files::{PngKind, png_bytes_as, png_bytes_by, rgba_of, write_png_as};
+    use replaces::{MARK, Replaces, Target, marked};
+    use reproject::History;
+    use splats::{FilmSplats, SplatFilter};
+    use tone::{stops_of, tone_mapped};
+    use whole_file::{check_place, may_be_written, remove_own, set_aside, write_whole, writes_in_progress};
+}

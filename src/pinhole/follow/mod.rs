@@ -96,7 +96,6 @@ pub use recursive_mis::{
     leave_specular_stage, leave_with_ratios, leave_with_ratios_stage, weight_joins,
 };
 pub use specular::{sample_specular, specular_from_lights_stage, specular_stage, split_rays, split_stage};
-#[doc(hidden)]
 pub use starts_on_glass::{
     block_across_surfaces, block_across_surfaces_stage, leave_glass_at_start, leave_glass_at_start_stage,
 };

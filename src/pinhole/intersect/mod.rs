@@ -6,7 +6,7 @@
 //! at equal distances the lowest shape number wins, so the order of the kinds does not affect the result.
 //!
 //! ```
-//! use pinhole::shapes::sphere_intersection;
+//! use pinhole::intersect::sphere_intersection;
 //! use pinhole::prelude::*;
 //!
 //! // A ray along −z towards a sphere of radius 1 whose centre is 5 away.
@@ -26,36 +26,31 @@ mod shading_normal;
 mod shape_stages;
 mod surface;
 
-#[doc(hidden)]
 pub use crate::extract::shape_evidence;
-#[doc(hidden)]
-pub use classify::{classify_hits, classify_shape, classify_shape_stage, classify_stage, list_rows};
-#[doc(hidden)]
-pub use contact::{Contacts, GlassCrossing, contact_bound_stage, contact_stage, merge_contacts, widen_bounds};
-#[doc(hidden)]
-pub use count::{AllShapes, BoxTests, PrimitiveTests, TraversalDepths, count_stage};
+pub use crate::shapes::sphere_intersection;
 pub use hits::Hits;
 pub(crate) use hits::rows_of_kind;
-#[doc(hidden)]
-pub use hits::{
-    EmissiveRows, HitColumn, HitPrimitives, MaterialRows, NO_PRIMITIVE, NO_SHAPE, RayColumn, ShapeRows, start_hits,
-    start_stage,
-};
-#[doc(hidden)]
-pub use moving::{at_rest, intersect_moving, moving_stage, moving_surface_stage};
-#[doc(hidden)]
-pub use named_stages::{
-    cuboid_stage, cuboid_surface_stage, disk_stage, disk_surface_stage, ellipsoid_stage, ellipsoid_surface_stage,
-    mesh_stage, mesh_surface_stage, plane_stage, plane_surface_stage, rectangle_stage, rectangle_surface_stage,
-    sphere_stage, sphere_surface_stage, triangle_stage, triangle_surface_stage,
-};
-#[doc(hidden)]
-pub use shading_normal::{
-    ShadingNormals, falling_cosine, interpolate_normals, shading_normal, shading_normal_stage, vertex_normal_evidence,
-};
-#[doc(hidden)]
-pub use shape_stages::{fill_surfaces, intersect_shapes, intersect_stage, shape_stages, surface_stage};
 pub(crate) use surface::SurfaceSlices;
-pub use surface::Surfaces;
-#[doc(hidden)]
-pub use surface::{Surface, SurfaceSides, SurfaceUvs};
+pub use surface::{Surface, Surfaces};
+
+unstable! {
+    use classify::{classify_hits, classify_shape, classify_shape_stage, classify_stage, list_rows};
+    use contact::{Contacts, GlassCrossing, contact_bound_stage, contact_stage, merge_contacts, widen_bounds};
+    use count::{AllShapes, BoxTests, PrimitiveTests, TraversalDepths, count_stage};
+    use hits::{
+        EmissiveRows, HitColumn, HitPrimitives, MaterialRows, NO_PRIMITIVE, NO_SHAPE, RayColumn, ShapeRows, start_hits,
+        start_stage,
+    };
+    use moving::{at_rest, intersect_moving, moving_stage, moving_surface_stage};
+    use named_stages::{
+        cuboid_stage, cuboid_surface_stage, disk_stage, disk_surface_stage, ellipsoid_stage, ellipsoid_surface_stage,
+        mesh_stage, mesh_surface_stage, plane_stage, plane_surface_stage, rectangle_stage, rectangle_surface_stage,
+        sphere_stage, sphere_surface_stage, triangle_stage, triangle_surface_stage,
+    };
+    use shading_normal::{
+        ShadingNormals, falling_cosine, interpolate_normals, shading_normal, shading_normal_stage,
+        vertex_normal_evidence,
+    };
+    use shape_stages::{fill_surfaces, intersect_shapes, intersect_stage, shape_stages, surface_stage};
+    use surface::{SurfaceSides, SurfaceUvs};
+}

@@ -122,7 +122,7 @@ pub trait LightVisitor {
 #[macro_export]
 macro_rules! light_names {
     ($plural:literal) => {
-        $crate::lights::LightNames { table: $plural, sample: concat!("Sample ", $plural) }
+        $crate::named::LightNames { table: $plural, sample: concat!("Sample ", $plural) }
     };
 }
 pub use light_names;
@@ -195,12 +195,12 @@ with_lights!(registry);
 #[macro_export]
 macro_rules! custom_light {
     ($light:ty, $plural:literal) => {
-        impl $crate::lights::ListedLight for $light {
-            const NAMES: $crate::lights::LightNames = $crate::lights::light_names!($plural);
+        impl $crate::named::ListedLight for $light {
+            const NAMES: $crate::named::LightNames = $crate::light_names!($plural);
             const IS_CUSTOM: bool = true;
 
-            fn into_any(self) -> $crate::lights::AnyLight {
-                $crate::lights::AnyLight::custom(self)
+            fn into_any(self) -> $crate::named::AnyLight {
+                $crate::named::AnyLight::custom(self)
             }
         }
     };

@@ -17,7 +17,9 @@
 //! # Ok::<(), pinhole::Error>(())
 //! ```
 
-#[doc(hidden)]
+#[cfg(not(feature = "unstable"))]
+mod convention;
+#[cfg(feature = "unstable")]
 pub mod convention;
 
 mod emitters;
@@ -32,18 +34,14 @@ mod stats;
 mod trace;
 mod view;
 
-#[doc(hidden)]
-pub use mistake::{MISTAKES, Mistake};
-#[doc(hidden)]
-pub use pilot::{Pilot, pilot};
-#[doc(hidden)]
-pub use preflight::{Foretold, Preflight, foretell, looks_black, preflight, unseen};
-#[doc(hidden)]
-pub use slow::{Effort, slow};
-#[doc(hidden)]
-pub use stats::{RenderStats, StageStats};
-#[doc(hidden)]
-pub use trace::{Recorded, trace_sample};
-pub use trace::{Trace, trace};
-#[doc(hidden)]
-pub use view::{ViewComponent, ViewTable, paths, view_stage};
+pub use trace::{Recorded, Trace, trace};
+
+unstable! {
+    use mistake::{MISTAKES, Mistake};
+    use pilot::{Pilot, pilot};
+    use preflight::{Foretold, Preflight, foretell, looks_black, preflight, unseen};
+    use slow::{Effort, slow};
+    use stats::{RenderStats, StageStats};
+    use trace::{trace_sample};
+    use view::{ViewComponent, ViewTable, paths, view_stage};
+}

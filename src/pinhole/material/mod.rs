@@ -68,9 +68,9 @@ pub use principled::PrincipledTable;
 #[macro_export]
 macro_rules! named_bsdf {
     ($table:ty, $kind:expr, $name:literal) => {
-        impl $crate::material::Named for $table {
-            const KIND: $crate::material::MaterialKind = $kind;
-            const NAMES: $crate::material::StageNames = $crate::material::StageNames {
+        impl $crate::named::Named for $table {
+            const KIND: $crate::named::MaterialKind = $kind;
+            const NAMES: $crate::named::StageNames = $crate::named::StageNames {
                 sample: concat!("Sample BSDFs: ", $name),
                 sample_from_lights: concat!("Sample BSDFs: ", $name, ", from lights"),
                 split: concat!("Split rays at ", $name),
@@ -94,12 +94,12 @@ pub use named_bsdf;
 #[macro_export]
 macro_rules! custom_bsdf {
     ($table:ty, $number:literal, $name:literal) => {
-        $crate::material::named_bsdf!(
+        $crate::named_bsdf!(
             $table,
-            $crate::material::MaterialKind::Custom {
+            $crate::named::MaterialKind::Custom {
                 number: $number,
-                class: <$table as $crate::material::Bsdf>::CLASS,
-                transmits: <$table as $crate::material::Bsdf>::TRANSMITS,
+                class: <$table as $crate::named::Bsdf>::CLASS,
+                transmits: <$table as $crate::named::Bsdf>::TRANSMITS,
             },
             $name
         );

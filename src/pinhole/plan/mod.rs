@@ -33,29 +33,26 @@ mod table;
 
 pub use census::Census;
 pub(crate) use census::united;
-#[doc(hidden)]
-pub use census::{declared, entities};
-pub use column::{Column, Lifetime};
-#[doc(hidden)]
 pub use column::{
-    ColumnArrays, ColumnComponent, ColumnKind, ColumnValue, ComponentNumber, ComponentValue, ComponentValues,
-    VectorRows, VectorRowsMut, column, column_component, part_names,
+    Column, ColumnArrays, ColumnComponent, ColumnKind, ColumnValue, Lifetime, VectorRows, VectorRowsMut, column,
 };
 pub(crate) use custom::{Added, add_kind, check_added, check_is_added, with_added};
-#[doc(hidden)]
-pub use decide::{Pass, PlanRow, view_names};
-pub use decide::{Plan, PlanError, plan};
+pub use decide::{Pass, Plan, PlanError, PlanRow, plan};
 pub use evidence::Evidence;
-#[doc(hidden)]
-pub use evidence::{ComponentKind, counted};
-#[doc(hidden)]
-pub use row_lists::RowLists;
-pub use stage::Stage;
-#[doc(hidden)]
-pub use stage::{StageKind, in_order};
+pub use stage::{Stage, StageKind};
 pub use systems::TileSystems;
-#[doc(hidden)]
-pub use systems::{Bounce, RowKind, Sample};
-#[doc(hidden)]
-pub use table::{ExtractedTable, TableKind};
 pub use table::{Shared, Table};
+
+unstable! {
+    use census::{declared, entities};
+    use column::{
+        ComponentNumber, ComponentValue, ComponentValues,
+        column_component, part_names,
+    };
+    use decide::{view_names};
+    use evidence::{ComponentKind, counted};
+    use row_lists::RowLists;
+    use stage::{in_order};
+    use systems::{Bounce, RowKind, Sample};
+    use table::{ExtractedTable, TableKind};
+}

@@ -30,42 +30,33 @@ mod screen;
 mod wavelengths;
 mod world;
 
-#[doc(hidden)]
-pub use crate::cameras::{
-    camera_ray_equirectangular, camera_ray_fisheye, camera_ray_orthographic, camera_ray_perspective,
-    screen_from_equirectangular, screen_from_fisheye,
-};
+pub use crate::cameras::camera_ray_perspective;
 pub use camera::CameraRays;
-#[doc(hidden)]
-pub use camera::{camera_stage, camera_stages, generate_camera_rays, orthographic_stage, perspective_stage};
-#[doc(hidden)]
-pub use draws::{Draws, DrawsView, DrawsViewItem, draws_of_one, draws_of_two, fractions_of_one};
-#[doc(hidden)]
-pub use lens::{
-    LensPoints, camera_ray_lens, draw_lens_points, fill_lens_rays, lens_point, lens_point_stage, lens_stage,
-    polygon_point,
-};
-pub use ndc::NdcPoints;
-#[doc(hidden)]
-pub use ndc::{fill_ndc, ndc_from_raster, ndc_stage};
-#[doc(hidden)]
-pub use paths::{Depth, PathLight, Paths, RayTimes, draw_times, pixel_of_row, time_stage};
-#[doc(hidden)]
-pub use place_samples::{
-    ActivePixels, PixelSamples, SampleNumber, SampleSigns, place_samples, place_samples_stage, sampling_evidence,
-    signed_evidence,
-};
-#[doc(hidden)]
-pub use project::{CameraJoin, join_camera, raster_from_camera};
-pub use raster::RasterPoints;
-#[doc(hidden)]
-pub use raster::{Tile, fill_raster, raster_from_pixel, raster_stage};
-pub use screen::ScreenPoints;
-#[doc(hidden)]
-pub use screen::{fill_screen, screen_from_ndc, screen_stage};
-#[doc(hidden)]
-pub use wavelengths::{WavelengthWeights, Wavelengths, draw_wavelengths, wavelength_stage};
+pub use ndc::{NdcPoints, ndc_from_raster};
+pub use raster::{RasterPoints, Tile, raster_from_pixel};
+pub use screen::{ScreenPoints, screen_from_ndc};
 pub use world::WorldRays;
 pub(crate) use world::ray_vectors;
-#[doc(hidden)]
-pub use world::{fill_world, world_stage};
+
+unstable! {
+    use crate::cameras::{
+        camera_ray_equirectangular, camera_ray_fisheye, camera_ray_orthographic,         screen_from_equirectangular, screen_from_fisheye,
+    };
+    use camera::{camera_stage, camera_stages, generate_camera_rays, orthographic_stage, perspective_stage};
+    use draws::{Draws, DrawsView, DrawsViewItem, draws_of_one, draws_of_two, fractions_of_one};
+    use lens::{
+        LensPoints, camera_ray_lens, draw_lens_points, fill_lens_rays, lens_point, lens_point_stage, lens_stage,
+        polygon_point,
+    };
+    use ndc::{fill_ndc, ndc_stage};
+    use paths::{Depth, PathLight, Paths, RayTimes, draw_times, pixel_of_row, time_stage};
+    use place_samples::{
+        ActivePixels, PixelSamples, SampleNumber, SampleSigns, place_samples, place_samples_stage, sampling_evidence,
+        signed_evidence,
+    };
+    use project::{CameraJoin, join_camera, raster_from_camera};
+    use raster::{fill_raster, raster_stage};
+    use screen::{fill_screen, screen_stage};
+    use wavelengths::{WavelengthWeights, Wavelengths, draw_wavelengths, wavelength_stage};
+    use world::{fill_world, world_stage};
+}

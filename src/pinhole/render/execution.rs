@@ -138,7 +138,6 @@ pub struct Rendered {
     /// The accumulated radiance.
     pub film: Film,
     /// What the picture's file says beside its pixels.
-    #[doc(hidden)]
     pub attributes: FileAttributes,
     /// One lap per kept stage, summed over workers; empty where no statistics were requested.
     pub laps: Vec<Lap>,

@@ -37,27 +37,22 @@ mod passes;
 mod render_world;
 mod steps;
 
-#[doc(hidden)]
-pub use adaptive::{Achieved, achieved, error_of, planned_samples, samples_for};
-#[doc(hidden)]
-pub use clock::{Lap, StageClock};
-pub use execution::{Execution, Rendered, render};
-#[doc(hidden)]
-pub use execution::{Watch, Worlds};
+pub use clock::Lap;
+pub use execution::{Execution, Rendered, Watch, render};
 pub use in_progress::RenderInProgress;
-#[doc(hidden)]
-pub use inspect::{
-    Inspection, ProbeRun, first_bounce_only, inspect, inspect_pixel, inspect_stages, probe_tiles, usual_tile_side,
-};
-#[doc(hidden)]
-pub use light_pass::probe_light_paths;
-#[doc(hidden)]
-pub use memory::{check_film_fits, film_bytes_per_pixel, peak_memory};
-#[doc(hidden)]
-pub use moments::{SceneAt, first_sample_of};
-#[doc(hidden)]
-pub use passes::{Limits, Outcome, render_in_passes};
-#[doc(hidden)]
-pub use render_world::{Hook, RenderWorld, prepare};
-#[doc(hidden)]
-pub use steps::{LATTICES, Run, WHOLE, runs, samples_after, steps_of};
+pub use inspect::{Inspection, inspect};
+
+unstable! {
+    use adaptive::{Achieved, achieved, error_of, planned_samples, samples_for};
+    use clock::{StageClock};
+    use execution::Worlds;
+    use inspect::{
+        ProbeRun, first_bounce_only, inspect_pixel, inspect_stages, probe_tiles, usual_tile_side,
+    };
+    use light_pass::probe_light_paths;
+    use memory::{check_film_fits, film_bytes_per_pixel, peak_memory};
+    use moments::{SceneAt, first_sample_of};
+    use passes::{Limits, Outcome, render_in_passes};
+    use render_world::{Hook, RenderWorld, prepare};
+    use steps::{LATTICES, Run, WHOLE, runs, samples_after, steps_of};
+}

@@ -31,59 +31,44 @@ mod textures;
 mod transmissive_rows;
 mod unintersected;
 
-#[doc(hidden)]
 pub use area_light::{area_light_pdf, area_light_stage, irradiance_from_area, sample_area_lights};
-#[doc(hidden)]
 pub use camera_join::{
     JoinPoints, camera_join_stage, connect_to_camera, join_cosine, join_point_stage, sample_join_points,
 };
-#[doc(hidden)]
 pub use delta_light::{
     directional_light_stage, light_sampling_stage, light_sampling_stages, point_light_stage, sample_lights,
     spot_light_stage,
 };
-#[doc(hidden)]
 pub use footprint::{Footprints, compute_footprints, footprint_stage, step_on_surface};
-#[doc(hidden)]
 pub use image_mask::{image_mask_stage, image_mask_stages, mask_image};
-#[doc(hidden)]
 pub use light::{
     LightPdfs, ShadowRays, light_distance, light_evidence, lit_evidence, shadow_t_max, start_shadow_rays,
     start_shadow_rays_stage,
 };
-#[doc(hidden)]
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
-#[doc(hidden)]
 pub use maps::{
     EmissionFactors, MetallicRoughness, ParameterColumns, ParameterColumnsItem, copy_normals, copy_normals_stage,
     emission_map_stage, evaluate_emission, evaluate_metallic_roughness, map_normals, mapped_normal,
     metallic_roughness_stage, normal_map_stage, uv_directions,
 };
-#[doc(hidden)]
 pub use non_opaque::{intersect_non_opaque, non_opaque_shadow_stage, non_opaque_stage};
-#[doc(hidden)]
 pub use radiance::{
     LightSamplingView, LightSamplingViewItem, Radiance, ReflectionView, ReflectionViewItem, add_emission,
     emissive_stage, shade_unlit, shown_evidence, start_radiance, start_stage, unlit_stage,
 };
-#[doc(hidden)]
 pub use shadow::{
     ShadowHits, moving_shadow_stage, plane_shadow_stage, shadow_evidence, shape_shadow_stage, shape_shadow_stages,
     sphere_shadow_stage, start_shadow_stage, start_shadows,
 };
-#[doc(hidden)]
 pub use sky::{
     add_background, add_environment, add_gradient, around, background_stage, direction_of, environment_direction,
     environment_light_stage, environment_pdf, environment_radiance, environment_stage, equirectangular,
     gradient_radiance, gradient_stage, sample_environment, texel_solid_angle,
 };
-#[doc(hidden)]
 pub use textures::{
     SurfaceColours, TexturePoints, box_width, checker_fraction, checker_stage, colour_stage, colour_surfaces,
     compute_texture_points, evaluate_images, evaluate_pattern, face_from_space, image_stage, pattern_stage,
     stripes_fraction, stripes_stage, texture_point_stage, tint_stage, tint_surfaces, wave, wave_mean,
 };
-#[doc(hidden)]
 pub use transmissive_rows::{TransmissiveRows, list_transmissive_rows, transmissive_rows_stage};
-#[doc(hidden)]
 pub use unintersected::check_shapes_are_intersected;

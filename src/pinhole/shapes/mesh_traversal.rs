@@ -198,6 +198,7 @@ impl MeshHierarchy {
         leaves.closest
     }
 
+    /// The closer of the hit so far and the mesh's, or one of its hits where `ANY` is enough.
     #[inline(always)]
     pub fn keep_closest_until<const ANY: bool>(
         &self,

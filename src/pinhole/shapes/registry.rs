@@ -62,7 +62,7 @@ pub struct LeavingPoint {
 #[macro_export]
 macro_rules! shape_names {
     ($rows:expr, $plural:literal) => {
-        $crate::shapes::ShapeNames {
+        $crate::named::ShapeNames {
             table: $plural,
             hierarchy: concat!("hierarchy of ", $plural),
             rows: $rows,
@@ -265,22 +265,21 @@ with_shapes!(registry);
 #[macro_export]
 macro_rules! custom_shape {
     ($shape:ty, $number:literal, $plural:literal) => {
-        impl $crate::shapes::Listed for $shape {
-            const KIND: $crate::shapes::ShapeKind = $crate::shapes::ShapeKind::Custom($number);
-            const NAMES: $crate::shapes::ShapeNames =
-                $crate::shapes::shape_names!(concat!("rows of ", $plural), $plural);
+        impl $crate::named::Listed for $shape {
+            const KIND: $crate::named::ShapeKind = $crate::named::ShapeKind::Custom($number);
+            const NAMES: $crate::named::ShapeNames = $crate::shape_names!(concat!("rows of ", $plural), $plural);
 
             fn into_any_shape(
                 self,
-                surface_data: <Self as $crate::shapes::Shape>::SurfaceData,
-            ) -> $crate::shapes::AnyShape {
-                $crate::shapes::AnyShape::custom(self, surface_data)
+                surface_data: <Self as $crate::named::Shape>::SurfaceData,
+            ) -> $crate::named::AnyShape {
+                $crate::named::AnyShape::custom(self, surface_data)
             }
 
             fn listed_emitter(
                 &self,
-                _: &<Self as $crate::shapes::Shape>::SurfaceData,
-            ) -> Option<$crate::shapes::Emitter> {
+                _: &<Self as $crate::named::Shape>::SurfaceData,
+            ) -> Option<$crate::named::Emitter> {
                 None
             }
         }

@@ -33,7 +33,7 @@ impl Table for ChalkTable {
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let of = |entity| scene.get::<Chalk>(entity).map_or([1.0, 0.0], |chalk| parts(chalk.sigma.radians()));
-        let entities = entities_of_kind(scene, <Self as pinhole::material::Named>::KIND);
+        let entities = entities_of_kind(scene, <Self as Named>::KIND);
         Ok(Self { parts: entities.into_iter().map(of).collect() })
     }
 

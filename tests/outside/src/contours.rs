@@ -1,6 +1,6 @@
 //! A stage: lines of equal height are drawn into what the camera sees.
 
-use pinhole::extend::Radiance;
+use pinhole::extend::{Radiance, eye};
 use pinhole::intersect::{Hits, Surfaces};
 use pinhole::plan::VectorRowsMut;
 use pinhole::prelude::*;
@@ -31,7 +31,7 @@ impl Table for ContourTable {
         if !(contours.step > 0.0) {
             return Err(SceneError::new("contours", "step", contours.step, "it must be above 0"));
         }
-        Ok(Self { contours, eye: pinhole::extract::eye(scene)?.y as f32 })
+        Ok(Self { contours, eye: eye(scene)?.y as f32 })
     }
 
     fn bytes(&self) -> usize {
