@@ -1,5 +1,5 @@
 use crate::each::Each;
-use crate::extract::{filter_area, filter_value, radius_of};
+use crate::filters::{filter_area, filter_factor, radius_of, value_over_factor};
 use crate::scene::Filter;
 
 /// The splats of light tracing: sums in f64 over the whole image, separate from the camera's samples.
@@ -95,6 +95,8 @@ pub struct SplatFilter {
     radius: f64,
     /// 1 over the integral of the filter along one axis.
     scale: f64,
+    /// The factor of all its values.
+    factor: f64,
     /// The weight of a splat in each of the columns that it covers; a buffer that is reused.
     across: Vec<f64>,
 }
@@ -103,7 +105,8 @@ impl SplatFilter {
     /// Prepares a filter for splatting.
     pub fn new(filter: Filter) -> Self {
         let radius = radius_of(filter);
-        Self { filter, radius, scale: 0.5 / filter_area(filter, radius), across: Vec::new() }
+        let scale = 0.5 / filter_area(filter, radius);
+        Self { filter, radius, scale, factor: filter_factor(filter), across: Vec::new() }
     }
 
     /// The pixels along an axis whose centres lie within the filter's radius of a coordinate.
@@ -120,7 +123,7 @@ impl SplatFilter {
             // A point on the edge between two pixels belongs to the one on the right, as the position of a sample does.
             Filter::Box { radius } if offset == -radius => 0.0,
             Filter::Box { .. } => self.scale,
-            filter => filter_value(filter, offset.abs()) * self.scale,
+            filter => self.factor * value_over_factor(filter, offset.abs()) * self.scale,
         }
     }
 }

@@ -11,6 +11,12 @@ pub struct GaussianKernel {
     pub sigma: f64,
 }
 
+impl GaussianKernel {
+    fn exponent(self, x: f64) -> f64 {
+        -x * x / (2.0 * self.sigma * self.sigma)
+    }
+}
+
 impl Kernel for GaussianKernel {
     fn radius(self) -> f64 {
         self.radius
@@ -22,9 +28,16 @@ impl Kernel for GaussianKernel {
     }
 
     fn value(self, x: f64) -> f64 {
-        let Self { radius, sigma } = self;
-        let bell = |x: f64| -x * x / (2.0 * sigma * sigma);
-        libm::exp(bell(radius)) * libm::expm1(bell(x) - bell(radius))
+        self.factor() * self.value_over_factor(x)
+    }
+
+    fn factor(self) -> f64 {
+        libm::exp(self.exponent(self.radius))
+    }
+
+    #[inline(always)]
+    fn value_over_factor(self, x: f64) -> f64 {
+        libm::expm1(self.exponent(x) - self.exponent(self.radius))
     }
 
     fn area(self, x: f64) -> f64 {

@@ -22,6 +22,17 @@ pub trait Kernel: Copy + Debug {
     /// Its value at a distance of x pixels from the centre, for x from 0 up to the radius.
     fn value(self, x: f64) -> f64;
 
+    /// A factor of all its values that costs something and does not depend on where they are.
+    fn factor(self) -> f64 {
+        1.0
+    }
+
+    /// Its value over that factor.
+    #[inline(always)]
+    fn value_over_factor(self, x: f64) -> f64 {
+        self.value(x)
+    }
+
     /// The signed area under it from the centre to x, for x from 0 to the radius.
     fn area(self, x: f64) -> f64;
 

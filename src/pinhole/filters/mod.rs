@@ -51,5 +51,7 @@ pub use constant::{BoxKernel, box_offset};
 pub use gaussian::GaussianKernel;
 pub use kernel::Kernel;
 pub use mitchell::MitchellKernel;
-pub use registry::{cells_of, check_filter, filter_area, filter_value, radius_of, sign_change};
+pub use registry::{
+    cells_of, check_filter, filter_area, filter_factor, filter_value, radius_of, sign_change, value_over_factor,
+};
 pub use tent::{TentKernel, tent_offset};

@@ -28,6 +28,17 @@ pub fn filter_value(filter: Filter, x: f64) -> f64 {
     with_filter!(filter, kernel => if x >= kernel.radius() { 0.0 } else { kernel.value(x) })
 }
 
+/// The factor of all values of a filter that does not depend on where they are.
+pub fn filter_factor(filter: Filter) -> f64 {
+    with_filter!(filter, kernel => kernel.factor())
+}
+
+/// The value of a filter over its factor.
+#[inline(always)]
+pub fn value_over_factor(filter: Filter, x: f64) -> f64 {
+    with_filter!(filter, kernel => if x >= kernel.radius() { 0.0 } else { kernel.value_over_factor(x) })
+}
+
 /// The signed area under a filter from the centre to x ≥ 0.
 pub fn filter_area(filter: Filter, x: f64) -> f64 {
     with_filter!(filter, kernel => kernel.area(x.min(kernel.radius())))
