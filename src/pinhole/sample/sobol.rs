@@ -265,7 +265,7 @@ mod tests {
         let ends =
             Purpose::ALL.into_iter().filter(|own| place_of(*own).0 == set).map(|own| place_of(own).1 + own.numbers());
         let dimensions = ends.max().unwrap_or(0);
-        let weight = |level: u32| if level <= LEVELS { 0.3_f64.powf(f64::from(level)) } else { 0.0 };
+        let weight = |level: u32| if level <= LEVELS { libm::pow(0.3, f64::from(level)) } else { 0.0 };
         let levels: Vec<f64> = (0..=32).map(|same| (1..=same).map(weight).sum::<f64>() - weight(same + 1)).collect();
         let of = |dimensions: u32| {
             let of_point = |point: u32| {
@@ -306,7 +306,7 @@ mod tests {
             // Each bounce before counts as much as any, and the pixel less by as many as are between.
             let (mut sum, mut counts) = (0.0, 0.0);
             for (number, other) in before.iter().enumerate() {
-                let counted = 0.6_f64.powf(if number == 0 { bounces } else { bounces - 1 } as f64);
+                let counted = libm::pow(0.6, if number == 0 { bounces } else { bounces - 1 } as f64);
                 (sum, counts) = (sum + counted * pair(other), counts + counted);
             }
             left += share * sum / counts;
