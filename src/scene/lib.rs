@@ -71,8 +71,7 @@ use textures::{change_texture_files, texture_files};
 unstable! {
     use check::{colour_within, finite_point, light_colour, number, positive_length, triple};
     use density_grid::{DENSITY_FILE, MAX_VOXELS};
-    use file::FileProblem;
-    use file::{FNV_BASIS, PlaceInFile, fingerprint, fnv, in_words_of_files, scene_text, words};
+    use file::{FileProblem, FNV_BASIS, PlaceInFile, fingerprint, fnv, in_words_of_files, scene_text, words};
     use file_store::{FileStore, Undecoded};
     use folder::{EmbeddedFiles, SceneFolder};
     use image_kind::{KINDS_READ, TELLING_BYTES, image_kind};
@@ -89,7 +88,7 @@ unstable! {
     use pinhole_models::is_invisible;
     use placement::{called, euler_xyz, some_of};
     use printable::{printable, printable_message, printable_path};
-    use textures::{IMAGE_FILE};
+    use textures::IMAGE_FILE;
 }
 
 // The random numbers of unit tests are the laboratory's.

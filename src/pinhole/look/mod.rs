@@ -42,6 +42,6 @@ unstable! {
     use preflight::{Foretold, Preflight, foretell, looks_black, preflight, unseen};
     use slow::{Effort, slow};
     use stats::{RenderStats, StageStats};
-    use trace::{trace_sample};
+    use trace::trace_sample;
     use view::{ViewComponent, ViewTable, paths, view_stage};
 }

@@ -45,14 +45,11 @@ pub use table::{Shared, Table};
 
 unstable! {
     use census::{declared, entities};
-    use column::{
-        ComponentNumber, ComponentValue, ComponentValues,
-        column_component, part_names,
-    };
-    use decide::{view_names};
+    use column::{ComponentNumber, ComponentValue, ComponentValues, column_component, part_names};
+    use decide::view_names;
     use evidence::{ComponentKind, counted};
     use row_lists::RowLists;
-    use stage::{in_order};
+    use stage::in_order;
     use systems::{Bounce, RowKind, Sample};
     use table::{ExtractedTable, TableKind};
 }

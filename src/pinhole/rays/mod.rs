@@ -40,7 +40,8 @@ pub(crate) use world::ray_vectors;
 
 unstable! {
     use crate::cameras::{
-        camera_ray_equirectangular, camera_ray_fisheye, camera_ray_orthographic,         screen_from_equirectangular, screen_from_fisheye,
+        camera_ray_equirectangular, camera_ray_fisheye, camera_ray_orthographic, screen_from_equirectangular,
+        screen_from_fisheye,
     };
     use camera::{camera_stage, camera_stages, generate_camera_rays, orthographic_stage, perspective_stage};
     use draws::{Draws, DrawsView, DrawsViewItem, draws_of_one, draws_of_two, fractions_of_one};

@@ -44,11 +44,9 @@ pub use inspect::{Inspection, inspect};
 
 unstable! {
     use adaptive::{Achieved, achieved, error_of, planned_samples, samples_for};
-    use clock::{StageClock};
+    use clock::StageClock;
     use execution::Worlds;
-    use inspect::{
-        ProbeRun, first_bounce_only, inspect_pixel, inspect_stages, probe_tiles, usual_tile_side,
-    };
+    use inspect::{ProbeRun, first_bounce_only, inspect_pixel, inspect_stages, probe_tiles, usual_tile_side};
     use light_pass::probe_light_paths;
     use memory::{check_film_fits, film_bytes_per_pixel, peak_memory};
     use moments::{SceneAt, first_sample_of};
