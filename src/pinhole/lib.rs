@@ -88,6 +88,7 @@ extern crate pinhole_scene as scene;
 
 pub mod plan;
 
+// Each twice, since rustfmt follows no `mod` that a macro writes.
 #[cfg(not(feature = "unstable"))]
 mod filters;
 #[cfg(feature = "unstable")]

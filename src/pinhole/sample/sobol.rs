@@ -262,8 +262,10 @@ mod tests {
     /// counting most (Owen 1997). First of the two dimensions that always serve, then of all, where the others count 0.6.
     fn in_common(set: u32, order: Option<u32>) -> [Vec<f64>; 2] {
         const LEVELS: u32 = 12;
-        let ends =
-            Purpose::ALL.into_iter().filter(|own| place_of(*own).0 == set).map(|own| place_of(own).1 + own.numbers());
+        let ends = Purpose::ALL
+            .into_iter()
+            .filter(|purpose| place_of(*purpose).0 == set)
+            .map(|purpose| place_of(purpose).1 + purpose.numbers());
         let dimensions = ends.max().unwrap_or(0);
         let weight = |level: u32| if level <= LEVELS { libm::pow(0.3, f64::from(level)) } else { 0.0 };
         let levels: Vec<f64> = (0..=32).map(|same| (1..=same).map(weight).sum::<f64>() - weight(same + 1)).collect();
@@ -298,9 +300,9 @@ mod tests {
     fn left_by(order: u32, before: &[[Vec<f64>; 2]]) -> f64 {
         let (mut left, bounces) = (0.0, before.len() - 1);
         for (set, share) in [(2, 0.5), (1, 0.35), (3, 0.15)] {
-            let own = in_common(set, Some(order));
+            let added = in_common(set, Some(order));
             let pair = |other: &[Vec<f64>; 2]| {
-                let [of_two, of_all] = [0, 1].each(|which| left_of_random(&[&other[which], &own[which]]));
+                let [of_two, of_all] = [0, 1].each(|which| left_of_random(&[&other[which], &added[which]]));
                 0.75 * of_two + 0.25 * of_all
             };
             // Each bounce before counts as much as any, and the pixel less by as many as are between.
@@ -313,7 +315,7 @@ mod tests {
             if set == 2 && bounces > 0 {
                 let triples: Vec<f64> = (0..=bounces)
                     .flat_map(|one| (one + 1..=bounces).map(move |other| (one, other)))
-                    .map(|(one, other)| left_of_random(&[&before[one][0], &before[other][0], &own[0]]))
+                    .map(|(one, other)| left_of_random(&[&before[one][0], &before[other][0], &added[0]]))
                     .collect();
                 left += 0.4 * triples.iter().sum::<f64>() / triples.len() as f64;
             }
@@ -324,17 +326,17 @@ mod tests {
     #[test]
     fn no_order_is_better_than_those_that_are_taken() {
         let times: u32 = std::env::var("PINHOLE_TEST_SAMPLES").ok().and_then(|text| text.parse().ok()).unwrap_or(1);
-        let most = 150_000.min(500 * times);
+        let candidates = 150_000.min(500 * times);
         let mut before = vec![in_common(0, None)];
         let (mut tried, mut said) = (0, Vec::new());
         for chosen in ORDERS {
-            let least = left_by(chosen, &before);
-            for order in 1..=most {
+            let chosen_leaves = left_by(chosen, &before);
+            for order in 1..=candidates {
                 let left = left_by(order, &before);
-                assert!(left >= least, "order {order} leaves {left}, and {chosen} leaves {least}");
+                assert!(left >= chosen_leaves, "order {order} leaves {left}, and {chosen} leaves {chosen_leaves}");
                 tried += 1;
             }
-            said.push(format!("{least:.3}"));
+            said.push(format!("{chosen_leaves:.3}"));
             before.push(in_common(2, Some(chosen)));
         }
         eprintln!("orders: {tried} others leave more than {} of what random pairs leave", said.join(", "));
@@ -364,7 +366,7 @@ mod tests {
             squares / f64::from(4 * PIXELS)
         };
         let later = [Purpose::LightPoint, Purpose::Direction, Purpose::EnvironmentPoint];
-        for (samples, most) in [(16, 1.3), (64, 0.4), (256, 0.25)] {
+        for (samples, bound) in [(16, 1.3), (64, 0.4), (256, 0.25)] {
             let at_random = 1.0 / 144.0 / f64::from(samples - 1);
             let (mut sum, mut tried, mut worst) = (0.0, 0, 0.0_f64);
             for second in 0..ORDERS.len() as u32 {
@@ -380,7 +382,7 @@ mod tests {
             eprintln!(
                 "orders: {tried} products of {samples} samples, {mean:.2} of random pairs' variance, at most {worst:.2}"
             );
-            assert!(mean < most, "{samples} samples: {mean}");
+            assert!(mean < bound, "{samples} samples: {mean}");
         }
     }
 
